@@ -1,0 +1,157 @@
+//! The configuration (x, y, theta) of the moving tile in the fixed tile's frame, and the space
+//! of configurations with its bounds and its metric.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Rotation2, Vector2, Vector3};
+
+/// A configuration of the moving tile: its reference point (`x`, `y`, metres) in the fixed
+/// tile's frame and its orientation `theta` (radians, counter-clockwise).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Configuration {
+    pub x: f64,
+    pub y: f64,
+    pub theta: f64,
+}
+
+impl Configuration {
+    pub const fn new(x: f64, y: f64, theta: f64) -> Self {
+        Self { x, y, theta }
+    }
+
+    /// The position of the reference point (m).
+    pub fn position(&self) -> Vector2<f64> {
+        Vector2::new(self.x, self.y)
+    }
+
+    pub fn rotation(&self) -> Rotation2<f64> {
+        Rotation2::new(self.theta)
+    }
+
+    /// A point given in the moving tile's frame, in the fixed tile's frame (m).
+    pub fn transform(&self, local: Vector2<f64>) -> Vector2<f64> {
+        self.position() + self.rotation() * local
+    }
+
+    /// A point given in the fixed tile's frame, in the moving tile's frame (m).
+    pub fn inverse_transform(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.rotation().inverse() * (point - self.position())
+    }
+
+    /// The pose of the *fixed* tile as seen from the moving one.
+    pub fn inverse(&self) -> Self {
+        let p = self.inverse_transform(Vector2::zeros());
+        Self::new(p.x, p.y, wrap_angle(-self.theta))
+    }
+
+    /// Moved by `step` = (dx, dy, dtheta); the angle is wrapped.
+    pub fn moved(&self, step: Vector3<f64>) -> Self {
+        Self::new(
+            self.x + step.x,
+            self.y + step.y,
+            wrap_angle(self.theta + step.z),
+        )
+    }
+
+    /// The shortest step (dx, dy, dtheta) from here to `other`, dtheta in (-pi, pi].
+    pub fn step_to(&self, other: &Self) -> Vector3<f64> {
+        Vector3::new(
+            other.x - self.x,
+            other.y - self.y,
+            wrap_angle(other.theta - self.theta),
+        )
+    }
+
+    /// The point a fraction `t` of the way to `other` (straight in x and y, the shorter way round
+    /// in theta).
+    pub fn interpolate(&self, other: &Self, t: f64) -> Self {
+        self.moved(self.step_to(other) * t)
+    }
+
+    pub fn to_array(&self) -> [f64; 3] {
+        [self.x, self.y, self.theta]
+    }
+}
+
+impl From<[f64; 3]> for Configuration {
+    fn from([x, y, theta]: [f64; 3]) -> Self {
+        Self::new(x, y, wrap_angle(theta))
+    }
+}
+
+/// An angle brought into (-pi, pi].
+pub fn wrap_angle(angle: f64) -> f64 {
+    if angle > -PI && angle <= PI {
+        return angle;
+    }
+    let wrapped = angle.rem_euclid(TAU);
+    if wrapped > PI { wrapped - TAU } else { wrapped }
+}
+
+/// The space of configurations: where the reference point may be, and how far apart two
+/// configurations are.
+///
+/// The reference point stays on the table, `|x| <= size_x / 2` and `|y| <= size_y / 2`; theta is
+/// periodic. The metric is `d^2 = dx^2 + dy^2 + rho^2 dtheta^2` with `rho` (m) the moving tile's
+/// radius of gyration about its reference point, so that a turn counts as far as it moves the
+/// tile's mass on average.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConfigurationSpace {
+    /// Half the table's size along x and along y (m).
+    pub half_size: [f64; 2],
+    /// Radius of gyration of the moving tile about its reference point (m).
+    pub rho: f64,
+    /// The tiles count as free of each other where the reference points are at least this far
+    /// apart (m).
+    pub free_distance: f64,
+}
+
+impl ConfigurationSpace {
+    pub fn contains(&self, q: &Configuration) -> bool {
+        q.x.abs() <= self.half_size[0] && q.y.abs() <= self.half_size[1]
+    }
+
+    pub fn is_far(&self, q: &Configuration) -> bool {
+        q.x.hypot(q.y) >= self.free_distance
+    }
+
+    /// Length of a step (dx, dy, dtheta) in the metric (m).
+    pub fn length(&self, step: Vector3<f64>) -> f64 {
+        (step.x * step.x + step.y * step.y + (self.rho * step.z).powi(2)).sqrt()
+    }
+
+    /// Distance of two configurations in the metric (m).
+    pub fn distance(&self, a: &Configuration, b: &Configuration) -> f64 {
+        self.length(a.step_to(b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_wrapped_into_the_half_open_interval() {
+        assert_eq!(wrap_angle(PI), PI);
+        assert_eq!(wrap_angle(-PI), PI);
+        assert!((wrap_angle(3.5 * PI) + 0.5 * PI).abs() < 1e-15);
+        assert_eq!(wrap_angle(1.0), 1.0);
+    }
+
+    #[test]
+    fn interpolation_takes_the_shorter_way_round() {
+        let a = Configuration::new(0.0, 0.0, 3.0);
+        let b = Configuration::new(1.0, 2.0, -3.0);
+        let m = a.interpolate(&b, 0.5);
+        assert!((m.x - 0.5).abs() < 1e-15 && (m.y - 1.0).abs() < 1e-15);
+        assert!((m.theta.abs() - PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_inverse_undoes_the_transform() {
+        let q = Configuration::new(0.3, -0.2, 1.1);
+        let p = Vector2::new(0.7, 0.4);
+        assert!((q.inverse_transform(q.transform(p)) - p).norm() < 1e-15);
+        assert!((q.inverse().transform(q.transform(p)) - p).norm() < 1e-15);
+    }
+}

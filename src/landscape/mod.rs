@@ -1,0 +1,5 @@
+//! What is asked of an energy landscape: its minima, barriers and pathways.
+
+pub mod results;
+
+pub use results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};

@@ -1,0 +1,39 @@
+//! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
+
+pub mod dipole;
+
+use crate::configuration::Configuration;
+use nalgebra::Vector3;
+
+pub use dipole::DipolePotential;
+
+/// A potential energy over configurations.
+///
+/// Energies are in J; gradients are (dU/dx, dU/dy, dU/dtheta) in J/m, J/m and J/rad, so that the
+/// force and the torque on the moving tile (about its reference point) are their negatives.
+/// A potential need not know of contact: it may be asked where tiles overlap, and must then give
+/// a number or infinity, never NaN.
+pub trait Potential: Sync {
+    /// U (J).
+    fn energy(&self, q: &Configuration) -> f64;
+
+    /// U (J) and its gradient.
+    fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>);
+
+    /// U (J) of many configurations; `out` has the length of `qs`.
+    fn energies(&self, qs: &[Configuration], out: &mut [f64]) {
+        for (q, u) in qs.iter().zip(out) {
+            *u = self.energy(q);
+        }
+    }
+
+    /// An upper bound of the magnitude of the second derivative of U along every straight motion
+    /// through `q` that moves no point of either tile's magnets by more than `reach` (m), per
+    /// square metre of the displacement of the magnet that moves farthest. Infinite where nothing
+    /// is known.
+    fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64;
+
+    /// How far (m) the motion `step` = (dx, dy, dtheta) moves the point of the moving tile that
+    /// matters to the potential and moves farthest, at most.
+    fn displacement(&self, step: Vector3<f64>) -> f64;
+}

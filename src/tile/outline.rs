@@ -1,0 +1,327 @@
+//! A tile's outline: a simple, closed, counter-clockwise polygon and its convex parts.
+//!
+//! This is the one place that talks to parry's decomposition. The decomposition is exact: the
+//! polygon is triangulated by ear clipping and the triangles are merged (Hertel and Mehlhorn)
+//! where the union stays convex; no vertex is moved and no notch is filled in.
+
+use nalgebra::Vector2;
+use parry2d_f64::math::Vector;
+use parry2d_f64::shape::TriMesh;
+use parry2d_f64::transformation::hertel_mehlhorn;
+
+/// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
+/// from point i to point i + 1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConvexPart {
+    pub points: Vec<Vector2<f64>>,
+    pub normals: Vec<Vector2<f64>>,
+}
+
+impl ConvexPart {
+    fn new(points: Vec<Vector2<f64>>) -> Self {
+        let normals = (0..points.len())
+            .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
+            .collect();
+        Self { points, normals }
+    }
+}
+
+/// A simple closed polygon, counter-clockwise, in the tile's frame (m).
+#[derive(Clone, Debug)]
+pub struct Outline {
+    vertices: Vec<Vector2<f64>>,
+    normals: Vec<Vector2<f64>>,
+    convex: Vec<bool>,
+    parts: Vec<ConvexPart>,
+    circumradius: f64,
+}
+
+/// Why a list of vertices is no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OutlineError {
+    #[error("an outline needs at least three vertices, this one has {0}")]
+    TooFewVertices(usize),
+    #[error("vertices {0} and {1} coincide")]
+    RepeatedVertex(usize, usize),
+    #[error("the outline runs clockwise; list its vertices counter-clockwise")]
+    Clockwise,
+    #[error("the edge from vertex {0} crosses or touches the edge from vertex {1}")]
+    SelfCrossing(usize, usize),
+    #[error("the outline could not be split into convex parts; is it a simple polygon?")]
+    NotDecomposable,
+}
+
+impl Outline {
+    /// An outline from its vertices (m), counter-clockwise. Vertices on the straight line between
+    /// their neighbours are dropped.
+    ///
+    /// # Errors
+    /// Where the vertices do not form a simple counter-clockwise polygon.
+    pub fn new(vertices: Vec<Vector2<f64>>) -> Result<Self, OutlineError> {
+        check(&vertices)?;
+        let vertices = without_collinear(vertices);
+        let n = vertices.len();
+        let normals: Vec<_> = (0..n)
+            .map(|i| outward_normal(vertices[i], vertices[(i + 1) % n]))
+            .collect();
+        let convex = (0..n)
+            .map(|i| cross(normals[(i + n - 1) % n], normals[i]) > 0.0)
+            .collect();
+        let parts = convex_parts(&vertices).ok_or(OutlineError::NotDecomposable)?;
+        let circumradius = vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        Ok(Self {
+            vertices,
+            normals,
+            convex,
+            parts,
+            circumradius,
+        })
+    }
+
+    pub fn vertices(&self) -> &[Vector2<f64>] {
+        &self.vertices
+    }
+
+    /// Outward unit normal of each edge; edge i runs from vertex i to vertex i + 1.
+    pub fn normals(&self) -> &[Vector2<f64>] {
+        &self.normals
+    }
+
+    /// Whether each vertex is convex (its inner angle below pi).
+    pub fn convex_vertices(&self) -> &[bool] {
+        &self.convex
+    }
+
+    /// Convex polygons that fill the outline exactly and share no inner point.
+    pub fn parts(&self) -> &[ConvexPart] {
+        &self.parts
+    }
+
+    /// Largest distance of a point of the outline from the reference point (m).
+    pub fn circumradius(&self) -> f64 {
+        self.circumradius
+    }
+
+    /// The ends of edge i.
+    pub fn edge(&self, i: usize) -> (Vector2<f64>, Vector2<f64>) {
+        (
+            self.vertices[i],
+            self.vertices[(i + 1) % self.vertices.len()],
+        )
+    }
+
+    /// Area (m^2).
+    pub fn area(&self) -> f64 {
+        signed_area(&self.vertices)
+    }
+
+    /// Centre of mass of the evenly filled outline (m).
+    pub fn centroid(&self) -> Vector2<f64> {
+        self.edges()
+            .map(|(a, b)| (a + b) * cross(a, b))
+            .sum::<Vector2<f64>>()
+            / (6.0 * self.area())
+    }
+
+    /// Integral of the squared distance from the centroid over the area (m^4).
+    pub fn second_moment_about_centroid(&self) -> f64 {
+        let about_origin: f64 = self
+            .edges()
+            .map(|(a, b)| cross(a, b) * (a.dot(&a) + a.dot(&b) + b.dot(&b)) / 12.0)
+            .sum();
+        about_origin - self.area() * self.centroid().norm_squared()
+    }
+
+    /// Whether a point lies inside (even-odd rule; on the boundary either answer may come).
+    pub fn contains(&self, p: Vector2<f64>) -> bool {
+        self.edges()
+            .filter(|(a, b)| {
+                (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
+            })
+            .count()
+            % 2
+            == 1
+    }
+
+    /// Distance of a point to the boundary, positive outside, negative inside (m).
+    pub fn signed_distance(&self, p: Vector2<f64>) -> f64 {
+        let distance = self
+            .edges()
+            .map(|(a, b)| distance_to_segment(p, a, b))
+            .fold(f64::INFINITY, f64::min);
+        if self.contains(p) {
+            -distance
+        } else {
+            distance
+        }
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+        (0..self.vertices.len()).map(|i| self.edge(i))
+    }
+}
+
+/// z component of the cross product of two plane vectors.
+pub fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// Distance of a point to a segment (m).
+pub fn distance_to_segment(p: Vector2<f64>, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    let along = b - a;
+    let t = ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (p - a - along * t).norm()
+}
+
+fn outward_normal(a: Vector2<f64>, b: Vector2<f64>) -> Vector2<f64> {
+    let t = (b - a).normalize();
+    Vector2::new(t.y, -t.x)
+}
+
+fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
+    let n = vertices.len();
+    (0..n)
+        .map(|i| cross(vertices[i], vertices[(i + 1) % n]))
+        .sum::<f64>()
+        / 2.0
+}
+
+fn check(vertices: &[Vector2<f64>]) -> Result<(), OutlineError> {
+    let n = vertices.len();
+    if n < 3 {
+        return Err(OutlineError::TooFewVertices(n));
+    }
+    if let Some(i) = (0..n).find(|&i| vertices[i] == vertices[(i + 1) % n]) {
+        return Err(OutlineError::RepeatedVertex(i, (i + 1) % n));
+    }
+    for i in 0..n {
+        for j in i + 1..n {
+            if edges_cross(vertices, i, j) {
+                return Err(OutlineError::SelfCrossing(i, j));
+            }
+        }
+    }
+    if signed_area(vertices) <= 0.0 {
+        return Err(OutlineError::Clockwise);
+    }
+    Ok(())
+}
+
+/// Whether edges i < j share a point they should not: any point for edges that are not
+/// neighbours, a second point for neighbours.
+fn edges_cross(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
+    let n = vertices.len();
+    let (a, b) = (vertices[i], vertices[(i + 1) % n]);
+    let (c, d) = (vertices[j], vertices[(j + 1) % n]);
+    let folds_back = |corner: Vector2<f64>, before: Vector2<f64>, after: Vector2<f64>| {
+        let (u, v) = (before - corner, after - corner);
+        cross(u, v).abs() <= 1e-12 * u.norm() * v.norm() && u.dot(&v) > 0.0
+    };
+    if j == i + 1 {
+        return folds_back(b, a, d);
+    }
+    if i == 0 && j == n - 1 {
+        return folds_back(a, b, c);
+    }
+    let side = |p, q, r| cross(q - p, r - p);
+    let separated = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
+    if separated(side(a, b, c), side(a, b, d)) || separated(side(c, d, a), side(c, d, b)) {
+        return false;
+    }
+    // Collinear edges cross only where their boxes meet.
+    let overlap = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
+    overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y)
+}
+
+fn without_collinear(vertices: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    let n = vertices.len();
+    (0..n)
+        .filter(|&i| {
+            let (a, b, c) = (
+                vertices[(i + n - 1) % n],
+                vertices[i],
+                vertices[(i + 1) % n],
+            );
+            cross(b - a, c - b).abs() > 1e-12 * (b - a).norm() * (c - b).norm()
+        })
+        .map(|i| vertices[i])
+        .collect()
+}
+
+fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<ConvexPart>> {
+    let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v.x, v.y)).collect();
+    let mesh = TriMesh::from_polygon(points)?;
+    let parts: Vec<_> = hertel_mehlhorn(mesh.vertices(), mesh.indices())
+        .into_iter()
+        .map(|part| ConvexPart::new(part.iter().map(|p| Vector2::new(p.x, p.y)).collect()))
+        .collect();
+    let filled: f64 = parts.iter().map(|part| signed_area(&part.points)).sum();
+    let area = signed_area(vertices);
+    ((filled - area).abs() <= 1e-9 * area).then_some(parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outline(points: &[[f64; 2]]) -> Result<Outline, OutlineError> {
+        Outline::new(points.iter().map(|p| Vector2::new(p[0], p[1])).collect())
+    }
+
+    #[test]
+    fn a_square_has_the_textbook_area_and_moments() {
+        let square = outline(&[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]).unwrap();
+        assert!((square.area() - 4.0).abs() < 1e-14);
+        assert!((square.centroid() - Vector2::new(2.0, 2.0)).norm() < 1e-14);
+        // Polar second moment of a square of side a: a^4 / 6.
+        assert!((square.second_moment_about_centroid() - 16.0 / 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_saw_blade_keeps_its_notches() {
+        let mut points = vec![[0.0, 0.0], [4.0, 0.0]];
+        for k in 0..4 {
+            points.push([4.0 - k as f64, 2.0]);
+            points.push([3.5 - k as f64, 1.0]);
+        }
+        points.push([0.0, 2.0]);
+        let saw = outline(&points).unwrap();
+        assert!(!saw.contains(Vector2::new(3.5, 1.5)));
+        let in_parts = |p: Vector2<f64>| {
+            saw.parts().iter().any(|part| {
+                part.points
+                    .iter()
+                    .zip(&part.normals)
+                    .all(|(q, n)| n.dot(&(p - q)) <= 0.0)
+            })
+        };
+        for i in 0..80 {
+            for j in 0..40 {
+                let p = Vector2::new(0.0251 + i as f64 * 0.05, 0.0249 + j as f64 * 0.05);
+                assert_eq!(in_parts(p), saw.contains(p), "{p}");
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_outlines_are_refused() {
+        let clockwise = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+        assert_eq!(outline(&clockwise).unwrap_err(), OutlineError::Clockwise);
+        let bow_tie = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        assert!(matches!(
+            outline(&bow_tie).unwrap_err(),
+            OutlineError::SelfCrossing(..)
+        ));
+        let spike = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        assert!(matches!(
+            outline(&spike).unwrap_err(),
+            OutlineError::SelfCrossing(..)
+        ));
+    }
+
+    #[test]
+    fn points_on_straight_lines_are_dropped() {
+        let square = outline(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(square.unwrap().vertices().len(), 4);
+    }
+}
