@@ -7,7 +7,9 @@
 use nalgebra::Vector2;
 use parry2d_f64::math::Vector;
 use parry2d_f64::shape::TriMesh;
-use parry2d_f64::transformation::hertel_mehlhorn;
+use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn};
+
+use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
@@ -23,6 +25,27 @@ impl ConvexPart {
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();
         Self { points, normals }
+    }
+
+    /// The part as it lies at a configuration of its tile.
+    pub fn placed(&self, q: &Configuration) -> Self {
+        let rotation = q.rotation();
+        Self {
+            points: self
+                .points
+                .iter()
+                .map(|p| q.position() + rotation * p)
+                .collect(),
+            normals: self.normals.iter().map(|n| rotation * n).collect(),
+        }
+    }
+
+    /// Lowest and highest coordinates.
+    pub fn bounding_box(&self) -> (Vector2<f64>, Vector2<f64>) {
+        let first = self.points[0];
+        let low = self.points.iter().fold(first, |a, b| a.inf(b));
+        let high = self.points.iter().fold(first, |a, b| a.sup(b));
+        (low, high)
     }
 }
 
@@ -95,6 +118,17 @@ impl Outline {
     /// Convex polygons that fill the outline exactly and share no inner point.
     pub fn parts(&self) -> &[ConvexPart] {
         &self.parts
+    }
+
+    /// The convex hull.
+    pub fn hull(&self) -> ConvexPart {
+        let points: Vec<Vector> = self
+            .vertices
+            .iter()
+            .map(|v| Vector::new(v.x, v.y))
+            .collect();
+        let hull = convex_hull(&points);
+        ConvexPart::new(hull.iter().map(|p| Vector2::new(p.x, p.y)).collect())
     }
 
     /// Largest distance of a point of the outline from the reference point (m).
