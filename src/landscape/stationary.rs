@@ -40,6 +40,24 @@ impl Stationary {
     pub fn index(&self) -> usize {
         self.modes.iter().filter(|mode| mode.0 < 0.0).count()
     }
+
+    /// The same stationary point at the configuration `q` to which a symmetry of the problem takes
+    /// it: energy, contacts and modes are determined anew there.
+    pub fn image(&self, problem: &Problem, q: Configuration) -> Self {
+        if q == self.point.q {
+            return self.clone();
+        }
+        let point = Point::new(problem, q);
+        let surface = Surface::pressing(problem, &point);
+        let modes = surface
+            .modes(&point, &surface.tangent(&q))
+            .unwrap_or_default();
+        Self {
+            point,
+            touching: surface.closed,
+            modes,
+        }
+    }
 }
 
 /// The minimum near `q`, if Newton's method finds one.
@@ -144,21 +162,19 @@ impl<'a> Surface<'a> {
         let wanted = metric
             .try_inverse()
             .map_or_else(Vector3::zeros, |inverse| -(inverse * point.gradient));
-        let closed = closest_admissible(wanted, &metric, &touching)
-            .map(|(_, multipliers)| {
-                touching
-                    .iter()
-                    .zip(multipliers)
-                    .filter(|(_, multiplier)| *multiplier > 0.0)
-                    .map(|(constraint, _)| constraint.touch)
-                    .collect()
-            })
-            .unwrap_or_default();
-        Self {
+        let mut surface = Self {
             problem,
-            closed,
+            closed: Vec::new(),
             releases: 0,
+        };
+        if let Some((_, multipliers)) = closest_admissible(wanted, &metric, &touching) {
+            for (constraint, multiplier) in touching.iter().zip(multipliers) {
+                if multiplier > 0.0 && surface.is_independent(&point.q, constraint.touch) {
+                    surface.closed.push(constraint.touch);
+                }
+            }
         }
+        surface
     }
 
     fn constraints(&self, q: &Configuration) -> Vec<Constraint> {

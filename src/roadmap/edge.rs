@@ -3,16 +3,18 @@
 use rayon::prelude::*;
 
 use super::Milestone;
-use super::profile::{Profile, ProfileTolerance};
+use super::profile::{Profile, ProfileTolerance, Sample};
 use crate::problem::Problem;
 
 /// What a motion costs, read off one energy profile.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCosts {
     /// Highest energy on the way, both ends included (J).
     pub peak: f64,
     /// Where it is reached, as a fraction of the motion.
     pub peak_at: f64,
+    /// Length in the metric of the space (m).
+    pub length: f64,
     /// Mechanical work against the energy, forwards and backwards (J).
     pub work: [f64; 2],
     /// -ln of the transition probability, forwards and backwards.
@@ -72,9 +74,40 @@ pub fn costs(
     Some(EdgeCosts {
         peak: peak.energy,
         peak_at: peak.t,
+        length,
         work: [work.0, work.1],
         improbability: improbabilities(&profile, length, settings),
     })
+}
+
+/// The costs of a way given by energies (J) at points so close that the energy between two of them
+/// is as good as linear, and the lengths (m) between them.
+pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSettings) -> EdgeCosts {
+    let length: f64 = lengths.iter().sum();
+    let mut t = 0.0;
+    let mut samples = vec![Sample {
+        t,
+        energy: energies[0],
+        slope: 0.0,
+    }];
+    for (energy, step) in energies[1..].iter().zip(lengths) {
+        t += step / length.max(f64::MIN_POSITIVE);
+        samples.push(Sample {
+            t,
+            energy: *energy,
+            slope: 0.0,
+        });
+    }
+    let profile = Profile { samples };
+    let peak = profile.peak();
+    let work = profile.work();
+    EdgeCosts {
+        peak: peak.energy,
+        peak_at: peak.t,
+        length,
+        work: [work.0, work.1],
+        improbability: improbabilities(&profile, length, settings),
+    }
 }
 
 /// -ln of the probability of going along a profile, forwards and backwards: at each inner point of
