@@ -1,6 +1,7 @@
 //! tilebind: how two magnetic tiles bind.
 
 pub mod configuration;
+pub mod design;
 pub mod landscape;
 pub mod potential;
 pub mod tile;
