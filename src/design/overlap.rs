@@ -1,12 +1,11 @@
-//! Overlaps that a design must not have: of magnets with each other and with the tile's rim, and
-//! of the tiles in their bound configuration.
+//! Overlaps that a design must not have: of magnets with each other and with the tile's rim.
 
 use super::DesignError;
 use super::quantity::four_digits;
 use super::reader::{Result, Section};
 use super::tile::BuiltTile;
-use crate::configuration::Configuration;
-use crate::tile::outline::{ConvexPart, Outline};
+use crate::contact::separation;
+use crate::tile::outline::ConvexPart;
 
 /// Depth (m) up to which blocks may overlap or stick out: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -68,37 +67,4 @@ pub(super) fn check_magnets(section: &Section, built: &BuiltTile) -> Result<Vec<
         }
     }
     Ok(warnings)
-}
-
-/// Depth (m) of the deepest overlap of two convex parts of the outlines; 0 where there is none.
-pub(super) fn depth(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
-    let placed =
-        |part: &ConvexPart| ConvexPart::new(part.points.iter().map(|p| q.transform(*p)).collect());
-    moving
-        .parts()
-        .iter()
-        .map(placed)
-        .flat_map(|part| {
-            fixed
-                .parts()
-                .iter()
-                .map(move |other| -separation(&part, other))
-        })
-        .fold(0.0, f64::max)
-}
-
-/// Largest separation (m) of two convex polygons over the normals of their edges; negative where
-/// they overlap (separating axis theorem).
-fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
-    let one_sided = |of: &ConvexPart, from: &ConvexPart| {
-        of.points
-            .iter()
-            .zip(&of.normals)
-            .map(|(point, normal)| {
-                let nearest = from.points.iter().map(|p| normal.dot(&(p - point)));
-                nearest.fold(f64::INFINITY, f64::min)
-            })
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
-    one_sided(a, b).max(one_sided(b, a))
 }

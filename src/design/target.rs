@@ -4,16 +4,13 @@ use nalgebra::Vector2;
 
 use super::error::DesignError;
 use super::face::find_face;
-use super::overlap::depth;
 use super::quantity::four_digits;
 use super::reader::{Entry, Result, Section};
 use super::tile::{TILES, TileEntry, same_length};
 use crate::configuration::Configuration;
+use crate::contact::{Contact, TOUCH};
 use crate::tile::outline::cross;
 use crate::tile::{Face, Tile};
-
-/// Overlaps up to this depth (m) are touching faces and rounding.
-const TOUCH: f64 = 1e-9;
 
 /// The target as the file gives it.
 pub(super) struct Target<'a> {
@@ -55,7 +52,7 @@ impl Target<'_> {
     /// The configuration in which the two base lines coincide, face to face.
     pub fn configuration(&self, fixed: &Tile, moving: &Tile) -> Result<Configuration> {
         let bound = face_to_face(&fixed.faces[self.faces.0], &moving.faces[self.faces.1]);
-        let depth = depth(&fixed.outline, &moving.outline, &bound);
+        let depth = -Contact::new(&fixed.outline, &moving.outline).clearance(&bound);
         if depth > TOUCH {
             return Err(self.moving.error(
                 format!(
