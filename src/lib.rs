@@ -3,6 +3,7 @@
 pub mod configuration;
 pub mod landscape;
 pub mod potential;
+pub mod report;
 pub mod tile;
 pub mod units;
 
