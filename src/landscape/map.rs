@@ -258,19 +258,41 @@ impl Circles {
             },
         }
     }
+
+    fn free(&self, pair: &Pair, q: &Configuration) -> bool {
+        q.x.hypot(q.y) >= self.outer || (pair.clearance)(q) >= -TOUCH
+    }
 }
+
+/// Halvings of the step between orientations in search of the lowest energy.
+const REFINEMENTS: usize = 4;
 
 fn lowest_in_row(pair: &Pair, x: &[f64], y: f64, thetas: &[f64]) -> Vec<Option<Sample>> {
     let circles = Circles::of(pair);
+    let mut best = lowest_of_all(pair, &circles, x, y, thetas);
+    let mut step = TAU / thetas.len() as f64;
+    for _ in 0..REFINEMENTS {
+        step /= 2.0;
+        refine(pair, &circles, &mut best, step);
+    }
+    best
+}
+
+/// The lowest free sample among all orientations, at each x.
+fn lowest_of_all(
+    pair: &Pair,
+    circles: &Circles,
+    x: &[f64],
+    y: f64,
+    thetas: &[f64],
+) -> Vec<Option<Sample>> {
     let mut free = Vec::with_capacity(x.len() * thetas.len());
     let mut ends = Vec::with_capacity(x.len());
     for &x in x {
         let distance = x.hypot(y);
         if distance >= circles.inner {
             let all = thetas.iter().map(|&theta| Configuration::new(x, y, theta));
-            free.extend(
-                all.filter(|q| distance >= circles.outer || (pair.clearance)(q) >= -TOUCH),
-            );
+            free.extend(all.filter(|q| circles.free(pair, q)));
         }
         ends.push(free.len());
     }
@@ -280,6 +302,28 @@ fn lowest_in_row(pair: &Pair, x: &[f64], y: f64, thetas: &[f64]) -> Vec<Option<S
         .zip(&ends)
         .map(|(start, &end)| lowest(&samples[start..end]))
         .collect()
+}
+
+/// Turns each sample by `step` (rad) to either side where that is free and lower.
+fn refine(pair: &Pair, circles: &Circles, best: &mut [Option<Sample>], step: f64) {
+    let mut owners = Vec::new();
+    let mut turned = Vec::new();
+    for (index, sample) in best.iter().enumerate() {
+        let Some(sample) = sample else { continue };
+        for turn in [-step, step] {
+            let mut q = sample.configuration;
+            q.theta = wrap_angle(q.theta + turn);
+            if circles.free(pair, &q) {
+                owners.push(index);
+                turned.push(q);
+            }
+        }
+    }
+    for (index, sample) in owners.into_iter().zip(with_energies(pair.potential, &turned)) {
+        if best[index].is_some_and(|lowest| sample.energy < lowest.energy) {
+            best[index] = Some(sample);
+        }
+    }
 }
 
 fn lowest(samples: &[Sample]) -> Option<Sample> {

@@ -3,18 +3,31 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::energy_map::{Interpolated, blocked_key, colour_bar, frame, polyline_box};
-use super::marks::{Mark, marker};
+use super::heat::{Interpolated, Key, Range, STATE_KEYS, colour_bar, frame, keys};
+use super::marks::{Mark, marker, outline};
 use super::picture::{Area, Picture, PictureError, Underlay};
-use super::scale::{EnergyScale, Range};
+use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, LABEL, SMALL, Text, chart, pixel, title, units};
+use super::style::{Axis, INK, LABEL, Text, chart, pixel, title, units};
 use crate::landscape::map::{Approach, ApproachSlices, Grid, Sample};
 use crate::units::prefix_of;
 
-const SIZE: (u32, u32) = (1000, 520);
-const PANEL: i32 = 425;
+const SIZE: (u32, u32) = (1000, 530);
+/// Width of a panel (pixels).
+const PANEL: f64 = 415.0;
+/// Space around a panel's plot (pixels): top, right, bottom, left.
+const MARGIN: [f64; 4] = [84.0, 14.0, 62.0, 84.0];
 const IMAGE: usize = 300;
+
+struct Panel<'a> {
+    grid: &'a Grid<Sample>,
+    /// What is plotted against the tilt.
+    quantity: &'a str,
+    /// What holds throughout the panel.
+    condition: &'a str,
+    /// Tilt (rad) and quantity (m) of the states in the panel.
+    states: Vec<(f64, f64, Mark)>,
+}
 
 pub fn draw(
     scene: &Scene,
@@ -22,39 +35,46 @@ pub fn draw(
     slices: &ApproachSlices,
     scale: &EnergyScale,
 ) -> Result<Picture, PictureError> {
-    let samples = [&slices.gap, &slices.slide];
-    let energies = samples
+    let panels = [
+        Panel {
+            grid: &slices.gap,
+            quantity: "gap",
+            condition: "slide 0",
+            states: Vec::new(),
+        },
+        Panel {
+            grid: &slices.slide,
+            quantity: "slide",
+            condition: "in contact",
+            states: states_in_front(scene, approach),
+        },
+    ];
+    let energies = panels
         .iter()
-        .flat_map(|grid| grid.values.iter().flatten())
+        .flat_map(|panel| panel.grid.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let (fixed, moving) = (
-        &scene.pair.fixed.faces[scene.target.0].name,
-        &scene.pair.moving.faces[scene.target.1].name,
-    );
+    let fixed = &scene.pair.fixed.faces[scene.target.0].name;
+    let moving = &scene.pair.moving.faces[scene.target.1].name;
     Picture::draw(SIZE, |root, underlays| {
-        title(
-            root,
-            &format!("{}: {moving} face in front of {fixed} face", scene.name),
-        )?;
-        let (gap, rest) = root.split_horizontally(units(f64::from(PANEL)));
-        let (slide, _) = rest.split_horizontally(units(f64::from(PANEL)));
-        panel(&gap, root, underlays, &slices.gap, "gap", "slide 0", scale, &range, &[])?;
-        let in_front = states_in_front(scene, approach);
-        panel(
-            &slide,
-            root,
-            underlays,
-            &slices.slide,
-            "slide",
-            "in contact",
-            scale,
-            &range,
-            &in_front,
-        )?;
-        let left = 2.0 * f64::from(PANEL) + 20.0;
-        colour_bar(root, scale, &range, [left, 96.0, left + 22.0, 440.0])?;
-        let _ = blocked_key;
+        let text = format!(
+            "{}: {moving} face in front of the fixed {fixed} face",
+            scene.name
+        );
+        title(root, &text)?;
+        let (first, rest) = root.split_horizontally(units(PANEL));
+        let (second, _) = rest.split_horizontally(units(PANEL));
+        for (area, panel) in [first, second].iter().zip(&panels) {
+            panel.draw(area, root, underlays, scale, &range)?;
+        }
+        let left = 2.0 * PANEL + 18.0;
+        let bar = [left, MARGIN[0] + 28.0, left + 22.0, 400.0];
+        colour_bar(root, underlays, scale, &range, bar)?;
+        let mut entries = STATE_KEYS.to_vec();
+        if panels.iter().any(|panel| panel.has_blocked()) {
+            entries.push((Key::Blocked, "no contact"));
+        }
+        keys(root, underlays, (left, 432.0), &entries)?;
         Ok(())
     })
 }
@@ -72,55 +92,53 @@ fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> 
         .collect()
 }
 
-#[allow(clippy::too_many_arguments)]
-fn panel(
-    area: &Area,
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    grid: &Grid<Sample>,
-    quantity: &str,
-    condition: &str,
-    scale: &EnergyScale,
-    range: &Range,
-    states: &[(f64, f64, Mark)],
-) -> Result<(), PictureError> {
-    let degrees = |tilt: f64| tilt.to_degrees();
-    let y = &grid.y;
-    let (low, high) = (y[0], y[y.len() - 1]);
-    let (unit, prefix) = prefix_of(high * 0.999);
-    let shown = Grid::<Sample> {
-        x: grid.x.iter().map(|t| degrees(*t)).collect(),
-        y: y.iter().map(|v| v / unit).collect(),
-        values: grid.values.clone(),
-    };
-    let columns = shown.x.len();
-    let x_axis = Axis::linear(shown.x[0]..shown.x[columns - 1], 7, "tilt (°)");
-    let y_axis = Axis::linear(low / unit..high / unit, 7, format!("{quantity} ({prefix}m)"));
-    let chart = chart(area, [84.0, 20.0, 56.0, 78.0], &x_axis, &y_axis, false)?;
-    let frame = frame(&chart, &shown);
-    let interpolated = Interpolated::new(&shown, scale);
-    underlays.push(Underlay {
-        bitmap: range.bitmap((IMAGE, IMAGE), |u, v| {
-            interpolated
-                .position(u, v)
-                .filter(|(_, weight)| *weight >= 0.5)
-                .map(|(position, _)| position)
-        }),
-        rectangle: frame.map(units),
-    });
-    polyline_box(root, frame)?;
-    Text::new(LABEL).bold().write(
-        root,
-        &format!("{quantity} against tilt, {condition}"),
-        (frame[0], frame[1] - 12.0),
-        (HPos::Left, VPos::Bottom),
-    )?;
-    for (tilt, slide, mark) in states {
-        let (tilt, slide) = (degrees(*tilt), slide / unit);
-        if tilt.abs() <= shown.x[columns - 1] && slide >= low / unit && slide <= high / unit {
-            marker(root, *mark, pixel(&chart, tilt, slide), 6.5)?;
-        }
+impl Panel<'_> {
+    fn has_blocked(&self) -> bool {
+        self.grid.values.iter().any(Option::is_none)
     }
-    let _ = SMALL;
-    Ok(())
+
+    fn draw(
+        &self,
+        area: &Area,
+        root: &Area,
+        underlays: &mut Vec<Underlay>,
+        scale: &EnergyScale,
+        range: &Range,
+    ) -> Result<(), PictureError> {
+        let (x, y) = (&self.grid.x, &self.grid.y);
+        let (tilts, heights) = (x[0]..x[x.len() - 1], y[0]..y[y.len() - 1]);
+        // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
+        let (unit, prefix) = prefix_of(0.999 * heights.end);
+        let tilt_range = tilts.start.to_degrees()..tilts.end.to_degrees();
+        let x_axis = Axis::linear(tilt_range, 7, "tilt (°)");
+        let name = format!("{} ({prefix}m)", self.quantity);
+        let y_axis = Axis::linear(heights.start / unit..heights.end / unit, 9, name);
+        let chart = chart(area, MARGIN, &x_axis, &y_axis, false)?;
+        let ends = [x_axis.range.start, x_axis.range.end];
+        let frame = frame(&chart, &ends, &[y_axis.range.start, y_axis.range.end]);
+        let interpolated = Interpolated::new(self.grid, scale);
+        underlays.push(Underlay {
+            bitmap: range.bitmap((IMAGE, IMAGE), |u, v| {
+                interpolated
+                    .position(u, v)
+                    .filter(|(_, weight)| *weight >= 0.5)
+                    .map(|(position, _)| position)
+            }),
+            rectangle: frame.map(units),
+        });
+        outline(root, frame, INK)?;
+        Text::new(LABEL).bold().write(
+            root,
+            &format!("{} against tilt, {}", self.quantity, self.condition),
+            (frame[0], frame[1] - 10.0),
+            (HPos::Left, VPos::Bottom),
+        )?;
+        for (tilt, height, mark) in &self.states {
+            if tilts.contains(tilt) && heights.contains(height) {
+                let at = pixel(&chart, tilt.to_degrees(), height / unit);
+                marker(root, *mark, at, 6.0)?;
+            }
+        }
+        Ok(())
+    }
 }

@@ -11,7 +11,7 @@ use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::{Class, Scene};
 use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
-use crate::landscape::{Barrier, Place};
+use crate::landscape::{Barrier, Place, StateKind};
 
 const SIZE: (u32, u32) = (1000, 700);
 const MOST: usize = 11;
@@ -146,7 +146,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
                 .collect(),
             name: "energy U".into(),
         };
-        let chart = chart(root, [54.0, 20.0, 20.0, 92.0], &x_axis, &y_axis, true)?;
+        let chart = chart(root, [54.0, 20.0, 14.0, 100.0], &x_axis, &y_axis, true)?;
         let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
         let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
         polyline(root, &[left, right], INK, 1.6)?;
@@ -219,12 +219,12 @@ impl Drawing<'_, '_> {
                     let x = self.tree(child)?;
                     let line = [(self.at)(x, tree_energy(child)), (self.at)(x, *energy)];
                     polyline(self.root, &line, INK, 1.8)?;
-                    self.keep_off_line(line);
+                    self.labels.keep_off_line(&line);
                     ends.push(x);
                 }
                 let (a, b) = ((self.at)(ends[0], *energy), (self.at)(ends[1], *energy));
                 polyline(self.root, &[a, b], INK, 1.8)?;
-                self.keep_off_line([a, b]);
+                self.labels.keep_off_line(&[a, b]);
                 let x = (ends[0] + ends[1]) / 2.0;
                 if let Some(bounds) = bounds {
                     self.error_bar(x, *bounds)?;
@@ -232,15 +232,6 @@ impl Drawing<'_, '_> {
                 self.merges.push(((self.at)(x, *energy), *energy));
                 Ok(x)
             }
-        }
-    }
-
-    fn keep_off_line(&mut self, [a, b]: [Pixel; 2]) {
-        let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 6.0).ceil() as usize;
-        for k in 0..=steps {
-            let t = k as f64 / steps.max(1) as f64;
-            let p = (a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t);
-            self.labels.keep_off(p, 2.0);
         }
     }
 
@@ -265,16 +256,15 @@ impl Drawing<'_, '_> {
         let (mark, lines) = match class {
             None => (Mark::Free, vec!["free".to_owned(), "0 J".to_owned()]),
             Some(class) => {
-                let name = self.scene.name_of(Place::State(class.state.id));
-                let copies = if class.copies > 1 {
-                    format!("{name} \u{d7}{}", class.copies)
-                } else {
-                    name
+                let name = match class.state.kind {
+                    StateKind::Bound => format!("bound {}", class.state.id),
+                    StateKind::Misbound => class.state.id.to_string(),
                 };
-                (
-                    class.state.kind.into(),
-                    vec![copies, self.scale.label(energy, 3)],
-                )
+                let mut lines = vec![name, self.scale.label(energy, 3)];
+                if class.copies > 1 {
+                    lines.push(format!("\u{d7}{}", class.copies));
+                }
+                (class.state.kind.into(), lines)
             }
         };
         marker(self.root, mark, foot, 7.0)?;

@@ -26,7 +26,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
     let Some(pathway) = scene.docking() else {
         return Ok(None);
     };
-    let frames = frames(&pathway, scale);
+    let frames = frames(near(&pathway, scene), scale);
     let [low, high] = extent(scene, &frames);
     let (span_x, span_y) = (high[0] - low[0], high[1] - low[1]);
     let width = (WIDTH - GAP * (COLUMNS as f64 + 1.0)) / COLUMNS as f64;
@@ -101,9 +101,16 @@ fn draw_frame(
     )
 }
 
+/// The part of a pathway from where the tiles are no farther apart than the moving one's size.
+fn near<'a>(pathway: &'a Pathway, scene: &Scene) -> &'a [PathwayPoint] {
+    let far = 0.8 * scene.pair.moving.outline.circumradius();
+    let first = pathway.iter().rposition(|point| point.clearance > far);
+    &pathway[first.unwrap_or(0).min(pathway.len() - 2)..]
+}
+
 /// Points of a pathway spread evenly over its length and its energy (on the pictures' scale)
 /// together, so that frames crowd where something happens.
-fn frames(pathway: &Pathway, scale: &EnergyScale) -> Vec<PathwayPoint> {
+fn frames(pathway: &[PathwayPoint], scale: &EnergyScale) -> Vec<PathwayPoint> {
     let length = (pathway[pathway.len() - 1].s - pathway[0].s).max(f64::MIN_POSITIVE);
     let mut progress = vec![0.0];
     for pair in pathway.windows(2) {

@@ -10,7 +10,10 @@ use crate::configuration::Configuration;
 use crate::landscape::StateKind;
 use crate::tile::{Magnet, Tile};
 
+/// A point (pixels).
 pub type Pixel = (f64, f64);
+/// A rectangle (pixels): left, top, right, bottom.
+pub type Box4 = [f64; 4];
 
 pub fn polyline(
     root: &Area,
@@ -51,6 +54,22 @@ pub fn polygon(
     Ok(())
 }
 
+/// The outline of a rectangle.
+pub fn outline(
+    root: &Area,
+    [left, top, right, bottom]: Box4,
+    colour: RGBColor,
+) -> Result<(), PictureError> {
+    let corners = [
+        (left, top),
+        (right, top),
+        (right, bottom),
+        (left, bottom),
+        (left, top),
+    ];
+    polyline(root, &corners, colour, 1.0)
+}
+
 /// What a marker stands for; each has a shape and a colour of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
@@ -88,14 +107,14 @@ pub fn marker(
             .map(|k| k as f64 * std::f64::consts::TAU / n as f64)
             .collect()
     };
-    let outline = Some((INK, 1.2));
+    let edge = Some((INK, 1.2));
     match mark {
-        Mark::Bound => polygon(root, &corners(&turn(10), &[1.35, 0.6]), YELLOW, outline),
-        Mark::Misbound => polygon(root, &corners(&turn(20), &[0.85]), WHITE, outline),
+        Mark::Bound => polygon(root, &corners(&turn(10), &[1.35, 0.6]), YELLOW, edge),
+        Mark::Misbound => polygon(root, &corners(&turn(20), &[0.85]), WHITE, edge),
         Mark::Free => {
             let square = [(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]
                 .map(|(a, b)| (x + a * radius, y + b * radius));
-            polygon(root, &square, RGBColor(200, 200, 200), outline)
+            polygon(root, &square, RGBColor(200, 200, 200), edge)
         }
         Mark::Saddle => {
             let r = 0.8 * radius;
@@ -184,9 +203,6 @@ fn draw_magnet(
     Ok(())
 }
 
-/// A rectangle in pixels: left, top, right, bottom.
-pub type Box4 = [f64; 4];
-
 /// Places labels beside what they name so that none covers another or a marker.
 pub struct Labels {
     within: Box4,
@@ -205,6 +221,18 @@ impl Labels {
     pub fn keep_off(&mut self, (x, y): Pixel, radius: f64) {
         self.taken
             .push([x - radius, y - radius, x + radius, y + radius]);
+    }
+
+    /// Keeps labels off a line.
+    pub fn keep_off_line(&mut self, points: &[Pixel]) {
+        for pair in points.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 5.0).ceil().max(1.0);
+            for k in 0..=steps as usize {
+                let t = k as f64 / steps;
+                self.keep_off((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t), 2.0);
+            }
+        }
     }
 
     /// Writes `text` near `anchor`, joined to it by a thin line where it is not beside it. Leaves

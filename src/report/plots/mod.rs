@@ -15,6 +15,7 @@ mod canvas;
 mod disconnectivity;
 mod energy_map;
 mod film;
+mod heat;
 mod marks;
 mod picture;
 mod profiles;
@@ -78,9 +79,9 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
         .collect())
 }
 
-/// The map reaches a third of the tiles' size beyond where they can touch, or to the table's edge.
+/// The map reaches a fifth of the tiles' size beyond where they can touch, or to the table's edge.
 fn map_settings(scene: &Scene) -> MapSettings {
-    let reach = 1.35
+    let reach = 1.2
         * (scene.pair.fixed.outline.circumradius() + scene.pair.moving.outline.circumradius());
     MapSettings {
         half_size: scene.space.half_size.map(|half| half.min(reach)),
@@ -93,7 +94,7 @@ fn slice_settings(scene: &Scene) -> SliceSettings {
     let length = scene.pair.fixed.faces[scene.target.0].length();
     SliceSettings {
         tilt: std::f64::consts::FRAC_PI_4,
-        gap: 0.3 * length,
+        gap: 0.2 * length,
         slide: 0.5 * length,
         samples: 121,
     }

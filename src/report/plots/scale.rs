@@ -2,8 +2,6 @@
 
 use crate::units::si;
 
-use super::picture::Bitmap;
-
 /// The diverging colour map "vik", attraction blue and repulsion brown, pale at zero: perceptually
 /// uniform and safe for colour-blind readers. Every sixteenth of its colours; straight lines
 /// between them stay within 7/255 of the original.
@@ -28,6 +26,11 @@ const VIK: [[u8; 3]; 17] = [
     [116, 21, 6],
     [89, 0, 8],
 ];
+
+/// Colours of the hatching of what is blocked.
+pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
+/// Steps of colour in a heat map.
+pub const COLOURS: usize = 250;
 
 /// Colour of a position from -1 (most negative) over 0 to 1.
 pub fn colour(position: f64) -> [u8; 3] {
@@ -75,12 +78,6 @@ impl EnergyScale {
         ((energy / self.linear()).asinh() / full).clamp(-1.0, 1.0)
     }
 
-    /// The energy (J) at a position.
-    pub fn energy(&self, position: f64) -> f64 {
-        let full = (self.most / self.linear()).asinh();
-        (position * full).sinh() * self.linear()
-    }
-
     /// Zero and the powers of ten beyond the linear part, between two positions.
     pub fn ticks(&self, low: f64, high: f64) -> Vec<f64> {
         let top = self.most.log10().floor() as i32;
@@ -106,64 +103,4 @@ impl EnergyScale {
 /// A number's text with a true minus sign.
 pub fn minus(text: &str) -> String {
     text.replace('-', "\u{2212}")
-}
-
-const HATCH: [[u8; 3]; 2] = [[224, 224, 224], [198, 198, 198]];
-const COLOURS: usize = 250;
-
-/// Colours for the positions from `low` to `high`, and two for the hatching of what is blocked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    pub low: f64,
-    pub high: f64,
-}
-
-impl Range {
-    /// The positions of these energies, with zero and a little on either side of it.
-    pub fn of(scale: &EnergyScale, energies: impl Iterator<Item = f64>) -> Self {
-        let margin = 0.15;
-        energies.map(|u| scale.position(u)).fold(
-            Self {
-                low: -margin,
-                high: margin,
-            },
-            |range, p| Self {
-                low: range.low.min(p),
-                high: range.high.max(p),
-            },
-        )
-    }
-
-    /// An image of `width` by `height` pixels, first row at the top: `position` tells the position
-    /// at the fraction (0 to 1, from the left and from the bottom), `None` where blocked.
-    pub fn bitmap(
-        &self,
-        (width, height): (usize, usize),
-        position: impl Fn(f64, f64) -> Option<f64>,
-    ) -> Bitmap {
-        let span = self.high - self.low;
-        let mut palette: Vec<_> = (0..COLOURS)
-            .map(|i| colour(self.low + span * i as f64 / (COLOURS - 1) as f64))
-            .collect();
-        palette.extend(HATCH);
-        let pixels = (0..width * height)
-            .map(|index| {
-                let (column, row) = (index % width, index / width);
-                let u = (column as f64 + 0.5) / width as f64;
-                let v = 1.0 - (row as f64 + 0.5) / height as f64;
-                match position(u, v) {
-                    Some(p) => {
-                        let step = (p - self.low) / span * (COLOURS - 1) as f64;
-                        step.round().clamp(0.0, (COLOURS - 1) as f64) as u8
-                    }
-                    None => (COLOURS + usize::from((column + row) % 9 < 2)) as u8,
-                }
-            })
-            .collect();
-        Bitmap {
-            width,
-            palette,
-            pixels,
-        }
-    }
 }

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::marks::Mark;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::map::Pair;
-use crate::landscape::{Barrier, Pathway, Place, State, StateKind};
+use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
 
 /// An analysed pair of tiles.
 #[derive(Clone, Copy)]
@@ -107,14 +108,22 @@ impl<'a> Scene<'a> {
             }
             match (barrier.from, barrier.to) {
                 (Place::Free, to) => Some((bound(to)?, barrier.pathway.clone())),
-                (from, Place::Free) => {
-                    Some((bound(from)?, barrier.pathway.iter().rev().copied().collect()))
-                }
+                (from, Place::Free) => Some((bound(from)?, reversed(&barrier.pathway))),
                 _ => None,
             }
         });
         ways.min_by(|(a, _), (b, _)| self.from_bound(a).total_cmp(&self.from_bound(b)))
             .map(|(_, pathway)| pathway)
+    }
+
+    /// The marker of a place.
+    pub fn mark_of(&self, place: Place) -> Mark {
+        match place {
+            Place::Free => Mark::Free,
+            Place::State(id) => self
+                .state(id)
+                .map_or(Mark::Misbound, |state| state.kind.into()),
+        }
     }
 
     /// What a place is called on a picture.
@@ -123,8 +132,20 @@ impl<'a> Scene<'a> {
             Place::Free => "free".into(),
             Place::State(id) => match self.state(id).map(|state| state.kind) {
                 Some(StateKind::Bound) => format!("bound {id}"),
-                _ => format!("trap {id}"),
+                _ => format!("misbound {id}"),
             },
         }
     }
+}
+
+/// A pathway walked the other way, its length counted from the new start.
+fn reversed(pathway: &Pathway) -> Pathway {
+    let length = pathway.last().map_or(0.0, |point| point.s);
+    let turned = pathway.iter().rev();
+    turned
+        .map(|point| PathwayPoint {
+            s: length - point.s,
+            ..*point
+        })
+        .collect()
 }

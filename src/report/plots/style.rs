@@ -28,6 +28,8 @@ const FAMILY: FontFamily = FontFamily::Name("Noto Sans, Helvetica, Arial, sans-s
 pub const TITLE: f64 = 20.0;
 pub const LABEL: f64 = 15.0;
 pub const SMALL: f64 = 13.0;
+/// Space left of and below the names of axes (pixels).
+const EDGE: f64 = 12.0;
 
 /// Pixels as drawing units.
 pub fn units(pixels: f64) -> i32 {
@@ -195,8 +197,10 @@ pub fn chart<'a, 'b>(
     let mut chart = ChartBuilder::on(area)
         .margin_top(units(top))
         .margin_right(units(right))
-        .x_label_area_size(units(bottom))
-        .y_label_area_size(units(left))
+        .margin_left(units(EDGE))
+        .margin_bottom(units(EDGE))
+        .x_label_area_size(units(bottom - EDGE))
+        .y_label_area_size(units(left - EDGE))
         .build_cartesian_2d(x.clone(), y.clone())?;
     let text = Text::new(LABEL);
     let small = Text::new(SMALL);
