@@ -8,6 +8,7 @@ pub mod landscape;
 pub mod pipeline;
 pub mod potential;
 pub mod problem;
+pub mod report;
 pub mod roadmap;
 pub mod tile;
 pub mod units;

@@ -2,6 +2,7 @@
 
 pub mod capture;
 pub mod inventory;
+pub mod map;
 pub mod meeting;
 pub mod minimum;
 pub mod network;
