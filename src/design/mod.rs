@@ -20,11 +20,14 @@
 //!   opposite (`S`).
 
 mod base;
+mod build;
 mod error;
 mod face;
 mod magnet;
 mod overlap;
+mod placement;
 mod potential;
+mod profile;
 mod quantity;
 mod reader;
 mod shield;
@@ -154,17 +157,26 @@ impl Design {
                 TILES[i]
             );
             let section = root.require(TILES[i], &help)?.section(sections[i])?;
-            TileEntry::read(section, faces[i])
+            TileEntry::read(TILES[i], section, faces[i])
         };
         let entries = [tile_entry(0)?, tile_entry(1)?];
         let target = target::read(&root, &entries)?;
         let model = potential::read(&root)?;
         let contents = tile::resolve(&entries, keys)?;
-        let fixed = tile::build(&entries[0], &contents[0])?;
-        let moving = tile::build(&entries[1], &contents[1])?;
+        let fixed = build::build(&entries[0], &contents[0])?;
+        let moving = build::build(&entries[1], &contents[1])?;
         let mut warnings = Vec::new();
         for (entry, built) in entries.iter().zip([&fixed, &moving]) {
             warnings.extend(overlap::check_magnets(&entry.section, built)?);
+            if built.tile.magnets.is_empty() {
+                warnings.push(entry.section.error(
+                    format!(
+                        "the {} tile has no magnet, so that the energy is zero",
+                        entry.name
+                    ),
+                    "give one of its faces a code",
+                ));
+            }
         }
         let (fixed, moving) = (fixed.tile, moving.tile);
         let bound = target.configuration(&fixed, &moving)?;
