@@ -52,10 +52,20 @@ use reader::{Result, Section};
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
+///
+/// ```
+/// use tilebind::design::Design;
+///
+/// let design = Design::load("shapes/paper-tile.toml".as_ref())?;
+/// assert_eq!(design.bound.to_array(), [0.43, 0.0, 0.0]);
+/// assert_eq!(design.fixed.magnets.len(), 16);
+/// # Ok::<(), tilebind::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Design {
     /// The design's name; the file's where it gives none.
     pub name: String,
+    /// What the file says of it; empty where it says nothing.
     pub description: String,
     /// SHA-256 of the file's bytes, in hexadecimal.
     pub sha256: String,

@@ -22,8 +22,11 @@ pub type Polyline = Vec<[f64; 2]>;
 /// The waveform of [`Profile::Teeth`], odd in its phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Waveform {
+    /// `sin(phase)`.
     Sine,
+    /// Straight flanks through the zeros of the sine, crests at plus and minus 1.
     Triangle,
+    /// The sign of the sine, with upright flanks.
     Square,
 }
 
@@ -35,21 +38,36 @@ pub enum Profile {
     /// A trapezoid, `width` wide at its base, its sides leaning inwards by `draft` (a dovetail
     /// where negative), its middle at s = `offset`.
     Tab {
+        /// Width at the base line (m).
         width: f64,
+        /// Height (m).
         depth: f64,
+        /// Angle (rad) between a side and the normal, inwards.
         draft: f64,
+        /// s of the middle (m).
         offset: f64,
     },
     /// `h = depth / 2 * wave(2 pi count s / span)` over `|s| <= span / 2`.
     Teeth {
+        /// The waveform.
         form: Waveform,
+        /// Number of periods.
         count: u32,
+        /// Height (m) from valley to crest.
         depth: f64,
+        /// Length (m) over which the teeth spread, about the face's middle.
         span: f64,
     },
     /// A segment of a circle over a chord of `width`, `depth` high in its middle at s = `offset`;
     /// more than half a circle where `depth` exceeds `width / 2`.
-    Arc { width: f64, depth: f64, offset: f64 },
+    Arc {
+        /// Length of the chord on the base line (m).
+        width: f64,
+        /// Height (m).
+        depth: f64,
+        /// s of the middle (m).
+        offset: f64,
+    },
     /// A polyline.
     Points(Polyline),
 }
@@ -60,10 +78,18 @@ pub enum ProfileError {
     /// The sides of a tab meet before they reach `depth`; the steepest possible `draft` is given
     /// (rad).
     #[error("the tab's sides meet before they reach its depth")]
-    SidesMeet { largest_draft: f64 },
+    SidesMeet {
+        /// The draft (rad) at which the sides meet at the very depth.
+        largest_draft: f64,
+    },
     /// A profile begins or ends off the base line, at height h (m).
     #[error("the profile's {} point lies at h = {h}, off the base line", if *.first { "first" } else { "last" })]
-    OffTheBaseLine { first: bool, h: f64 },
+    OffTheBaseLine {
+        /// Whether it is the first point, not the last.
+        first: bool,
+        /// Its height (m).
+        h: f64,
+    },
     /// A profile has fewer than two points.
     #[error("a profile needs at least two points")]
     TooFewPoints,
