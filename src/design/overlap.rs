@@ -6,6 +6,7 @@ use super::DesignError;
 use super::build::BuiltTile;
 use super::quantity::four_digits;
 use super::reader::{Result, Section};
+use super::tile::TileEntry;
 use crate::contact::separation;
 use crate::tile::assembly::{face_edges, surface_height};
 use crate::tile::outline::ConvexPart;
@@ -19,8 +20,9 @@ const ROUNDING: f64 = 1e-9;
 /// A block in a straight face never leaves the tile, but on a curved or slanted line a corner of
 /// its outer pole face may break through the surface while the block as a whole sits in the tile.
 /// That is a matter of a millimetre of inset and changes no energy, so it is returned as a
-/// warning, one for each face.
-pub(super) fn check_magnets(section: &Section, built: &BuiltTile) -> Result<Vec<DesignError>> {
+/// warning, one for each face. So is a tile without any magnet.
+pub(super) fn check_magnets(entry: &TileEntry, built: &BuiltTile) -> Result<Vec<DesignError>> {
+    let section = &entry.section;
     let magnets = &built.tile.magnets;
     let blocks: Vec<_> = magnets
         .iter()
@@ -46,6 +48,13 @@ pub(super) fn check_magnets(section: &Section, built: &BuiltTile) -> Result<Vec<
                 "space them out (`pitch`, `at`), or take smaller magnets (`size`)",
             ));
         }
+    }
+    if magnets.is_empty() {
+        let message = format!(
+            "the {} tile has no magnet, so that the energy is zero",
+            entry.name
+        );
+        return Ok(vec![section.error(message, "give one of its faces a code")]);
     }
     let faces = 0..built.tile.faces.len();
     Ok(faces
