@@ -7,7 +7,9 @@
 use nalgebra::Vector2;
 use parry2d_f64::math::Vector;
 use parry2d_f64::shape::TriMesh;
-use parry2d_f64::transformation::hertel_mehlhorn;
+use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn};
+
+use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
@@ -18,11 +20,32 @@ pub struct ConvexPart {
 }
 
 impl ConvexPart {
-    fn new(points: Vec<Vector2<f64>>) -> Self {
+    pub(crate) fn new(points: Vec<Vector2<f64>>) -> Self {
         let normals = (0..points.len())
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();
         Self { points, normals }
+    }
+
+    /// The part as it lies at a configuration of its tile.
+    pub fn placed(&self, q: &Configuration) -> Self {
+        let rotation = q.rotation();
+        Self {
+            points: self
+                .points
+                .iter()
+                .map(|p| q.position() + rotation * p)
+                .collect(),
+            normals: self.normals.iter().map(|n| rotation * n).collect(),
+        }
+    }
+
+    /// Lowest and highest coordinates.
+    pub fn bounding_box(&self) -> (Vector2<f64>, Vector2<f64>) {
+        let first = self.points[0];
+        let low = self.points.iter().fold(first, |a, b| a.inf(b));
+        let high = self.points.iter().fold(first, |a, b| a.sup(b));
+        (low, high)
     }
 }
 
@@ -97,6 +120,17 @@ impl Outline {
         &self.parts
     }
 
+    /// The convex hull.
+    pub fn hull(&self) -> ConvexPart {
+        let points: Vec<Vector> = self
+            .vertices
+            .iter()
+            .map(|v| Vector::new(v.x, v.y))
+            .collect();
+        let hull = convex_hull(&points);
+        ConvexPart::new(hull.iter().map(|p| Vector2::new(p.x, p.y)).collect())
+    }
+
     /// Largest distance of a point of the outline from the reference point (m).
     pub fn circumradius(&self) -> f64 {
         self.circumradius
@@ -132,15 +166,9 @@ impl Outline {
         about_origin - self.area() * self.centroid().norm_squared()
     }
 
-    /// Whether a point lies inside (even-odd rule; on the boundary either answer may come).
+    /// Whether a point lies inside (on the boundary either answer may come).
     pub fn contains(&self, p: Vector2<f64>) -> bool {
-        self.edges()
-            .filter(|(a, b)| {
-                (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
-            })
-            .count()
-            % 2
-            == 1
+        contains(&self.vertices, &p)
     }
 
     /// Distance of a point to the boundary, positive outside, negative inside (m).
@@ -159,6 +187,20 @@ impl Outline {
     fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
         (0..self.vertices.len()).map(|i| self.edge(i))
     }
+}
+
+/// Whether a point lies inside a closed polygon (even-odd rule; on the boundary either answer may
+/// come).
+pub fn contains(polygon: &[Vector2<f64>], p: &Vector2<f64>) -> bool {
+    let n = polygon.len();
+    let mut inside = false;
+    for (i, a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % n];
+        if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
+            inside = !inside;
+        }
+    }
+    inside
 }
 
 /// z component of the cross product of two plane vectors.

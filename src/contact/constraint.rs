@@ -1,0 +1,475 @@
+//! The local constraints of contact: which vertices press against which edges, and the motion
+//! that comes closest to a wanted one without pushing the tiles into each other.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::{Contact, TOUCH};
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+use crate::tile::outline::contains;
+
+/// Vertices closer than this (m) count as coinciding.
+const COINCIDENT: f64 = 1e-7;
+
+/// A vertex of one tile in front of an edge of the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Touch {
+    /// Which tile the edge belongs to; the vertex is the other one's.
+    pub edge_of: EdgeOf,
+    pub edge: usize,
+    pub vertex: usize,
+}
+
+/// Which tile an edge belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum EdgeOf {
+    Fixed,
+    Moving,
+}
+
+/// One contact: `gap` (m) must not become negative; `gradient` is its derivative with respect to
+/// (x, y, theta).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    pub touch: Touch,
+    pub gap: f64,
+    pub gradient: Vector3<f64>,
+}
+
+/// An outline placed in the plane.
+struct Placed {
+    vertices: Vec<Vector2<f64>>,
+    normals: Vec<Vector2<f64>>,
+    low: Vector2<f64>,
+    high: Vector2<f64>,
+}
+
+impl Placed {
+    fn new(outline: &Outline, q: &Configuration) -> Self {
+        let rotation = q.rotation();
+        let vertices: Vec<_> = outline
+            .vertices()
+            .iter()
+            .map(|v| q.position() + rotation * v)
+            .collect();
+        let low = vertices.iter().fold(vertices[0], |a, b| a.inf(b));
+        let high = vertices.iter().fold(vertices[0], |a, b| a.sup(b));
+        Self {
+            normals: outline.normals().iter().map(|n| rotation * n).collect(),
+            vertices,
+            low,
+            high,
+        }
+    }
+
+    fn near(&self, p: &Vector2<f64>, margin: f64) -> bool {
+        p.x >= self.low.x - margin
+            && p.x <= self.high.x + margin
+            && p.y >= self.low.y - margin
+            && p.y <= self.high.y + margin
+    }
+
+    fn contains(&self, p: &Vector2<f64>) -> bool {
+        contains(&self.vertices, p)
+    }
+
+    fn next(&self, i: usize) -> usize {
+        (i + 1) % self.vertices.len()
+    }
+
+    fn previous(&self, i: usize) -> usize {
+        (i + self.vertices.len() - 1) % self.vertices.len()
+    }
+
+    /// Whether the tile near its vertex i lies on the positive side of a line with this normal
+    /// through the vertex.
+    fn wedge_is_beyond(&self, i: usize, normal: &Vector2<f64>) -> bool {
+        let here = self.vertices[i];
+        [self.next(i), self.previous(i)].iter().all(|&k| {
+            let along = self.vertices[k] - here;
+            normal.dot(&along) >= -1e-6 * along.norm()
+        })
+    }
+}
+
+impl Contact {
+    /// The constraint of one vertex and one edge, wherever they are.
+    pub fn constraint(&self, touch: Touch, q: &Configuration) -> Constraint {
+        let identity = Configuration::new(0.0, 0.0, 0.0);
+        let (edges, edge_pose, vertices, vertex_pose) = match touch.edge_of {
+            EdgeOf::Fixed => (self.fixed(), identity, self.moving(), *q),
+            EdgeOf::Moving => (self.moving(), *q, self.fixed(), identity),
+        };
+        let normal = edge_pose.rotation() * edges.normals()[touch.edge];
+        let start = edge_pose.transform(edges.vertices()[touch.edge]);
+        let vertex = vertex_pose.transform(vertices.vertices()[touch.vertex]);
+        constraint(touch, normal, start, vertex, q.position())
+    }
+
+    /// The contacts with a gap of at most `margin` (m): a convex vertex of one tile in front of an
+    /// edge of the other. Of two convex corners that coincide only one edge need separate them;
+    /// the one that does so most clearly is taken.
+    pub fn constraints(&self, q: &Configuration, margin: f64) -> Vec<Constraint> {
+        let mut found = Vec::new();
+        if self.clearance_bound(q) > margin {
+            return found;
+        }
+        let fixed = Placed::new(self.fixed(), &Configuration::new(0.0, 0.0, 0.0));
+        let moving = Placed::new(self.moving(), q);
+        let convex_fixed = self.fixed().convex_vertices();
+        let convex_moving = self.moving().convex_vertices();
+        let centre = q.position();
+        vertices_against_edges(
+            &moving,
+            convex_moving,
+            &fixed,
+            convex_fixed,
+            margin,
+            |v, e| {
+                found.push(placed_constraint(
+                    &fixed,
+                    e,
+                    &moving,
+                    v,
+                    EdgeOf::Fixed,
+                    centre,
+                ));
+            },
+        );
+        vertices_against_edges(
+            &fixed,
+            convex_fixed,
+            &moving,
+            convex_moving,
+            margin,
+            |v, e| {
+                found.push(placed_constraint(
+                    &moving,
+                    e,
+                    &fixed,
+                    v,
+                    EdgeOf::Moving,
+                    centre,
+                ));
+            },
+        );
+        for (i, p) in moving.vertices.iter().enumerate() {
+            if !convex_moving[i] || !fixed.near(p, COINCIDENT) {
+                continue;
+            }
+            for (j, b) in fixed.vertices.iter().enumerate() {
+                if convex_fixed[j] && (p - b).norm() <= COINCIDENT {
+                    found.extend(corner_on_corner(&moving, i, &fixed, j, centre));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Calls `found(vertex, edge)` for every convex vertex of `a` within `margin` of an edge of `b`
+/// that it faces, except where it coincides with a convex corner of `b`.
+fn vertices_against_edges(
+    a: &Placed,
+    convex_a: &[bool],
+    b: &Placed,
+    convex_b: &[bool],
+    margin: f64,
+    mut found: impl FnMut(usize, usize),
+) {
+    for (i, p) in a.vertices.iter().enumerate() {
+        if !convex_a[i] || !b.near(p, margin) {
+            continue;
+        }
+        for (j, start) in b.vertices.iter().enumerate() {
+            let end = b.vertices[b.next(j)];
+            let gap = b.normals[j].dot(&(p - start));
+            if gap.abs() > margin {
+                continue;
+            }
+            let length = (end - start).norm();
+            let t = (p - start).dot(&(end - start)) / length;
+            let beside = t < -COINCIDENT || t > length + COINCIDENT;
+            let corner = |k: usize, q: &Vector2<f64>| convex_b[k] && (p - q).norm() <= COINCIDENT;
+            if beside || corner(j, start) || corner(b.next(j), &end) {
+                continue;
+            }
+            // Behind the edge's line, but outside: in front of another edge, past a corner.
+            if gap < -TOUCH && !b.contains(p) {
+                continue;
+            }
+            found(i, j);
+        }
+    }
+}
+
+fn corner_on_corner(
+    moving: &Placed,
+    i: usize,
+    fixed: &Placed,
+    j: usize,
+    centre: Vector2<f64>,
+) -> Option<Constraint> {
+    let on_fixed = [fixed.previous(j), j]
+        .into_iter()
+        .filter(|&e| moving.wedge_is_beyond(i, &fixed.normals[e]))
+        .map(|e| placed_constraint(fixed, e, moving, i, EdgeOf::Fixed, centre));
+    let on_moving = [moving.previous(i), i]
+        .into_iter()
+        .filter(|&e| fixed.wedge_is_beyond(j, &moving.normals[e]))
+        .map(|e| placed_constraint(moving, e, fixed, j, EdgeOf::Moving, centre));
+    on_fixed
+        .chain(on_moving)
+        .max_by(|a, b| a.gap.total_cmp(&b.gap))
+}
+
+fn placed_constraint(
+    edges: &Placed,
+    edge: usize,
+    vertices: &Placed,
+    vertex: usize,
+    edge_of: EdgeOf,
+    centre: Vector2<f64>,
+) -> Constraint {
+    let touch = Touch {
+        edge_of,
+        edge,
+        vertex,
+    };
+    let (normal, start) = (edges.normals[edge], edges.vertices[edge]);
+    constraint(touch, normal, start, vertices.vertices[vertex], centre)
+}
+
+/// The gap between a vertex and an edge, given by its normal and its start, and the gap's
+/// derivative with respect to the moving tile's configuration, `centre` being its reference point.
+fn constraint(
+    touch: Touch,
+    normal: Vector2<f64>,
+    start: Vector2<f64>,
+    vertex: Vector2<f64>,
+    centre: Vector2<f64>,
+) -> Constraint {
+    let gap = normal.dot(&(vertex - start));
+    let arm = vertex - centre;
+    let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
+    let gradient = match touch.edge_of {
+        EdgeOf::Fixed => along,
+        // The edge turns with the tile, under a vertex that stays: the opposite.
+        EdgeOf::Moving => -along,
+    };
+    Constraint {
+        touch,
+        gap,
+        gradient,
+    }
+}
+
+/// The point closest to `wanted` in the metric `(v - w)^T metric (v - w)` with
+/// `gradient . v >= -gap` for every constraint, and the constraints' multipliers (>= 0, zero where
+/// the constraint does not bind). `None` where the constraints contradict each other.
+///
+/// A working set of binding constraints grows by the most violated one; the small problem on the
+/// working set is solved by trying its subsets of at most three.
+pub fn closest_admissible(
+    wanted: Vector3<f64>,
+    metric: &Matrix3<f64>,
+    constraints: &[Constraint],
+) -> Option<(Vector3<f64>, Vec<f64>)> {
+    let inverse = metric.try_inverse()?;
+    let mut working: Vec<usize> = Vec::new();
+    let mut point = wanted;
+    let mut multipliers = Vec::new();
+    for _ in 0..100 {
+        let violated = (0..constraints.len())
+            .map(|k| {
+                (
+                    k,
+                    slack(&constraints[k], &point) / norm(&constraints[k], &inverse),
+                )
+            })
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let scale = 1e-13 * (1.0 + point.norm());
+        match violated {
+            Some((k, slack)) if slack < -scale && !working.contains(&k) => working.push(k),
+            _ => {
+                let mut all = vec![0.0; constraints.len()];
+                for (&k, &multiplier) in working.iter().zip(&multipliers) {
+                    all[k] = multiplier;
+                }
+                return Some((point, all));
+            }
+        }
+        let (best, set, lambda) = best_subset(wanted, &inverse, constraints, &working)?;
+        point = best;
+        working = set;
+        multipliers = lambda;
+    }
+    None
+}
+
+fn slack(c: &Constraint, v: &Vector3<f64>) -> f64 {
+    c.gradient.dot(v) + c.gap
+}
+
+fn norm(c: &Constraint, inverse: &Matrix3<f64>) -> f64 {
+    c.gradient.dot(&(inverse * c.gradient)).sqrt()
+}
+
+/// The optimum over the working set: the subset of at most three constraints, taken as equalities,
+/// whose multipliers are not negative and that leaves the others satisfied.
+fn best_subset(
+    wanted: Vector3<f64>,
+    inverse: &Matrix3<f64>,
+    constraints: &[Constraint],
+    working: &[usize],
+) -> Option<(Vector3<f64>, Vec<usize>, Vec<f64>)> {
+    let tolerance = 1e-11 * (1.0 + wanted.norm());
+    let mut best: Option<(f64, Vector3<f64>, Vec<usize>, Vec<f64>)> = None;
+    for set in subsets(working) {
+        let Some((point, lambda)) = equality_optimum(wanted, inverse, constraints, &set) else {
+            continue;
+        };
+        let feasible = working
+            .iter()
+            .all(|&k| slack(&constraints[k], &point) >= -tolerance);
+        if feasible && lambda.iter().all(|&l| l >= 0.0) {
+            let cost = (point - wanted).norm_squared();
+            if best.as_ref().is_none_or(|b| cost < b.0) {
+                best = Some((cost, point, set, lambda));
+            }
+        }
+    }
+    best.map(|(_, point, set, lambda)| (point, set, lambda))
+}
+
+fn subsets(working: &[usize]) -> Vec<Vec<usize>> {
+    let n = working.len();
+    let mut sets = Vec::new();
+    for i in 0..n {
+        sets.push(vec![working[i]]);
+        for j in i + 1..n {
+            sets.push(vec![working[i], working[j]]);
+            for k in j + 1..n {
+                sets.push(vec![working[i], working[j], working[k]]);
+            }
+        }
+    }
+    sets
+}
+
+fn equality_optimum(
+    wanted: Vector3<f64>,
+    inverse: &Matrix3<f64>,
+    constraints: &[Constraint],
+    set: &[usize],
+) -> Option<(Vector3<f64>, Vec<f64>)> {
+    let m = set.len();
+    let gram = nalgebra::DMatrix::from_fn(m, m, |a, b| {
+        constraints[set[a]]
+            .gradient
+            .dot(&(inverse * constraints[set[b]].gradient))
+    });
+    let missing = nalgebra::DVector::from_fn(m, |a, _| -slack(&constraints[set[a]], &wanted));
+    let scale = (0..m).map(|a| gram[(a, a)]).product::<f64>();
+    if gram.determinant() <= 1e-12 * scale {
+        return None;
+    }
+    let lambda = gram.cholesky()?.solve(&missing);
+    let push: Vector3<f64> = (0..m)
+        .map(|a| constraints[set[a]].gradient * lambda[a])
+        .sum();
+    Some((wanted + inverse * push, lambda.iter().copied().collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{saw, square};
+    use super::*;
+
+    fn flush() -> (Contact, Configuration) {
+        let contact = Contact::new(&square(0.4), &square(0.4));
+        (contact, Configuration::new(0.4, 0.05, 0.0))
+    }
+
+    #[test]
+    fn gaps_and_their_gradients_agree_with_finite_differences() {
+        for (a, b, q) in [
+            (
+                square(0.4),
+                square(0.4),
+                Configuration::new(0.41, 0.05, 0.03),
+            ),
+            (
+                square(0.4),
+                square(0.4),
+                Configuration::new(0.41, -0.05, -0.03),
+            ),
+            (
+                saw(false),
+                saw(true),
+                Configuration::new(0.402, 0.0003, 0.01),
+            ),
+        ] {
+            let contact = Contact::new(&a, &b);
+            let here = contact.constraints(&q, 0.02);
+            assert!(!here.is_empty());
+            let h = 1e-7;
+            for axis in 0..3 {
+                let mut step = Vector3::zeros();
+                step[axis] = h;
+                let there = contact.constraints(&q.moved(step), 0.02);
+                let back = contact.constraints(&q.moved(-step), 0.02);
+                assert_eq!((here.len(), here.len()), (there.len(), back.len()));
+                for k in 0..here.len() {
+                    let slope = (there[k].gap - back[k].gap) / (2.0 * h);
+                    assert!((slope - here[k].gradient[axis]).abs() < 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_flush_face_may_slide_and_leave_but_not_enter_or_turn() {
+        let (contact, q) = flush();
+        let constraints = contact.constraints(&q, 1e-6);
+        let metric = Matrix3::identity();
+        let go = |v: Vector3<f64>| closest_admissible(v, &metric, &constraints).unwrap().0;
+        let slide = Vector3::new(0.0, 1.0, 0.0);
+        assert!((go(slide) - slide).norm() < 1e-12);
+        let leave = Vector3::new(1.0, 0.3, 0.1);
+        assert!((go(leave) - leave).norm() < 1e-12);
+        assert!(go(Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
+        let turned = go(Vector3::new(-1.0, 0.5, 0.0));
+        assert!((turned - Vector3::new(0.0, 0.5, 0.0)).norm() < 1e-12);
+        // A turn in place is possible only by backing off.
+        let turned = go(Vector3::new(0.0, 0.0, 1.0));
+        assert!(turned.x > 0.0 && turned.z > 0.0);
+    }
+
+    #[test]
+    fn coinciding_corners_do_not_hinder_sliding_either_way() {
+        let contact = Contact::new(&square(0.4), &square(0.4));
+        let constraints = contact.constraints(&Configuration::new(0.4, 0.0, 0.0), 1e-6);
+        for dy in [-1.0, 1.0] {
+            let wanted = Vector3::new(-0.5, dy, 0.0);
+            let (go, multipliers) =
+                closest_admissible(wanted, &Matrix3::identity(), &constraints).unwrap();
+            assert!((go - Vector3::new(0.0, dy, 0.0)).norm() < 1e-12);
+            assert!(multipliers.iter().all(|m| *m >= 0.0));
+        }
+    }
+
+    #[test]
+    fn mated_teeth_only_let_go_outwards() {
+        let contact = Contact::new(&saw(false), &saw(true));
+        let constraints = contact.constraints(&Configuration::new(0.4, 0.0, 0.0), 1e-6);
+        let go = |v| {
+            closest_admissible(v, &Matrix3::identity(), &constraints)
+                .unwrap()
+                .0
+        };
+        assert!(go(Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
+        let slid = go(Vector3::new(0.0, 1.0, 0.0));
+        assert!(slid.x > 0.0, "a slide climbs the teeth: {slid}");
+    }
+}

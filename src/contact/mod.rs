@@ -1,0 +1,250 @@
+//! Contact of two tiles: whether they overlap, how far apart they are, whether a motion is free,
+//! and the local constraints that contact puts on a motion.
+//!
+//! A configuration is *free* where the interiors of the two outlines are disjoint. Flush mates
+//! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
+//! [`TOUCH`] counts as touching.
+
+mod constraint;
+mod lift;
+mod motion;
+
+pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
+
+use nalgebra::Vector2;
+use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::query;
+use parry2d_f64::shape::{Compound, SharedShape};
+
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+use crate::tile::outline::ConvexPart;
+
+/// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
+/// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
+pub const TOUCH: f64 = 1e-9;
+
+/// The two outlines of a pair of tiles.
+#[derive(Clone)]
+pub struct Contact {
+    fixed: Outline,
+    moving: Outline,
+    fixed_shape: Compound,
+    moving_shape: Compound,
+    fixed_hull: ConvexPart,
+    moving_hull: ConvexPart,
+}
+
+impl Contact {
+    pub fn new(fixed: &Outline, moving: &Outline) -> Self {
+        Self {
+            fixed_shape: compound(fixed),
+            moving_shape: compound(moving),
+            fixed_hull: fixed.hull(),
+            moving_hull: moving.hull(),
+            fixed: fixed.clone(),
+            moving: moving.clone(),
+        }
+    }
+
+    pub fn fixed(&self) -> &Outline {
+        &self.fixed
+    }
+
+    pub fn moving(&self) -> &Outline {
+        &self.moving
+    }
+
+    /// Signed clearance (m): the distance of the two outlines where they are apart, minus the
+    /// depth of the deepest overlap of two of their convex parts where they are not.
+    pub fn clearance(&self, q: &Configuration) -> f64 {
+        let depth = self.overlap_depth(q);
+        if depth > 0.0 {
+            return -depth;
+        }
+        let pose = Pose::new(Vector::new(q.x, q.y), q.theta);
+        query::distance(
+            &Pose::identity(),
+            &self.fixed_shape,
+            &pose,
+            &self.moving_shape,
+        )
+        .map_or(0.0, |found| found.distance)
+    }
+
+    /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
+    /// use (but still right) where the hulls overlap.
+    pub fn clearance_bound(&self, q: &Configuration) -> f64 {
+        let circles = q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius();
+        if circles > 0.0 {
+            return circles;
+        }
+        let hulls = separation(&self.fixed_hull, &self.moving_hull.placed(q));
+        if hulls >= 0.0 {
+            hulls
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
+    pub fn is_free(&self, q: &Configuration) -> bool {
+        self.clearance_bound(q) >= -TOUCH || self.overlap_depth(q) <= TOUCH
+    }
+
+    /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
+    fn overlap_depth(&self, q: &Configuration) -> f64 {
+        if q.x.hypot(q.y) >= self.fixed.circumradius() + self.moving.circumradius() {
+            return 0.0;
+        }
+        let moving_hull = self.moving_hull.placed(q);
+        if separation(&self.fixed_hull, &moving_hull) >= 0.0 {
+            return 0.0;
+        }
+        let mut deepest: f64 = 0.0;
+        for part in self.moving.parts() {
+            let placed = part.placed(q);
+            let (low, high) = placed.bounding_box();
+            for other in self.fixed.parts() {
+                let (other_low, other_high) = other.bounding_box();
+                let apart = low.x >= other_high.x
+                    || other_low.x >= high.x
+                    || low.y >= other_high.y
+                    || other_low.y >= high.y;
+                if !apart {
+                    deepest = deepest.max(-separation(other, &placed));
+                }
+            }
+        }
+        deepest
+    }
+}
+
+/// Largest separation (m) of two convex polygons over the normals of their edges: at most their
+/// distance where they are apart, minus the overlap's depth where they are not (separating axis
+/// theorem).
+pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
+    one_sided_separation(a, b).max(one_sided_separation(b, a))
+}
+
+fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
+    of.points
+        .iter()
+        .zip(&of.normals)
+        .map(|(point, normal)| support(from, normal) - normal.dot(point))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Least coordinate of a polygon along a direction.
+fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
+    part.points
+        .iter()
+        .map(|p| direction.dot(p))
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn compound(outline: &Outline) -> Compound {
+    let parts = outline
+        .parts()
+        .iter()
+        .filter_map(|part| {
+            let points = part.points.iter().map(|p| Vector::new(p.x, p.y)).collect();
+            SharedShape::convex_polyline_unmodified(points)
+        })
+        .map(|shape| (Pose::identity(), shape))
+        .collect();
+    Compound::new(parts)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::tile::outline::distance_to_segment;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    pub fn outline(points: &[[f64; 2]]) -> Outline {
+        Outline::new(points.iter().map(|p| Vector2::new(p[0], p[1])).collect()).unwrap()
+    }
+
+    pub fn square(side: f64) -> Outline {
+        let h = side / 2.0;
+        outline(&[[-h, -h], [h, -h], [h, h], [-h, h]])
+    }
+
+    /// A block with a saw blade on its right side, or its complement on the left one.
+    pub fn saw(left: bool) -> Outline {
+        let teeth = 4;
+        let mut points = Vec::new();
+        for k in 0..teeth {
+            let y = -0.2 + 0.1 * k as f64;
+            points.push([0.2, y]);
+            points.push([0.23, y + 0.05]);
+        }
+        points.push([0.2, 0.2]);
+        if left {
+            let mut mirrored = vec![[0.2, -0.2], [0.2, 0.2]];
+            mirrored.extend(points.iter().rev().map(|p| [p[0] - 0.4, p[1]]));
+            outline(&mirrored)
+        } else {
+            points.extend([[-0.2, 0.2], [-0.2, -0.2]]);
+            outline(&points)
+        }
+    }
+
+    fn plain_distance(a: &Outline, b: &Outline, q: &Configuration) -> f64 {
+        let n = b.vertices().len();
+        let placed: Vec<_> = b.vertices().iter().map(|v| q.transform(*v)).collect();
+        let mut least = f64::INFINITY;
+        for i in 0..a.vertices().len() {
+            let (p0, p1) = a.edge(i);
+            for j in 0..n {
+                let (q0, q1) = (placed[j], placed[(j + 1) % n]);
+                least = least
+                    .min(distance_to_segment(p0, q0, q1))
+                    .min(distance_to_segment(q0, p0, p1));
+            }
+        }
+        least
+    }
+
+    #[test]
+    fn clearance_agrees_with_a_plain_distance_of_segments() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for (a, b) in [(square(0.43), square(0.43)), (saw(false), saw(true))] {
+            let contact = Contact::new(&a, &b);
+            let mut compared = 0;
+            for _ in 0..3000 {
+                let q = Configuration::new(
+                    rng.random_range(-0.7..0.7),
+                    rng.random_range(-0.7..0.7),
+                    rng.random_range(-3.1..3.1),
+                );
+                let clearance = contact.clearance(&q);
+                assert_eq!(clearance >= -TOUCH, contact.is_free(&q));
+                if clearance > 0.0 {
+                    compared += 1;
+                    assert!(
+                        (clearance - plain_distance(&a, &b, &q)).abs() < 1e-9,
+                        "{q:?}"
+                    );
+                    assert!(contact.clearance_bound(&q) <= clearance + 1e-12);
+                }
+            }
+            assert!(compared > 500);
+        }
+    }
+
+    #[test]
+    fn flush_mates_touch_and_overlapping_tiles_do_not() {
+        let squares = Contact::new(&square(0.43), &square(0.43));
+        assert!(squares.is_free(&Configuration::new(0.43, 0.0, 0.0)));
+        assert!(!squares.is_free(&Configuration::new(0.4299, 0.0, 0.0)));
+        assert!((squares.clearance(&Configuration::new(0.42, 0.0, 0.0)) + 0.01).abs() < 1e-12);
+        assert!((squares.clearance(&Configuration::new(0.44, 0.0, 0.0)) - 0.01).abs() < 1e-12);
+        let saws = Contact::new(&saw(false), &saw(true));
+        assert!(saws.is_free(&Configuration::new(0.4, 0.0, 0.0)));
+        assert!(!saws.is_free(&Configuration::new(0.4, 0.001, 0.0)));
+        assert!(saws.is_free(&Configuration::new(0.4, 0.1, 0.0)));
+    }
+}
