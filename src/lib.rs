@@ -1,5 +1,6 @@
 //! tilebind: how two magnetic tiles bind.
 
+pub mod cell;
 pub mod configuration;
 pub mod contact;
 pub mod landscape;

@@ -5,6 +5,7 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+pub mod cells;
 mod constraint;
 mod motion;
 
