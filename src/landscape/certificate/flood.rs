@@ -5,10 +5,11 @@ use std::collections::BinaryHeap;
 
 use super::store::Store;
 
-/// The leaves that contain either end of a query.
+/// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
+/// them.
 pub(super) struct Seeds {
-    pub from: Vec<u32>,
-    pub to: Vec<u32>,
+    pub from: Vec<(u32, f64)>,
+    pub to: Vec<(u32, f64)>,
 }
 
 /// What two floods that rise from the ends of a query find.
@@ -33,11 +34,15 @@ const NONE: u32 = u32::MAX;
 pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
     let mut label = vec![DRY; store.len()];
     let mut parent = vec![NONE; store.len()];
+    let mut goal = vec![f64::NEG_INFINITY; store.len()];
     let mut queue = BinaryHeap::new();
     let passable = |id: u32| store.leaf(id).known.lower <= level;
     for (ids, side) in [(&seeds.from, FROM), (&seeds.to, TO)] {
-        for &id in ids.iter().filter(|&&id| passable(id)) {
-            queue.push(Reverse((ordered(f64::NEG_INFINITY), id, side, NONE)));
+        for &(id, energy) in ids.iter().filter(|seed| passable(seed.0)) {
+            queue.push(Reverse((ordered(energy), id, side, NONE)));
+            if side == TO {
+                goal[id as usize] = energy;
+            }
         }
     }
     let mut divide = Vec::new();
@@ -48,9 +53,11 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
             continue;
         }
         let leaf = store.leaf(id);
-        if before != NONE {
-            highest = highest.max(leaf.known.estimate);
-        }
+        highest = highest.max(if before == NONE {
+            goal[id as usize]
+        } else {
+            leaf.known.estimate
+        });
         let other = if side == FROM { TO } else { FROM };
         let meeting = if label[id as usize] == other {
             // Only a leaf that holds both ends is reached from both sides.
@@ -79,7 +86,7 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
         parent[id as usize] = before;
         for &n in &leaf.neighbours {
             if label[n as usize] == DRY && passable(n) {
-                queue.push(Reverse((ordered(store.leaf(n).known.estimate), n, side, id)));
+                queue.push(Reverse((ordered(key(&store.leaf(n).known)), n, side, id)));
             }
         }
     }
@@ -100,11 +107,11 @@ fn trace(parent: &[u32], mut id: u32) -> Vec<u32> {
 pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut seen = vec![false; store.len()];
     let mut goal = vec![false; store.len()];
-    for &id in &seeds.to {
+    for &(id, _) in &seeds.to {
         goal[id as usize] = true;
     }
     let mut queue = BinaryHeap::new();
-    for &id in &seeds.from {
+    for &(id, _) in &seeds.from {
         seen[id as usize] = true;
         queue.push(Reverse((ordered(store.leaf(id).known.lower), id)));
     }
@@ -128,4 +135,9 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
 fn ordered(x: f64) -> u64 {
     let bits = x.to_bits();
     if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+}
+
+fn key(known: &super::lower::Assessment) -> f64 {
+    static A: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); let alpha = *A.get_or_init(|| std::env::var("ALPHA").map_or(0.3, |a| a.parse().unwrap()));
+    known.estimate + alpha * (known.estimate - known.lower)
 }

@@ -105,6 +105,9 @@ pub struct Certifier<'a> {
     assessed: usize,
 }
 
+/// Leaves subdivided in one round at least, if the divide has as many.
+const SPLITS: usize = 256;
+
 /// Halvings of a cell of the divide in one round.
 const HALVINGS: usize = 3;
 
@@ -138,35 +141,39 @@ impl<'a> Certifier<'a> {
         let start = Instant::now();
         let assessed = self.assessed;
         let tolerance = effort.tolerance;
-        let mut best = self.proof().prove(known, tolerance / 20.0, f64::INFINITY);
+        let mut best = self.proof().prove(known, tolerance / 20.0, f64::INFINITY).ok();
         let mut improved = false;
         let mut rounds = 0;
         let mut caged = false;
         loop {
             let level = best.as_ref().map_or(f64::INFINITY, |path| path.upper - tolerance);
-            let seeds = self.seeds(from, to);
-            let found = watershed(&self.store, &seeds, level);
+            let found = watershed(&self.store, &self.seeds(from, to), level);
             if std::env::var("CERT").is_ok() { eprintln!("round {rounds} level {:.4} pass {:?} divide {} leaves {} live {} cells {} t {:?} best {:?}", level*1e3, found.pass.as_ref().map(|p| (p.0*1e3, p.1.len())), found.divide.len(), self.store.len(), self.store.live().count(), self.assessed - assessed, start.elapsed(), best.as_ref().map(|b| b.upper*1e3)); }
-            if found.divide.is_empty() {
+            let Some((pass, chain)) = found.pass else {
                 caged = best.is_none();
                 break;
-            }
-            if let Some((pass, chain)) = found.pass
-                && pass < level
-                && let Some(path) = self.proof().prove(
-                    &self.path_along(from, to, &chain),
-                    tolerance / 20.0,
-                    level + tolerance / 2.0,
-                )
-                && path.upper < level + tolerance / 2.0
-            {
-                improved = !known.is_empty();
-                best = Some(path);
-                continue;
+            };
+            let mut parts = found.divide;
+            parts.truncate((self.store.len() / 16).max(SPLITS));
+            if pass < level {
+                let (path, owners) = self.path_along(from, to, &chain);
+                match self.proof().prove(&path, tolerance / 20.0, level + tolerance / 2.0) {
+                    Ok(path) => {
+                        improved = !known.is_empty();
+                        best = Some(path);
+                        continue;
+                    }
+                    Err(point) => {
+                        let blamed = owners[point.saturating_sub(1)..(point + 1).min(owners.len())].iter();
+                        parts.extend(blamed);
+                        parts.sort_unstable();
+                        parts.dedup();
+                    }
+                }
             }
             let exhausted = self.assessed - assessed >= effort.cells
                 || effort.time.is_some_and(|limit| start.elapsed() >= limit);
-            if exhausted || !self.subdivide(&found.divide, level) {
+            if exhausted || !self.subdivide(&parts, level) {
                 break;
             }
             rounds += 1;
@@ -280,40 +287,56 @@ impl<'a> Certifier<'a> {
 
     /// The leaves that hold either end.
     fn seeds(&self, from: &Configuration, to: &End) -> Seeds {
-        let holding = |holds: &dyn Fn(&Cell) -> bool| {
+        let holding = |holds: &dyn Fn(&Cell) -> Option<f64>| {
             self.store
                 .live()
-                .filter(|(_, leaf)| holds(&self.store.cell(&leaf.key)))
-                .map(|(id, _)| id)
+                .filter_map(|(id, leaf)| Some((id, holds(&self.store.cell(&leaf.key))?)))
                 .collect()
         };
+        let at = |q: &Configuration, cell: &Cell| cell.contains(q).then_some(f64::NEG_INFINITY);
         Seeds {
-            from: holding(&|cell| cell.contains(from)),
+            from: holding(&|cell| at(from, cell)),
             to: match to {
-                End::At(to) => holding(&|cell| cell.contains(to)),
-                End::Free => holding(&|cell| self.space.is_far(&farthest(cell))),
+                End::At(to) => holding(&|cell| at(to, cell)),
+                End::Free => holding(&|cell| {
+                    let end = self.far_end(cell)?;
+                    Some(self.proof().value(&end).0)
+                }),
             },
         }
     }
 
+    /// A configuration with the tiles far apart, near the middle of a cell that holds one.
+    fn far_end(&self, cell: &Cell) -> Option<Configuration> {
+        if !self.space.is_far(&farthest(cell)) {
+            return None;
+        }
+        let centre = cell.centre;
+        let distance = centre.x.hypot(centre.y);
+        let stretch = (self.space.free_distance / distance).max(1.0) * (1.0 + 1e-12);
+        let end = Configuration::new(centre.x * stretch, centre.y * stretch, centre.theta);
+        [end, farthest(cell)]
+            .into_iter()
+            .find(|end| self.space.contains(end) && self.space.is_far(end))
+    }
+
     /// A polyline along a chain of leaves: from end to end through the leaves' centres and the
-    /// middles of what consecutive ones have in common.
-    fn path_along(&self, from: &Configuration, to: &End, chain: &[u32]) -> Vec<Configuration> {
-        let mut path = vec![*from];
-        for (k, &id) in chain.iter().enumerate() {
-            if k > 0 {
-                path.push(self.store.between(chain[k - 1], id));
-            }
-            if k > 0 && k + 1 < chain.len() {
-                path.push(self.store.cell(&self.store.leaf(id).key).centre);
+    /// middles of what consecutive ones have in common. With each point comes its leaf.
+    fn path_along(&self, from: &Configuration, to: &End, chain: &[u32]) -> (Vec<Configuration>, Vec<u32>) {
+        let mut path = vec![(*from, chain[0])];
+        for (k, &id) in chain.iter().enumerate().skip(1) {
+            path.push((self.store.between(chain[k - 1], id), id));
+            if k + 1 < chain.len() {
+                path.push((self.store.cell(&self.store.leaf(id).key).centre, id));
             }
         }
-        match (to, chain.last()) {
-            (End::At(to), _) => path.push(*to),
-            (End::Free, Some(&id)) => path.push(farthest(&self.store.cell(&self.store.leaf(id).key))),
-            (End::Free, None) => {}
-        }
-        path
+        let last = chain[chain.len() - 1];
+        let end = match to {
+            End::At(to) => Some(*to),
+            End::Free => self.far_end(&self.store.cell(&self.store.leaf(last).key)),
+        };
+        path.extend(end.map(|end| (end, last)));
+        path.into_iter().unzip()
     }
 }
 

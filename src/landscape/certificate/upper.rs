@@ -37,21 +37,30 @@ pub(super) struct PathProof<'a> {
 impl PathProof<'_> {
     /// Proves a pathway through the given points: straight stretches, lifted off contact between
     /// the two ends and refined where needed. The energy's bound is sharpened until it exceeds the
-    /// highest energy met by no more than `tolerance` (J). `None` where the pathway cannot be
-    /// proved free, or where it is found to rise above `give_up` (J).
-    pub fn prove(&self, path: &[Configuration], tolerance: f64, give_up: f64) -> Option<ProvedPath> {
-        let (first, last) = (path.first()?, path.last()?);
+    /// highest energy met by no more than `tolerance` (J).
+    ///
+    /// # Errors
+    /// The number of a point before which the pathway cannot be proved free, or rises above
+    /// `give_up` (J).
+    pub fn prove(&self, path: &[Configuration], tolerance: f64, give_up: f64) -> Result<ProvedPath, usize> {
+        let (Some(first), Some(last)) = (path.first(), path.last()) else {
+            return Err(0);
+        };
         let mut points = vec![*first];
+        let mut owners = vec![0];
         for (k, q) in path.iter().enumerate().skip(1) {
-            let next = if k + 1 == path.len() { *last } else { self.lifted(q)? };
+            let next = if k + 1 == path.len() { *last } else { self.lifted(q).ok_or(k)? };
             if self.value(&next).0 > give_up {
-                return None;
+                return Err(k);
             }
             let end = k == 1 || k + 1 == path.len();
-            self.join(&mut points, &next, end, DEPTH)?;
+            self.join(&mut points, &next, end, DEPTH).ok_or(k)?;
+            owners.resize(points.len(), k);
         }
-        let (upper, peak) = self.highest(&points, tolerance, give_up)?;
-        Some(ProvedPath { upper, peak, points })
+        let (upper, peak) = self
+            .highest(&points, tolerance, give_up)
+            .map_err(|stretch| owners[stretch + 1])?;
+        Ok(ProvedPath { upper, peak, points })
     }
 
     /// Appends a proved free way from the last point to `to`.
@@ -108,7 +117,9 @@ impl PathProof<'_> {
         (known.form.value, known.high.max(-known.low) + known.form.rounding(&[0.0; 3]))
     }
 
-    fn highest(&self, points: &[Configuration], tolerance: f64, give_up: f64) -> Option<(f64, Configuration)> {
+    /// The proved highest energy on the straight stretches between the points, and the highest
+    /// point met; or the number of a stretch that rises above `give_up`.
+    fn highest(&self, points: &[Configuration], tolerance: f64, give_up: f64) -> Result<(f64, Configuration), usize> {
         let mut floor = f64::NEG_INFINITY;
         let mut peak = points[0];
         let mut raise = |q: &Configuration| {
@@ -121,23 +132,29 @@ impl PathProof<'_> {
         };
         let mut level = points.iter().map(&mut raise).fold(f64::NEG_INFINITY, f64::max);
         let mut upper = level;
-        let mut open: Vec<(Configuration, Configuration, usize)> =
-            points.windows(2).map(|w| (w[0], w[1], 0)).collect();
-        while let Some((a, b, depth)) = open.pop() {
+        let mut open: Vec<(Configuration, Configuration, usize, usize)> = points
+            .windows(2)
+            .enumerate()
+            .map(|(k, w)| (w[0], w[1], k, 0))
+            .collect();
+        while let Some((a, b, stretch, depth)) = open.pop() {
             let known = self.bounds.enclose(&Cell::spanned_by(&a, &b));
             let highest = known.form.greatest_along(&a.step_to(&b).into()) + known.high;
             if highest <= level + tolerance || depth == DEPTH {
+                if highest > give_up {
+                    return Err(stretch);
+                }
                 upper = upper.max(highest);
                 continue;
             }
             let middle = a.interpolate(&b, 0.5);
             level = raise(&middle);
             if level > give_up {
-                return None;
+                return Err(stretch);
             }
-            open.push((a, middle, depth + 1));
-            open.push((middle, b, depth + 1));
+            open.push((a, middle, stretch, depth + 1));
+            open.push((middle, b, stretch, depth + 1));
         }
-        upper.is_finite().then_some((upper, peak))
+        Ok((upper, peak))
     }
 }
