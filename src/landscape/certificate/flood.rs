@@ -86,7 +86,7 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
         parent[id as usize] = before;
         for &n in &leaf.neighbours {
             if label[n as usize] == DRY && passable(n) {
-                queue.push(Reverse((ordered(key(&store.leaf(n).known)), n, side, id)));
+                queue.push(Reverse((ordered(if level == f64::INFINITY { store.leaf(n).known.overlap } else { key(&store.leaf(n).known) }), n, side, id)));
             }
         }
     }

@@ -12,6 +12,9 @@ pub(super) struct Assessment {
     /// A guess of the energy (J) at the free configuration nearest to the centre; it steers the
     /// search and proves nothing.
     pub estimate: f64,
+    /// How deep the tiles overlap at the centre, as a share of how far the cell moves them; 0 where
+    /// they do not. Another guess that only steers.
+    pub overlap: f64,
     /// The coordinate along which to halve the cell.
     pub axis: usize,
 }
@@ -45,6 +48,11 @@ pub(super) fn assess(
             tight = weaker;
         }
     }
+    let deepest = cuts
+        .iter()
+        .map(|cut| cut.form.value)
+        .chain(corners.iter().map(|[a, b]| a.form.value.max(b.form.value)))
+        .fold(depth, |deepest, gap| deepest.max(-gap));
     let estimate = if depth > 0.0 {
         OVERLAPPING * (1.0 + depth / cell.reach(lever))
     } else {
@@ -53,6 +61,7 @@ pub(super) fn assess(
     Some(Assessment {
         lower: tight.lower,
         estimate,
+        overlap: deepest / cell.reach(lever) + std::env::var("BETA").map_or(1.0, |a| a.parse().unwrap()) * cell.reach(lever) / lever,
         axis: widest(&tight.form, &enclosure, cell, lever),
     })
 }

@@ -178,6 +178,7 @@ mod tests {
     const KNOWN: Assessment = Assessment {
         lower: 0.0,
         estimate: 0.0,
+        overlap: 0.0,
         axis: 0,
     };
 
