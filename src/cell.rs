@@ -187,7 +187,10 @@ mod tests {
             let along = (0..=100)
                 .map(|k| at(&form, step.map(|s| s * (k as f64 / 100.0 - 0.5))))
                 .fold(f64::NEG_INFINITY, f64::max);
-            assert!((form.greatest_along(&step) - along).abs() < 1e-3 && along <= form.greatest_along(&step));
+            assert!(
+                (form.greatest_along(&step) - along).abs() < 1e-3
+                    && along <= form.greatest_along(&step)
+            );
         }
     }
 }

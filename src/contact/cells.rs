@@ -150,7 +150,11 @@ impl ContactCells {
         if cuts.iter().any(violated) || corners.iter().any(|pair| pair.iter().all(violated)) {
             return CellContact::Blocked;
         }
-        CellContact::Open { cuts, corners, depth }
+        CellContact::Open {
+            cuts,
+            corners,
+            depth,
+        }
     }
 }
 
@@ -186,7 +190,13 @@ fn probe(outline: &Outline, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdi
 
 /// The cut of a vertex of the moving tile, `arm` from its reference point, against an edge of the
 /// fixed one: `n . (p + R v - e) >= 0` with the edge's normal n and start e.
-fn fixed_edge_cut(fixed: &Outline, edge: usize, arm: Vector2<f64>, q: &Configuration, cell: &Cell) -> Cut {
+fn fixed_edge_cut(
+    fixed: &Outline,
+    edge: usize,
+    arm: Vector2<f64>,
+    q: &Configuration,
+    cell: &Cell,
+) -> Cut {
     let n = fixed.normals()[edge];
     let start = fixed.vertices()[edge];
     let turning = Vector2::new(-arm.y, arm.x);
@@ -206,7 +216,13 @@ fn fixed_edge_cut(fixed: &Outline, edge: usize, arm: Vector2<f64>, q: &Configura
 ///
 /// Along a straight motion with the steps s and t of position and angle, the third derivative of
 /// `R n . (w - p)` is at most `|w - p| t^3 + 3 s t^2`.
-fn moving_edge_cut(moving: &Outline, edge: usize, from: Vector2<f64>, q: &Configuration, cell: &Cell) -> Cut {
+fn moving_edge_cut(
+    moving: &Outline,
+    edge: usize,
+    from: Vector2<f64>,
+    q: &Configuration,
+    cell: &Cell,
+) -> Cut {
     let local = moving.normals()[edge];
     let start = moving.vertices()[edge];
     let n = q.rotation() * local;
@@ -242,7 +258,11 @@ mod tests {
     #[test]
     fn no_free_configuration_is_blocked_or_cut_off() {
         let mut rng = ChaCha8Rng::seed_from_u64(5);
-        for (a, b) in [(square(0.43), square(0.43)), (saw(false), saw(true)), (saw(true), saw(false))] {
+        for (a, b) in [
+            (square(0.43), square(0.43)),
+            (saw(false), saw(true)),
+            (saw(true), saw(false)),
+        ] {
             let contact = Contact::new(&a, &b);
             let cells = ContactCells::new(&contact);
             let (mut blocked, mut cut, mut cut_off, mut cornered) = (0, 0, 0, 0);
@@ -278,7 +298,10 @@ mod tests {
                     }
                 }
             }
-            assert!(blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5, "{blocked} {cut} {cut_off} {cornered}");
+            assert!(
+                blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5,
+                "{blocked} {cut} {cut_off} {cornered}"
+            );
         }
     }
 }

@@ -7,9 +7,10 @@
 
 pub mod cells;
 mod constraint;
+mod lift;
 mod motion;
 
-pub use constraint::{Constraint, closest_admissible};
+pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 
 use nalgebra::Vector2;
 use parry2d_f64::math::{Pose, Vector};
@@ -123,7 +124,7 @@ impl Contact {
 /// Largest separation (m) of two convex polygons over the normals of their edges: at most their
 /// distance where they are apart, minus the overlap's depth where they are not (separating axis
 /// theorem).
-fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
+pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 

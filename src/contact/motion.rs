@@ -94,7 +94,8 @@ impl Sag {
             || (0..start.points.len()).any(|k| {
                 let apart = |part: &ConvexPart| {
                     let normal = &part.normals[k];
-                    support(fixed, normal) >= normal.dot(&part.points[k]) + self.moving_axis - self.allowed
+                    support(fixed, normal)
+                        >= normal.dot(&part.points[k]) + self.moving_axis - self.allowed
                 };
                 apart(start) && apart(end)
             })

@@ -63,7 +63,10 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
             // Only a leaf that holds both ends is reached from both sides.
             Some(id)
         } else {
-            leaf.neighbours.iter().copied().find(|&n| label[n as usize] == other)
+            leaf.neighbours
+                .iter()
+                .copied()
+                .find(|&n| label[n as usize] == other)
         };
         if let Some(meeting) = meeting {
             label[id as usize] = DIVIDE;
@@ -86,7 +89,16 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
         parent[id as usize] = before;
         for &n in &leaf.neighbours {
             if label[n as usize] == DRY && passable(n) {
-                queue.push(Reverse((ordered(if level == f64::INFINITY { store.leaf(n).known.overlap } else { key(&store.leaf(n).known) }), n, side, id)));
+                queue.push(Reverse((
+                    ordered(if level == f64::INFINITY {
+                        store.leaf(n).known.overlap
+                    } else {
+                        key(&store.leaf(n).known)
+                    }),
+                    n,
+                    side,
+                    id,
+                )));
             }
         }
     }
@@ -134,10 +146,15 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
 /// A number ordered like the float.
 fn ordered(x: f64) -> u64 {
     let bits = x.to_bits();
-    if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+    if bits >> 63 == 1 {
+        !bits
+    } else {
+        bits | 1 << 63
+    }
 }
 
 fn key(known: &super::lower::Assessment) -> f64 {
-    static A: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); let alpha = *A.get_or_init(|| std::env::var("ALPHA").map_or(0.3, |a| a.parse().unwrap()));
+    static A: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    let alpha = *A.get_or_init(|| std::env::var("ALPHA").map_or(0.3, |a| a.parse().unwrap()));
     known.estimate + alpha * (known.estimate - known.lower)
 }

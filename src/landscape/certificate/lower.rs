@@ -32,7 +32,12 @@ pub(super) fn assess(
     cell: &Cell,
 ) -> Option<Assessment> {
     let verdict = contact.map_or_else(CellContact::open, |contact| contact.classify(cell));
-    let CellContact::Open { cuts, corners, depth } = verdict else {
+    let CellContact::Open {
+        cuts,
+        corners,
+        depth,
+    } = verdict
+    else {
         return None;
     };
     let enclosure = bounds.enclose(cell);
@@ -61,7 +66,8 @@ pub(super) fn assess(
     Some(Assessment {
         lower: tight.lower,
         estimate,
-        overlap: deepest / cell.reach(lever) + std::env::var("BETA").map_or(1.0, |a| a.parse().unwrap()) * cell.reach(lever) / lever,
+        overlap: deepest / cell.reach(lever)
+            + std::env::var("BETA").map_or(1.0, |a| a.parse().unwrap()) * cell.reach(lever) / lever,
         axis: widest(&tight.form, &enclosure, cell, lever),
     })
 }
@@ -83,7 +89,8 @@ fn pushed_out(energy: &Quadratic, cuts: &[Cut], corners: &[[Cut; 2]], lever: f64
         return 0.0;
     }
     let weights = [1.0, 1.0, 1.0 / (lever * lever)];
-    let product = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| a[i] * b[i] * weights[i]).sum::<f64>();
+    let product =
+        |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| a[i] * b[i] * weights[i]).sum::<f64>();
     let out = cut.form.gradient;
     -cut.form.value * product(&energy.gradient, &out) / product(&out, &out)
 }
@@ -136,7 +143,10 @@ impl Lagrangian {
                     if !candidate.is_finite() || *multiplier + candidate < 0.0 {
                         continue;
                     }
-                    let value = bound(&form.minus(candidate, &cut.form), penalty + candidate * cut.slack);
+                    let value = bound(
+                        &form.minus(candidate, &cut.form),
+                        penalty + candidate * cut.slack,
+                    );
                     if value > best {
                         (best, change) = (value, candidate);
                     }

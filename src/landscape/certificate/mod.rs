@@ -114,7 +114,11 @@ const HALVINGS: usize = 3;
 impl<'a> Certifier<'a> {
     /// A certifier for the energy `bounds` over the configurations of `space` in which the tiles
     /// of `contact`, if any, do not overlap.
-    pub fn new(bounds: &'a dyn CellBounds, contact: Option<&'a Contact>, space: &'a ConfigurationSpace) -> Self {
+    pub fn new(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+    ) -> Self {
         let mut certifier = Self {
             bounds,
             contact: contact.map(|contact| (contact, ContactCells::new(contact))),
@@ -133,7 +137,13 @@ impl<'a> Certifier<'a> {
     ///
     /// # Errors
     /// Where an end is not free or not on the table.
-    pub fn bracket(&mut self, from: &Configuration, to: &End, known: &[Configuration], effort: &Effort) -> Result<Bracket, CertifyError> {
+    pub fn bracket(
+        &mut self,
+        from: &Configuration,
+        to: &End,
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
         self.check(from)?;
         if let End::At(to) = to {
             self.check(to)?;
@@ -141,14 +151,31 @@ impl<'a> Certifier<'a> {
         let start = Instant::now();
         let assessed = self.assessed;
         let tolerance = effort.tolerance;
-        let mut best = self.proof().prove(known, tolerance / 20.0, f64::INFINITY).ok();
+        let mut best = self
+            .proof()
+            .prove(known, tolerance / 20.0, f64::INFINITY)
+            .ok();
         let mut improved = false;
         let mut rounds = 0;
         let mut caged = false;
         loop {
-            let level = best.as_ref().map_or(f64::INFINITY, |path| path.upper - tolerance);
+            let level = best
+                .as_ref()
+                .map_or(f64::INFINITY, |path| path.upper - tolerance);
             let found = watershed(&self.store, &self.seeds(from, to), level);
-            if std::env::var("CERT").is_ok() { eprintln!("round {rounds} level {:.4} pass {:?} divide {} leaves {} live {} cells {} t {:?} best {:?}", level*1e3, found.pass.as_ref().map(|p| (p.0*1e3, p.1.len())), found.divide.len(), self.store.len(), self.store.live().count(), self.assessed - assessed, start.elapsed(), best.as_ref().map(|b| b.upper*1e3)); }
+            if std::env::var("CERT").is_ok() {
+                eprintln!(
+                    "round {rounds} level {:.4} pass {:?} divide {} leaves {} live {} cells {} t {:?} best {:?}",
+                    level * 1e3,
+                    found.pass.as_ref().map(|p| (p.0 * 1e3, p.1.len())),
+                    found.divide.len(),
+                    self.store.len(),
+                    self.store.live().count(),
+                    self.assessed - assessed,
+                    start.elapsed(),
+                    best.as_ref().map(|b| b.upper * 1e3)
+                );
+            }
             let Some((pass, chain)) = found.pass else {
                 caged = best.is_none();
                 break;
@@ -157,14 +184,18 @@ impl<'a> Certifier<'a> {
             parts.truncate((self.store.len() / 16).max(SPLITS));
             if pass < level {
                 let (path, owners) = self.path_along(from, to, &chain);
-                match self.proof().prove(&path, tolerance / 20.0, level + tolerance / 2.0) {
+                match self
+                    .proof()
+                    .prove(&path, tolerance / 20.0, level + tolerance / 2.0)
+                {
                     Ok(path) => {
                         improved = !known.is_empty();
                         best = Some(path);
                         continue;
                     }
                     Err(point) => {
-                        let blamed = owners[point.saturating_sub(1)..(point + 1).min(owners.len())].iter();
+                        let blamed =
+                            owners[point.saturating_sub(1)..(point + 1).min(owners.len())].iter();
                         parts.extend(blamed);
                         parts.sort_unstable();
                         parts.dedup();
@@ -179,13 +210,20 @@ impl<'a> Certifier<'a> {
             rounds += 1;
         }
         let lower = least_level(&self.store, &self.seeds(from, to));
-        let ends = [Some(from), if let End::At(to) = to { Some(to) } else { None }];
+        let ends = [
+            Some(from),
+            if let End::At(to) = to { Some(to) } else { None },
+        ];
         let lower = ends.into_iter().flatten().fold(lower, |lower, q| {
             let (value, rounding) = self.proof().value(q);
             lower.max(value - rounding)
         });
         let (upper, pathway, saddle) = match best {
-            Some(ProvedPath { upper, peak, points }) => (Some(upper), points, Some(peak)),
+            Some(ProvedPath {
+                upper,
+                peak,
+                points,
+            }) => (Some(upper), points, Some(peak)),
             None => (None, Vec::new(), None),
         };
         Ok(Bracket {
@@ -322,7 +360,12 @@ impl<'a> Certifier<'a> {
 
     /// A polyline along a chain of leaves: from end to end through the leaves' centres and the
     /// middles of what consecutive ones have in common. With each point comes its leaf.
-    fn path_along(&self, from: &Configuration, to: &End, chain: &[u32]) -> (Vec<Configuration>, Vec<u32>) {
+    fn path_along(
+        &self,
+        from: &Configuration,
+        to: &End,
+        chain: &[u32],
+    ) -> (Vec<Configuration>, Vec<u32>) {
         let mut path = vec![(*from, chain[0])];
         for (k, &id) in chain.iter().enumerate().skip(1) {
             path.push((self.store.between(chain[k - 1], id), id));

@@ -35,7 +35,8 @@ impl Key {
     /// Whether two closed cells share a point. The angle is periodic.
     fn touches(&self, other: &Self) -> bool {
         let meet = |i: usize| {
-            self.low[i] <= other.low[i] + other.size[i] && other.low[i] <= self.low[i] + self.size[i]
+            self.low[i] <= other.low[i] + other.size[i]
+                && other.low[i] <= self.low[i] + self.size[i]
         };
         let around = |a: &Self, b: &Self| a.low[2] == 0 && b.low[2] + b.size[2] == UNITS;
         meet(0) && meet(1) && (meet(2) || around(self, other) || around(other, self))
@@ -89,7 +90,8 @@ impl Store {
     /// widened by more than its rounding, so that the boxes cover the table without gaps.
     pub fn cell(&self, key: &Key) -> Cell {
         let scale = [self.half_size[0], self.half_size[1], PI];
-        let at = |i: usize, units: u32| scale[i] * (f64::from(units) * (2.0 / f64::from(UNITS)) - 1.0);
+        let at =
+            |i: usize, units: u32| scale[i] * (f64::from(units) * (2.0 / f64::from(UNITS)) - 1.0);
         let ends: [[f64; 2]; 3] =
             std::array::from_fn(|i| [at(i, key.low[i]), at(i, key.low[i] + key.size[i])]);
         let middle = ends.map(|[a, b]| (a + b) / 2.0);
@@ -190,7 +192,12 @@ mod tests {
             free_distance: 0.9,
         };
         let mut store = Store::new(&space);
-        store.fill(&Store::first_keys().iter().map(|k| (*k, KNOWN)).collect::<Vec<_>>());
+        store.fill(
+            &Store::first_keys()
+                .iter()
+                .map(|k| (*k, KNOWN))
+                .collect::<Vec<_>>(),
+        );
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         for _ in 0..200 {
             let id = rng.random_range(0..store.len() as u32);

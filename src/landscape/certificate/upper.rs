@@ -42,14 +42,23 @@ impl PathProof<'_> {
     /// # Errors
     /// The number of a point before which the pathway cannot be proved free, or rises above
     /// `give_up` (J).
-    pub fn prove(&self, path: &[Configuration], tolerance: f64, give_up: f64) -> Result<ProvedPath, usize> {
+    pub fn prove(
+        &self,
+        path: &[Configuration],
+        tolerance: f64,
+        give_up: f64,
+    ) -> Result<ProvedPath, usize> {
         let (Some(first), Some(last)) = (path.first(), path.last()) else {
             return Err(0);
         };
         let mut points = vec![*first];
         let mut owners = vec![0];
         for (k, q) in path.iter().enumerate().skip(1) {
-            let next = if k + 1 == path.len() { *last } else { self.lifted(q).ok_or(k)? };
+            let next = if k + 1 == path.len() {
+                *last
+            } else {
+                self.lifted(q).ok_or(k)?
+            };
             if self.value(&next).0 > give_up {
                 return Err(k);
             }
@@ -60,11 +69,21 @@ impl PathProof<'_> {
         let (upper, peak) = self
             .highest(&points, tolerance, give_up)
             .map_err(|stretch| owners[stretch + 1])?;
-        Ok(ProvedPath { upper, peak, points })
+        Ok(ProvedPath {
+            upper,
+            peak,
+            points,
+        })
     }
 
     /// Appends a proved free way from the last point to `to`.
-    fn join(&self, points: &mut Vec<Configuration>, to: &Configuration, end: bool, depth: usize) -> Option<()> {
+    fn join(
+        &self,
+        points: &mut Vec<Configuration>,
+        to: &Configuration,
+        end: bool,
+        depth: usize,
+    ) -> Option<()> {
         let from = *points.last()?;
         let Some(contact) = self.contact else {
             points.push(*to);
@@ -103,7 +122,10 @@ impl PathProof<'_> {
             let constraints: Vec<Constraint> = contact
                 .constraints(&at, margin)
                 .into_iter()
-                .map(|c| Constraint { gap: c.gap - LIFT, ..c })
+                .map(|c| Constraint {
+                    gap: c.gap - LIFT,
+                    ..c
+                })
                 .collect();
             let (step, _) = closest_admissible(Vector3::zeros(), &metric, &constraints)?;
             at = at.moved(step);
@@ -113,13 +135,24 @@ impl PathProof<'_> {
 
     /// The energy (J) of one configuration, and its rounding.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
-        let known = self.bounds.enclose(&Cell { centre: *q, half: [0.0; 3] });
-        (known.form.value, known.high.max(-known.low) + known.form.rounding(&[0.0; 3]))
+        let known = self.bounds.enclose(&Cell {
+            centre: *q,
+            half: [0.0; 3],
+        });
+        (
+            known.form.value,
+            known.high.max(-known.low) + known.form.rounding(&[0.0; 3]),
+        )
     }
 
     /// The proved highest energy on the straight stretches between the points, and the highest
     /// point met; or the number of a stretch that rises above `give_up`.
-    fn highest(&self, points: &[Configuration], tolerance: f64, give_up: f64) -> Result<(f64, Configuration), usize> {
+    fn highest(
+        &self,
+        points: &[Configuration],
+        tolerance: f64,
+        give_up: f64,
+    ) -> Result<(f64, Configuration), usize> {
         let mut floor = f64::NEG_INFINITY;
         let mut peak = points[0];
         let mut raise = |q: &Configuration| {
@@ -130,7 +163,10 @@ impl PathProof<'_> {
             }
             floor
         };
-        let mut level = points.iter().map(&mut raise).fold(f64::NEG_INFINITY, f64::max);
+        let mut level = points
+            .iter()
+            .map(&mut raise)
+            .fold(f64::NEG_INFINITY, f64::max);
         let mut upper = level;
         let mut open: Vec<(Configuration, Configuration, usize, usize)> = points
             .windows(2)

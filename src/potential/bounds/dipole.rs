@@ -172,7 +172,17 @@ impl CellBounds for DipoleBounds {
             let moment = turn * magnet.moment;
             let at = Complex::new(q.x, q.y) + arm;
             let reach = travel + magnet.lever * turning;
-            let derivatives = self.far_field(at, reach, &remainder(turning, reach, magnet.lever, self.rounding, size + magnet.lever));
+            let derivatives = self.far_field(
+                at,
+                reach,
+                &remainder(
+                    turning,
+                    reach,
+                    magnet.lever,
+                    self.rounding,
+                    size + magnet.lever,
+                ),
+            );
             add_energy(&mut out.form, &derivatives, arm, moment);
             let remainder = derivatives.remainder * magnet.magnitude;
             out.low -= remainder;
@@ -267,7 +277,15 @@ impl DipoleBounds {
     }
 
     /// Adds the pairs that [`far_field`](Self::far_field) left out.
-    fn add_near(&self, out: &mut Enclosure, magnet: &Moving, at: Complex<f64>, reach: f64, theta: f64, turning: f64) {
+    fn add_near(
+        &self,
+        out: &mut Enclosure,
+        magnet: &Moving,
+        at: Complex<f64>,
+        reach: f64,
+        theta: f64,
+        turning: f64,
+    ) {
         let nearest = NEAR * reach;
         for lanes in &self.fixed {
             for k in 0..LANES {
@@ -287,7 +305,9 @@ impl DipoleBounds {
                     -0.5 * along.1 - 1.5 * across.1,
                     -0.5 * along.0 - 1.5 * across.0,
                 );
-                let least = (r - reach).max(lanes.depth[k] + magnet.depth - SLACK).max(0.0);
+                let least = (r - reach)
+                    .max(lanes.depth[k] + magnet.depth - SLACK)
+                    .max(0.0);
                 let most = r + reach;
                 let cubed = |r: f64| strength / (r * r * r);
                 let low = factor.0 * cubed(if factor.0 < 0.0 { least } else { most });
@@ -303,7 +323,11 @@ impl DipoleBounds {
                     continue;
                 }
                 let here = (-0.5 * (a - b).cos() - 1.5 * (a + b - 2.0 * phi).cos()) * cubed(r);
-                let middle = if here >= low && here <= high { here } else { (low + high) / 2.0 };
+                let middle = if here >= low && here <= high {
+                    here
+                } else {
+                    (low + high) / 2.0
+                };
                 out.form.value += middle;
                 out.low += low - middle - margin;
                 out.high += high - middle + margin;
@@ -320,15 +344,28 @@ fn cosine_range(middle: f64, half: f64) -> (f64, f64) {
     }
     let middle = crate::configuration::wrap_angle(middle).abs();
     // cos falls from 0 to pi; the angles run from middle - half to middle + half.
-    let high = if middle <= half { 1.0 } else { (middle - half).cos() + MARGIN };
-    let low = if middle + half >= PI { -1.0 } else { (middle + half).cos() - MARGIN };
+    let high = if middle <= half {
+        1.0
+    } else {
+        (middle - half).cos() + MARGIN
+    };
+    let low = if middle + half >= PI {
+        -1.0
+    } else {
+        (middle + half).cos() - MARGIN
+    };
     (low.max(-1.0), high.min(1.0))
 }
 
 /// Adds the energy of a dipole in the field to a form: value, gradient and Hessian with respect
 /// to (x, y, theta). A turn moves the dipole along `i arm`, accelerates it along `-arm`, and
 /// turns its moment likewise.
-fn add_energy(form: &mut Quadratic, field: &FieldDerivatives, arm: Complex<f64>, moment: Complex<f64>) {
+fn add_energy(
+    form: &mut Quadratic,
+    field: &FieldDerivatives,
+    arm: Complex<f64>,
+    moment: Complex<f64>,
+) {
     let first = |u: Complex<f64>| 2.0 * (u * field.first).re;
     let second = |u: Complex<f64>, v: Complex<f64>| {
         2.0 * (u * v * field.second).re + 2.0 * (u * v.conj()).re * field.second_mixed
@@ -432,7 +469,8 @@ pub(crate) mod tests {
             let enclosure = bounds.enclose(&cell);
             assert!(enclosure.low <= 0.0 && enclosure.high >= 0.0);
             for _ in 0..20 {
-                let d: [f64; 3] = std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
+                let d: [f64; 3] =
+                    std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
                 let q = cell.centre.moved(d.into());
                 if !contact.is_free(&q) {
                     continue;
@@ -472,7 +510,10 @@ pub(crate) mod tests {
         let bounds = DipoleBounds::new(&a, &b);
         let potential = DipolePotential::new(&a.magnets, &b.magnets);
         let q = Configuration::new(0.44, -0.07, 0.08);
-        let enclosure = bounds.enclose(&Cell { centre: q, half: [0.0; 3] });
+        let enclosure = bounds.enclose(&Cell {
+            centre: q,
+            half: [0.0; 3],
+        });
         let (energy, gradient) = potential.energy_and_gradient(&q);
         assert!((enclosure.form.value - energy).abs() < 1e-14);
         for i in 0..3 {
@@ -486,7 +527,10 @@ pub(crate) mod tests {
             let [xx, yy, tt, xy, xt, yt] = enclosure.form.hessian;
             let row = [[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]][i];
             for j in 0..3 {
-                assert!((slope[j] - row[j]).abs() < 1e-5 * (1.0 + row[j].abs()), "{i} {j}");
+                assert!(
+                    (slope[j] - row[j]).abs() < 1e-5 * (1.0 + row[j].abs()),
+                    "{i} {j}"
+                );
             }
         }
         assert!(enclosure.high < 1e-12, "{}", enclosure.high);

@@ -1,0 +1,137 @@
+//! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
+
+use super::base::{self, Base};
+use super::face::{FaceContent, FaceEntry, find_face};
+use super::magnet::MagnetKeys;
+use super::quantity::four_digits;
+use super::reader::{Entry, Result, Section};
+
+/// The two tiles' names, in the order in which they are stored.
+pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
+
+const TILE_KEYS: [&str; 7] = [
+    "side",
+    "sides",
+    "vertices",
+    "thickness",
+    "mass",
+    "faces",
+    "shield",
+];
+
+/// What the file says of one tile.
+pub(super) struct TileEntry<'a> {
+    /// `fixed` or `moving`.
+    pub name: &'static str,
+    pub section: Section<'a>,
+    pub base: Base,
+    faces: Vec<FaceEntry<'a>>,
+}
+
+impl<'a> TileEntry<'a> {
+    pub fn read(name: &'static str, section: Section<'a>, faces_name: &'a str) -> Result<Self> {
+        section.allow(&TILE_KEYS)?;
+        if let Some(shield) = section.get("shield") {
+            return Err(super::shield::refused(&shield));
+        }
+        let base = base::read(&section)?;
+        let faces = match section.section("faces", faces_name)? {
+            Some(faces) => face_entries(&faces, &base)?,
+            None => vec![FaceEntry::new(None, None)?; base.faces.len()],
+        };
+        Ok(Self {
+            name,
+            section,
+            base,
+            faces,
+        })
+    }
+}
+
+/// Sorts the entries of `[*.faces]` by the faces that they speak of.
+fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<'a>>> {
+    let mut known = vec!["all"];
+    known.extend(base.names.iter().flatten().map(String::as_str));
+    section.allow(&known)?;
+    let all = section.section("all", "`all`")?;
+    let entries: Vec<Entry<'a>> = section.entries();
+    base.names
+        .iter()
+        .map(|names| {
+            let named: Vec<_> = entries
+                .iter()
+                .filter(|entry| names.iter().any(|name| name == entry.key))
+                .collect();
+            if let [first, second, ..] = named.as_slice() {
+                return Err(second.key_error(
+                    format!("`{}` and `{}` are the same face", first.key, second.key),
+                    "keep one of the two",
+                ));
+            }
+            let own = named
+                .first()
+                .map(|entry| entry.section(entry.key))
+                .transpose()?;
+            FaceEntry::new(own, all)
+        })
+        .collect()
+}
+
+/// The content of every face of both tiles; mates are followed to the face that they copy.
+pub(super) fn resolve(tiles: &[TileEntry; 2], keys: MagnetKeys) -> Result<[Vec<FaceContent>; 2]> {
+    let contents = |tile: usize| {
+        (0..tiles[tile].faces.len())
+            .map(|face| resolve_face(tiles, keys, (tile, face), &mut Vec::new()))
+            .collect::<Result<Vec<_>>>()
+    };
+    Ok([contents(0)?, contents(1)?])
+}
+
+fn resolve_face(
+    tiles: &[TileEntry; 2],
+    keys: MagnetKeys,
+    (tile, face): (usize, usize),
+    on_the_way: &mut Vec<(usize, usize)>,
+) -> Result<FaceContent> {
+    let entry = &tiles[tile].faces[face];
+    let base = &tiles[tile].base.faces[face];
+    let Some(mates) = entry.mates() else {
+        return entry.content(base.length(), keys, tiles[tile].section.span());
+    };
+    let other = 1 - tile;
+    let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;
+    on_the_way.push((tile, face));
+    if on_the_way.contains(&(other, partner)) {
+        return Err(mates.error(
+            format!(
+                "{} mates {}, which in the end mates {} again",
+                name(tiles, (tile, face)),
+                name(tiles, (other, partner)),
+                name(tiles, (tile, face))
+            ),
+            "give one of these faces a code and a profile of its own",
+        ));
+    }
+    let partner_length = tiles[other].base.faces[partner].length();
+    if !same_length(base.length(), partner_length) {
+        return Err(mates.error(
+            format!(
+                "a face of {} m cannot mate a face of {} m",
+                four_digits(base.length()),
+                four_digits(partner_length)
+            ),
+            "mates need faces of equal length",
+        ));
+    }
+    let partner = resolve_face(tiles, keys, (other, partner), on_the_way)?;
+    entry.mate_of(&partner, &mates)
+}
+
+fn name(tiles: &[TileEntry; 2], (tile, face): (usize, usize)) -> String {
+    format!("{}.{}", TILES[tile], tiles[tile].base.faces[face].name)
+}
+
+/// Whether two lengths are the same but for rounding.
+pub(super) fn same_length(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.max(b)
+}

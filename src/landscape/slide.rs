@@ -1,0 +1,166 @@
+//! Motion along contact: steps that never push the tiles into each other.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use crate::configuration::Configuration;
+use crate::contact::{Constraint, Touch, closest_admissible};
+use crate::problem::Problem;
+
+/// Overlap (m) that is left in place when a configuration is pushed out of contact.
+const RESIDUAL: f64 = 1e-12;
+
+/// Contacts are looked for this far (m) beyond what a step needs.
+const MARGIN: f64 = 1e-6;
+
+/// At rest where contact leaves less than this fraction of the force.
+const EQUILIBRIUM: f64 = 1e-9;
+
+/// A step must lower the energy by this fraction of what the slope at its start promises. Half is
+/// what a step to the lowest point along a parabola fulfils: longer ones, that would swing from
+/// side to side of a valley, are refused.
+const FULFILLED: f64 = 0.5;
+
+/// A configuration with its energy (J) and the energy's gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    pub q: Configuration,
+    pub energy: f64,
+    pub gradient: Vector3<f64>,
+}
+
+impl Point {
+    pub fn new(problem: &Problem, q: Configuration) -> Self {
+        let (energy, gradient) = problem.energy_and_gradient(&q);
+        Self {
+            q,
+            energy,
+            gradient,
+        }
+    }
+}
+
+/// Length of a step in the mass metric (m).
+pub fn length(step: &Vector3<f64>, metric: &Matrix3<f64>) -> f64 {
+    step.dot(&(metric * step)).max(0.0).sqrt()
+}
+
+/// The constraints of contact within `margin` (m) of `q`.
+pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Constraint> {
+    problem
+        .contact
+        .as_ref()
+        .map_or_else(Vec::new, |contact| contact.constraints(q, margin))
+}
+
+/// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
+/// it presses on: `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of least
+/// constraint). `None` in equilibrium.
+pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
+    let metric = problem.mass_metric(point.q.theta);
+    let free = -(metric.try_inverse()? * point.gradient);
+    let strength = length(&free, &metric);
+    let mut touching = constraints(problem, &point.q, MARGIN);
+    for constraint in &mut touching {
+        constraint.gap = 0.0;
+    }
+    let (along, multipliers) = closest_admissible(free, &metric, &touching)?;
+    let size = length(&along, &metric);
+    if !(size > EQUILIBRIUM * strength && size.is_finite()) {
+        return None;
+    }
+    let pressed = touching
+        .iter()
+        .zip(multipliers)
+        .filter(|(_, multiplier)| *multiplier > 0.0)
+        .map(|(constraint, _)| constraint.touch)
+        .collect();
+    Some((along / size, pressed))
+}
+
+/// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step
+/// leads to a free configuration of lower energy.
+///
+/// Contacts that are pressed on stay closed, though the surface may curve away from the straight
+/// step; contacts in the way shorten the step or turn it aside.
+pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Point> {
+    let (direction, pressed) = downhill(problem, point)?;
+    let metric = problem.mass_metric(point.q.theta);
+    let wanted = direction * size;
+    let margin = reach(problem, &wanted) + MARGIN;
+    let near = constraints(problem, &point.q, margin);
+    let (straight, _) = closest_admissible(wanted, &metric, &near)?;
+    let promised = point.gradient.dot(&straight);
+    let moved = point.q.moved(straight);
+    let closed = if pressed.is_empty() {
+        moved
+    } else {
+        // A vertex that has slid past the end of its edge presses no longer.
+        let still: Vec<Touch> = constraints(problem, &moved, margin)
+            .iter()
+            .map(|constraint| constraint.touch)
+            .filter(|touch| pressed.contains(touch))
+            .collect();
+        close(problem, &still, &moved).unwrap_or(moved)
+    };
+    let next = Point::new(problem, settle(problem, &closed, size)?);
+    (promised < 0.0 && next.energy <= point.energy + FULFILLED * promised).then_some(next)
+}
+
+/// The configuration near `q` at which the given contacts are closed; `None` where there is none
+/// or the contacts depend on each other.
+pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<Configuration> {
+    let Some(contact) = &problem.contact else {
+        return Some(*q);
+    };
+    let mut q = *q;
+    for _ in 0..12 {
+        let rows: Vec<Constraint> = touches
+            .iter()
+            .map(|touch| contact.constraint(*touch, &q))
+            .collect();
+        let widest = rows.iter().map(|c| c.gap.abs()).fold(0.0, f64::max);
+        if widest <= 1e-13 {
+            return Some(q);
+        }
+        let inverse = problem.mass_metric(q.theta).try_inverse()?;
+        let n = rows.len();
+        let gram = DMatrix::from_fn(n, n, |a, b| {
+            rows[a].gradient.dot(&(inverse * rows[b].gradient))
+        });
+        let missing = DVector::from_fn(n, |a, _| -rows[a].gap);
+        let amounts = gram.cholesky()?.solve(&missing);
+        let push: Vector3<f64> = (0..n).map(|a| rows[a].gradient * amounts[a]).sum();
+        q = q.moved(inverse * push);
+    }
+    let gap = |touch: &Touch| contact.constraint(*touch, &q).gap.abs();
+    touches.iter().all(|touch| gap(touch) <= 1e-10).then_some(q)
+}
+
+/// How far (m) a step moves any point of the moving tile at most.
+pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
+    let radius = problem
+        .contact
+        .as_ref()
+        .map_or(0.0, |contact| contact.moving().circumradius());
+    step.xy().norm() + radius * step.z.abs()
+}
+
+/// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` where
+/// none is found or the table ends.
+pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configuration> {
+    let mut q = *q;
+    for _ in 0..12 {
+        let near = constraints(problem, &q, size + MARGIN);
+        let deepest = near.iter().map(|c| c.gap).fold(0.0, f64::min);
+        if deepest >= -RESIDUAL {
+            break;
+        }
+        let metric = problem.mass_metric(q.theta);
+        let (push, _) = closest_admissible(Vector3::zeros(), &metric, &near)?;
+        if length(&push, &metric) > 2.0 * size {
+            return None;
+        }
+        q = q.moved(push);
+    }
+    problem.is_clear(&q).then_some(q)
+}
