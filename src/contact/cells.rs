@@ -12,6 +12,7 @@
 
 use nalgebra::Vector2;
 
+use super::tree::{Below, Branch, CircleTree};
 use super::{Contact, TOUCH};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
@@ -58,133 +59,248 @@ impl CellContact {
     }
 }
 
-/// Points of an outline that are tried as witnesses of overlap, with the outline's vertices.
+/// Inner points that are tried as witnesses of overlap, at most.
+const INNER: usize = 8;
+
+/// One tile, as the other one's cells see it.
 #[derive(Clone, Debug)]
-struct Probes {
-    /// Vertices, in the outline's order, then inner points and middles of edges.
-    points: Vec<Vector2<f64>>,
-    vertices: usize,
+struct Side {
+    outline: Outline,
+    edges: CircleTree,
+    /// Points on the boundary that may lie inside the other tile: vertex i at 2 i, the middle of
+    /// edge i at 2 i + 1.
+    probes: Vec<Vector2<f64>>,
+    probe_tree: CircleTree,
+    /// Points deep inside.
+    inner: Vec<Vector2<f64>>,
 }
 
-impl Probes {
+impl Side {
     fn new(outline: &Outline) -> Self {
-        let mut points = outline.vertices().to_vec();
-        let vertices = points.len();
-        points.push(outline.centroid());
-        points.extend((0..vertices).map(|i| {
-            let (a, b) = outline.edge(i);
-            (a + b) / 2.0
-        }));
-        for part in outline.parts() {
-            points.push(part.points.iter().sum::<Vector2<f64>>() / part.points.len() as f64);
+        let edges = (0..outline.vertices().len()).map(|i| outline.edge(i));
+        let circles: Vec<_> = edges
+            .clone()
+            .map(|(a, b)| ((a + b) / 2.0, (b - a).norm() / 2.0))
+            .collect();
+        let probes: Vec<_> = edges.flat_map(|(a, b)| [a, (a + b) / 2.0]).collect();
+        let points: Vec<_> = probes.iter().map(|p| (*p, 0.0)).collect();
+        let mut inner: Vec<_> = outline
+            .parts()
+            .iter()
+            .map(|part| part.points.iter().sum::<Vector2<f64>>() / part.points.len() as f64)
+            .collect();
+        inner.push(outline.centroid());
+        inner.retain(|p| outline.contains(*p));
+        inner.sort_by(|a, b| {
+            outline
+                .signed_distance(*a)
+                .total_cmp(&outline.signed_distance(*b))
+        });
+        inner.truncate(INNER);
+        Self {
+            outline: outline.clone(),
+            edges: CircleTree::new(&circles),
+            probes,
+            probe_tree: CircleTree::new(&points),
+            inner,
         }
-        Self { points, vertices }
     }
-}
 
-/// Contact of two outlines, cell by cell.
-#[derive(Clone, Debug)]
-pub struct ContactCells {
-    fixed: Outline,
-    moving: Outline,
-    fixed_probes: Probes,
-    moving_probes: Probes,
+    /// Whether no point of the boundary is within `distance` of a point.
+    fn boundary_is_beyond(&self, at: Vector2<f64>, distance: f64) -> bool {
+        self.edges.near(at, distance, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            distance_to_segment(at, a, b) > distance
+        })
+    }
+
+    /// Whether all points within `distance` of a point are inside.
+    fn holds_disc(&self, at: Vector2<f64>, distance: f64) -> bool {
+        at.norm() < self.outline.circumradius()
+            && self.boundary_is_beyond(at, distance)
+            && self.outline.contains(at)
+    }
+
+    /// What a point at `at` that gets no farther than `reach` (m) says, given that it may come
+    /// near the boundary.
+    fn verdict(&self, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
+        let n = self.outline.vertices().len();
+        let mut near = Vec::new();
+        let mut depth = f64::INFINITY;
+        self.edges.near(at, reach, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            let distance = distance_to_segment(at, a, b);
+            if distance <= reach {
+                near.push(i);
+                depth = depth.min(distance);
+            }
+            true
+        });
+        near.sort_unstable();
+        let inside = || self.outline.contains(at);
+        match near[..] {
+            [] if inside() => Verdict::Blocked,
+            [] => Verdict::Nothing,
+            [edge] if vertex => Verdict::Edges([edge, edge]),
+            [i, j] if vertex && (i + 1 == j || (i == 0 && j + 1 == n)) => {
+                let corner = if i + 1 == j { j } else { 0 };
+                if self.outline.convex_vertices()[corner] {
+                    Verdict::Corner([i, j])
+                } else {
+                    Verdict::Edges([i, j])
+                }
+            }
+            _ if inside() => Verdict::Inside(depth),
+            _ => Verdict::Nothing,
+        }
+    }
 }
 
 /// What one point of one tile says about a cell.
 enum Verdict {
     Nothing,
     Blocked,
+    /// Inside at the centre, this deep (m), but too near to several edges to say more.
     Inside(f64),
-    Edges(Vec<usize>),
+    /// Must be on the outer side of these edges (twice the same, if it is one).
+    Edges([usize; 2]),
+    /// Must be on the outer side of one of these edges.
     Corner([usize; 2]),
+}
+
+/// Contact of two outlines, cell by cell.
+#[derive(Clone, Debug)]
+pub struct ContactCells {
+    fixed: Side,
+    moving: Side,
+}
+
+/// What is found out about a cell, bit by bit.
+#[derive(Default)]
+struct Findings {
+    cuts: Vec<Cut>,
+    corners: Vec<[Cut; 2]>,
+    depth: f64,
 }
 
 impl ContactCells {
     pub fn new(contact: &Contact) -> Self {
         Self {
-            fixed: contact.fixed().clone(),
-            moving: contact.moving().clone(),
-            fixed_probes: Probes::new(contact.fixed()),
-            moving_probes: Probes::new(contact.moving()),
+            fixed: Side::new(contact.fixed()),
+            moving: Side::new(contact.moving()),
         }
     }
 
     /// What contact says about a cell.
     pub fn classify(&self, cell: &Cell) -> CellContact {
-        let mut cuts = Vec::new();
-        let mut corners = Vec::new();
-        let mut depth: f64 = 0.0;
         let q = &cell.centre;
-        let apart = q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius();
+        let (fixed, moving) = (&self.fixed.outline, &self.moving.outline);
+        let apart = q.x.hypot(q.y) - fixed.circumradius() - moving.circumradius();
         if apart > cell.travel() + RELAXED {
             return CellContact::open();
         }
         let turn = q.rotation();
-        for (i, v) in self.moving_probes.points.iter().enumerate() {
-            let at = q.position() + turn * v;
-            let reach = cell.reach(v.norm()) + RELAXED;
-            let cut = |edge| fixed_edge_cut(&self.fixed, edge, turn * v, q, cell);
-            match probe(&self.fixed, at, reach, i < self.moving_probes.vertices) {
-                Verdict::Blocked => return CellContact::Blocked,
-                Verdict::Inside(d) => depth = depth.max(d),
-                Verdict::Edges(edges) => cuts.extend(edges.into_iter().map(cut)),
-                Verdict::Corner(edges) => corners.push(edges.map(cut)),
-                Verdict::Nothing => {}
-            }
-        }
-        for (i, w) in self.fixed_probes.points.iter().enumerate() {
-            let from = w - q.position();
-            let at = turn.inverse() * from;
-            let reach = cell.travel() + (from.norm() + cell.travel()) * cell.half[2] + RELAXED;
-            let cut = |edge| moving_edge_cut(&self.moving, edge, from, q, cell);
-            match probe(&self.moving, at, reach, i < self.fixed_probes.vertices) {
-                Verdict::Blocked => return CellContact::Blocked,
-                Verdict::Inside(d) => depth = depth.max(d),
-                Verdict::Edges(edges) => cuts.extend(edges.into_iter().map(cut)),
-                Verdict::Corner(edges) => corners.push(edges.map(cut)),
-                Verdict::Nothing => {}
-            }
-        }
-        let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
-        if cuts.iter().any(violated) || corners.iter().any(|pair| pair.iter().all(violated)) {
-            return CellContact::Blocked;
-        }
-        CellContact::Open {
-            cuts,
-            corners,
-            depth,
+        let position = q.position();
+        let mut findings = Findings::default();
+        let moving_reach =
+            |p: Vector2<f64>, radius: f64| cell.reach(p.norm() + radius) + radius + RELAXED;
+        let moving_in_fixed = Sweeping {
+            probes: &self.moving,
+            other: &self.fixed,
+            place: &|p| position + turn * p,
+            reach: &moving_reach,
+            cut: &|v, edge| fixed_edge_cut(fixed, edge, turn * v, q, cell),
+        };
+        let fixed_reach = |p: Vector2<f64>, radius: f64| {
+            let lever = (p - position).norm() + radius + cell.travel();
+            cell.reach(lever) + radius + RELAXED
+        };
+        let fixed_in_moving = Sweeping {
+            probes: &self.fixed,
+            other: &self.moving,
+            place: &|p| turn.inverse() * (p - position),
+            reach: &fixed_reach,
+            cut: &|w, edge| moving_edge_cut(moving, edge, w - position, q, cell),
+        };
+        if moving_in_fixed.look(&mut findings) && fixed_in_moving.look(&mut findings) {
+            findings.conclude(cell)
+        } else {
+            CellContact::Blocked
         }
     }
 }
 
-/// What a point at `at` that gets no farther than `reach` (m) says, `at` in the outline's frame.
-fn probe(outline: &Outline, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
-    if at.norm() > outline.circumradius() + reach {
-        return Verdict::Nothing;
+/// Looks at the points of one tile inside the other.
+struct Sweeping<'a> {
+    probes: &'a Side,
+    other: &'a Side,
+    /// Where a point is at the cell's centre, in the frame of the other tile.
+    place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
+    /// How far (m) a point anywhere in a circle gets from the circle's centre as placed.
+    reach: &'a dyn Fn(Vector2<f64>, f64) -> f64,
+    cut: &'a dyn Fn(Vector2<f64>, usize) -> Cut,
+}
+
+impl Sweeping<'_> {
+    /// Notes what the points say; false where the cell is blocked.
+    fn look(&self, findings: &mut Findings) -> bool {
+        let blocks = |p: &Vector2<f64>| {
+            self.other
+                .holds_disc((self.place)(*p), (self.reach)(*p, 0.0))
+        };
+        !self.probes.inner.iter().any(blocks)
+            && self.look_below(&self.probes.probe_tree.root(), findings)
     }
-    let n = outline.vertices().len();
-    let near: Vec<usize> = (0..n)
-        .filter(|&i| {
-            let (a, b) = outline.edge(i);
-            distance_to_segment(at, a, b) <= reach
-        })
-        .collect();
-    let inside = || outline.contains(at);
-    match near[..] {
-        [] if inside() => Verdict::Blocked,
-        [] => Verdict::Nothing,
-        [edge] if vertex => Verdict::Edges(vec![edge]),
-        [i, j] if vertex && (i + 1 == j || (i == 0 && j + 1 == n)) => {
-            let corner = if i + 1 == j { j } else { 0 };
-            if outline.convex_vertices()[corner] {
-                Verdict::Corner([i, j])
-            } else {
-                Verdict::Edges(vec![i, j])
-            }
+
+    fn look_below(&self, branch: &Branch, findings: &mut Findings) -> bool {
+        let at = (self.place)(branch.centre);
+        let reach = (self.reach)(branch.centre, branch.radius);
+        if at.norm() > self.other.outline.circumradius() + reach {
+            return true;
         }
-        _ if inside() => Verdict::Inside(-outline.signed_distance(at)),
-        _ => Verdict::Nothing,
+        if self.other.boundary_is_beyond(at, reach) {
+            return !self.other.outline.contains(at);
+        }
+        match self.probes.probe_tree.below(branch) {
+            Below::Branches(branches) => branches
+                .iter()
+                .all(|branch| self.look_below(branch, findings)),
+            Below::Pieces(pieces) => pieces.iter().all(|&k| self.look_at(k, findings)),
+        }
+    }
+
+    fn look_at(&self, k: usize, findings: &mut Findings) -> bool {
+        let p = self.probes.probes[k];
+        let reach = (self.reach)(p, 0.0);
+        match self.other.verdict((self.place)(p), reach, k % 2 == 0) {
+            Verdict::Blocked => return false,
+            Verdict::Inside(depth) => findings.depth = findings.depth.max(depth),
+            Verdict::Edges([i, j]) => {
+                findings.cuts.push((self.cut)(p, i));
+                if i != j {
+                    findings.cuts.push((self.cut)(p, j));
+                }
+            }
+            Verdict::Corner(edges) => findings.corners.push(edges.map(|edge| (self.cut)(p, edge))),
+            Verdict::Nothing => {}
+        }
+        true
+    }
+}
+
+impl Findings {
+    fn conclude(self, cell: &Cell) -> CellContact {
+        let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
+        if self.cuts.iter().any(violated)
+            || self.corners.iter().any(|pair| pair.iter().all(violated))
+        {
+            return CellContact::Blocked;
+        }
+        CellContact::Open {
+            cuts: self.cuts,
+            corners: self.corners,
+            depth: self.depth,
+        }
     }
 }
 

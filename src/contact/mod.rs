@@ -9,6 +9,8 @@ pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
+pub(crate) mod sweep;
+mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 

@@ -31,7 +31,7 @@ impl Contact {
     }
 
     fn stretch_is_free(&self, a: &Configuration, b: &Configuration, reach: f64) -> bool {
-        if reach <= SHORTEST || self.separated_throughout(a, b, TOUCH) {
+        if reach <= SHORTEST || self.separated_throughout(a, b) {
             return true;
         }
         let middle = a.interpolate(b, 0.5);
@@ -40,21 +40,13 @@ impl Contact {
             && self.stretch_is_free(&middle, b, reach / 2.0)
     }
 
-    /// Whether one separating axis for every pair of convex parts is proved to hold along the
-    /// whole motion, with overlaps up to `allowed` (m) let pass.
-    pub(crate) fn separated_throughout(
-        &self,
-        a: &Configuration,
-        b: &Configuration,
-        allowed: f64,
-    ) -> bool {
+    fn separated_throughout(&self, a: &Configuration, b: &Configuration) -> bool {
         let step = a.step_to(b);
         let (travel, turn) = (step.xy().norm(), step.z.abs());
         let farthest = a.position().norm().max(b.position().norm()) + self.fixed().circumradius();
         let sag = Sag {
             fixed_axis: turn * turn * self.moving().circumradius() / 8.0,
             moving_axis: (turn * turn * farthest + 2.0 * turn * travel) / 8.0,
-            allowed,
         };
         let hulls = (self.moving_hull.placed(a), self.moving_hull.placed(b));
         if sag.separates(&self.fixed_hull, &hulls.0, &hulls.1) {
@@ -74,8 +66,6 @@ impl Contact {
 struct Sag {
     fixed_axis: f64,
     moving_axis: f64,
-    /// Overlap (m) that is let pass.
-    allowed: f64,
 }
 
 impl Sag {
@@ -87,15 +77,14 @@ impl Sag {
             .iter()
             .zip(&fixed.normals)
             .any(|(point, normal)| {
-                let level = normal.dot(point) + self.fixed_axis - self.allowed;
+                let level = normal.dot(point) + self.fixed_axis - TOUCH;
                 support(start, normal) >= level && support(end, normal) >= level
             });
         by_fixed
             || (0..start.points.len()).any(|k| {
                 let apart = |part: &ConvexPart| {
                     let normal = &part.normals[k];
-                    support(fixed, normal)
-                        >= normal.dot(&part.points[k]) + self.moving_axis - self.allowed
+                    support(fixed, normal) >= normal.dot(&part.points[k]) + self.moving_axis - TOUCH
                 };
                 apart(start) && apart(end)
             })
@@ -130,7 +119,7 @@ mod tests {
         let contact = Contact::new(&square(0.4), &square(0.4));
         let a = Configuration::new(0.4, -0.3, 0.0);
         let b = Configuration::new(0.4, 0.3, 0.0);
-        assert!(contact.separated_throughout(&a, &b, TOUCH));
+        assert!(contact.separated_throughout(&a, &b));
         assert!(contact.motion_is_free(&a, &b));
     }
 

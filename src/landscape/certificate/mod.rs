@@ -12,6 +12,7 @@ use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::contact::cells::ContactCells;
+use crate::contact::sweep::Sweep;
 use crate::potential::bounds::CellBounds;
 
 use flood::{Seeds, least_level, watershed};
@@ -94,11 +95,28 @@ pub enum CertifyError {
     OffTheTable(Configuration),
 }
 
+/// The tiles' contact, in the forms that the two bounds need.
+struct Obstacles<'a> {
+    contact: &'a Contact,
+    cells: ContactCells,
+    sweep: Sweep,
+}
+
+impl<'a> Obstacles<'a> {
+    fn new(contact: &'a Contact) -> Self {
+        Self {
+            contact,
+            cells: ContactCells::new(contact),
+            sweep: Sweep::new(contact),
+        }
+    }
+}
+
 /// Certifies barriers of one landscape. What one query finds out about the landscape serves the
 /// next ones.
 pub struct Certifier<'a> {
     bounds: &'a dyn CellBounds,
-    contact: Option<(&'a Contact, ContactCells)>,
+    contact: Option<Obstacles<'a>>,
     space: &'a ConfigurationSpace,
     lever: f64,
     store: Store,
@@ -121,7 +139,7 @@ impl<'a> Certifier<'a> {
     ) -> Self {
         let mut certifier = Self {
             bounds,
-            contact: contact.map(|contact| (contact, ContactCells::new(contact))),
+            contact: contact.map(Obstacles::new),
             space,
             lever: contact.map_or(space.rho, |contact| contact.moving().circumradius()),
             store: Store::new(space),
@@ -248,7 +266,7 @@ impl<'a> Certifier<'a> {
             return Err(CertifyError::OffTheTable(*q));
         }
         match &self.contact {
-            Some((contact, _)) if !contact.is_free(q) => Err(CertifyError::NotFree(*q)),
+            Some(obstacles) if !obstacles.contact.is_free(q) => Err(CertifyError::NotFree(*q)),
             _ => Ok(()),
         }
     }
@@ -256,13 +274,16 @@ impl<'a> Certifier<'a> {
     fn proof(&self) -> PathProof<'_> {
         PathProof {
             bounds: self.bounds,
-            contact: self.contact.as_ref().map(|(contact, _)| *contact),
+            contact: self
+                .contact
+                .as_ref()
+                .map(|known| (known.contact, &known.sweep)),
             rho: self.space.rho,
         }
     }
 
     fn assess(&self, key: &Key) -> Option<Assessment> {
-        let cells = self.contact.as_ref().map(|(_, cells)| cells);
+        let cells = self.contact.as_ref().map(|known| &known.cells);
         assess(self.bounds, cells, self.lever, &self.store.cell(key))
     }
 

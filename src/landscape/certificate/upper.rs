@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::cell::Cell;
 use crate::configuration::Configuration;
+use crate::contact::sweep::Sweep;
 use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
 use crate::potential::bounds::CellBounds;
 
@@ -29,7 +30,7 @@ pub(super) struct ProvedPath {
 
 pub(super) struct PathProof<'a> {
     pub bounds: &'a dyn CellBounds,
-    pub contact: Option<&'a Contact>,
+    pub contact: Option<(&'a Contact, &'a Sweep)>,
     /// Metric length (m) of one radian.
     pub rho: f64,
 }
@@ -85,13 +86,13 @@ impl PathProof<'_> {
         depth: usize,
     ) -> Option<()> {
         let from = *points.last()?;
-        let Some(contact) = self.contact else {
+        let Some((_, sweep)) = self.contact else {
             points.push(*to);
             return Some(());
         };
         // The pathway's ends may touch; all else is strictly free.
         let allowed = if end { TOUCH } else { STRICT };
-        if contact.separated_throughout(&from, to, allowed) {
+        if sweep.is_free(&from, to, allowed) {
             points.push(*to);
             return Some(());
         }
@@ -105,7 +106,7 @@ impl PathProof<'_> {
 
     /// The configuration moved off contact until the tiles are [`LIFT`] apart.
     pub fn lifted(&self, q: &Configuration) -> Option<Configuration> {
-        let Some(contact) = self.contact else {
+        let Some((contact, _)) = self.contact else {
             return Some(*q);
         };
         let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.rho * self.rho));
