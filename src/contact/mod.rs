@@ -19,6 +19,7 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
 
+use self::tree::CircleTree;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::{Bounds, ConvexPart};
@@ -34,6 +35,8 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_tree: CircleTree,
+    moving_tree: CircleTree,
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
@@ -44,6 +47,8 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_tree: sweep::tree(fixed),
+            moving_tree: sweep::tree(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
@@ -107,16 +112,26 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        for part in self.moving.parts() {
-            let bounds = part.placed_bounds(q);
-            let mut placed = None;
-            for (other, other_bounds) in self.fixed.parts().iter().zip(&self.fixed_bounds) {
-                if !bounds.apart(other_bounds) {
-                    let placed = placed.get_or_insert_with(|| part.placed(q));
-                    deepest = deepest.max(-separation(other, placed));
+        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
+        let rotation = q.rotation();
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            0.0,
+            &mut |i, j| {
+                let (_, bounds, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => {
+                        let part = self.moving.parts()[j].placed(q);
+                        other.insert((j, part.bounds(), part))
+                    }
+                };
+                if !bounds.apart(&self.fixed_bounds[i]) {
+                    deepest = deepest.max(-separation(&self.fixed.parts()[i], part));
                 }
-            }
-        }
+                true
+            },
+        );
         deepest
     }
 }
