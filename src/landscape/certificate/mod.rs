@@ -17,7 +17,7 @@ use crate::potential::bounds::CellBounds;
 
 use flood::{Seeds, least_level, watershed};
 use lower::{Assessment, assess};
-use store::{Key, Store};
+use store::{Key, Leaf, Store};
 use upper::{PathProof, ProvedPath};
 
 /// Where a certified path ends.
@@ -26,6 +26,16 @@ pub enum End {
     At(Configuration),
     /// Any configuration with the tiles far apart, as the configuration space has it.
     Free,
+}
+
+impl End {
+    /// The configuration, where it is a single one.
+    pub fn configuration(&self) -> Option<&Configuration> {
+        match self {
+            Self::At(q) => Some(q),
+            Self::Free => None,
+        }
+    }
 }
 
 /// How narrow a bracket is wanted and how much work it is worth.
@@ -173,6 +183,15 @@ impl<'a> Certifier<'a> {
             .proof()
             .prove(known, tolerance / 20.0, f64::INFINITY)
             .ok();
+        // The ends are on every path.
+        let floor = [Some(from), to.configuration()]
+            .into_iter()
+            .flatten()
+            .map(|q| {
+                let (value, rounding) = self.proof().value(q);
+                value - rounding
+            })
+            .fold(f64::NEG_INFINITY, f64::max);
         let mut improved = false;
         let mut rounds = 0;
         let mut caged = false;
@@ -198,13 +217,17 @@ impl<'a> Certifier<'a> {
                 caged = best.is_none();
                 break;
             };
+            if level <= floor {
+                break;
+            }
             let mut parts = found.divide;
             parts.truncate((self.store.len() / 16).max(SPLITS));
-            if pass < level {
+            let worthwhile = level + 0.75 * tolerance;
+            if pass < worthwhile {
                 let (path, owners) = self.path_along(from, to, &chain);
                 match self
                     .proof()
-                    .prove(&path, tolerance / 20.0, level + tolerance / 2.0)
+                    .prove(&path, tolerance / 20.0, level + 0.9 * tolerance)
                 {
                     Ok(path) => {
                         improved = !known.is_empty();
@@ -228,14 +251,7 @@ impl<'a> Certifier<'a> {
             rounds += 1;
         }
         let lower = least_level(&self.store, &self.seeds(from, to));
-        let ends = [
-            Some(from),
-            if let End::At(to) = to { Some(to) } else { None },
-        ];
-        let lower = ends.into_iter().flatten().fold(lower, |lower, q| {
-            let (value, rounding) = self.proof().value(q);
-            lower.max(value - rounding)
-        });
+        let lower = lower.max(floor);
         let (upper, pathway, saddle) = match best {
             Some(ProvedPath {
                 upper,
@@ -346,18 +362,21 @@ impl<'a> Certifier<'a> {
 
     /// The leaves that hold either end.
     fn seeds(&self, from: &Configuration, to: &End) -> Seeds {
-        let holding = |holds: &dyn Fn(&Cell) -> Option<f64>| {
+        let holding = |holds: &dyn Fn(&Leaf, &Cell) -> Option<f64>| {
             self.store
                 .live()
-                .filter_map(|(id, leaf)| Some((id, holds(&self.store.cell(&leaf.key))?)))
+                .filter_map(|(id, leaf)| Some((id, holds(leaf, &self.store.cell(&leaf.key))?)))
                 .collect()
         };
         let at = |q: &Configuration, cell: &Cell| cell.contains(q).then_some(f64::NEG_INFINITY);
         Seeds {
-            from: holding(&|cell| at(from, cell)),
+            from: holding(&|_, cell| at(from, cell)),
             to: match to {
-                End::At(to) => holding(&|cell| at(to, cell)),
-                End::Free => holding(&|cell| {
+                End::At(to) => holding(&|_, cell| at(to, cell)),
+                End::Free => holding(&|leaf, cell| {
+                    if self.space.is_far(&cell.centre) {
+                        return Some(leaf.known.estimate);
+                    }
                     let end = self.far_end(cell)?;
                     Some(self.proof().value(&end).0)
                 }),
