@@ -36,6 +36,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number greater than 0 is needed".to_owned())
 }
 
+/// A number that is not negative.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x >= 0.0)
+        .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+}
+
 /// A fraction greater than 0 and less than 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
     positive(text)

@@ -100,12 +100,15 @@ pub fn pathway(pathway: &Pathway) -> String {
 
 /// The points of a pathway that are not on the straight line between their neighbours.
 fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
-    let Some(highest) = (0..pathway.len())
-        .max_by(|&a, &b| pathway[a].energy.total_cmp(&pathway[b].energy))
+    let Some(highest) =
+        (0..pathway.len()).max_by(|&a, &b| pathway[a].energy.total_cmp(&pathway[b].energy))
     else {
         return Vec::new();
     };
-    let lowest = pathway.iter().map(|p| p.energy).fold(f64::INFINITY, f64::min);
+    let lowest = pathway
+        .iter()
+        .map(|p| p.energy)
+        .fold(f64::INFINITY, f64::min);
     let allowed = ENERGY_TOLERANCE * (pathway[highest].energy - lowest);
     let mut kept = vec![pathway[0]];
     let mut here = 0;

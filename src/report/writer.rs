@@ -97,6 +97,16 @@ pub fn write(folder: &Path, files: &Files) -> Result<(), WriteError> {
     staged.settle()
 }
 
+/// Writes a file, whole or not at all.
+///
+/// # Errors
+/// Where the file system refuses.
+pub fn write_file(path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    let mut staged = Staged::default();
+    staged.add(path, content)?;
+    staged.settle()
+}
+
 /// Files of an earlier analysis that this one does not write anew.
 fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
     if !folder.join(REPORT).is_file() {
