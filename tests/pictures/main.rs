@@ -2,19 +2,18 @@
 
 mod paper_tile;
 
-use paper_tile::{BOUND, Pair, clearance};
+use paper_tile::{BOUND, Pair};
 use tilebind::landscape::map::Pair as Tiles;
 use tilebind::report::plots::{NamedPicture, Scene, draw_all};
 
 fn pictures(pair: &Pair) -> Vec<NamedPicture> {
-    let clearance = |q: &tilebind::Configuration| clearance(&pair.fixed, &pair.moving, q);
     draw_all(&Scene {
-        name: "paper-tile",
+        name: &pair.design.name,
         pair: Tiles {
-            fixed: &pair.fixed,
-            moving: &pair.moving,
+            fixed: &pair.design.fixed,
+            moving: &pair.design.moving,
             potential: &pair.potential,
-            clearance: &clearance,
+            contact: &pair.contact,
         },
         space: &pair.space,
         bound: BOUND,
@@ -32,7 +31,11 @@ fn pictures_are_compact_and_complete() {
     let pictures = pictures(&pair);
     eprintln!("{:?}", start.elapsed());
     for NamedPicture { name, picture } in &pictures {
-        eprintln!("{name}: svg {} png {}", picture.svg.len(), picture.png.len());
+        eprintln!(
+            "{name}: svg {} png {}",
+            picture.svg.len(),
+            picture.png.len()
+        );
         let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
         std::fs::write(folder.join(format!("{name}.svg")), &picture.svg).unwrap();
         std::fs::write(folder.join(format!("{name}.png")), &picture.png).unwrap();

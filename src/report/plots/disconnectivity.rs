@@ -6,7 +6,8 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Labels, Mark, Pixel, marker, polyline};
+use super::labels::Labels;
+use super::marks::{Mark, Pixel, marker, polyline};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::{Class, Scene};
@@ -119,7 +120,10 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
     let leaves: usize = trees.iter().map(Tree::leaves).sum();
     let (low, high) = extent(&trees, scale);
     Picture::draw(SIZE, |root, _| {
-        title(root, &format!("{}: which states merge at which energy", scene.name))?;
+        title(
+            root,
+            &format!("{}: which states merge at which energy", scene.name),
+        )?;
         if all.len() > classes.len() {
             let left_out = format!("{} shallower states not shown", all.len() - classes.len());
             Text::new(SMALL).colour(SOFT).write(
@@ -140,20 +144,28 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
                 .ticks(low, high)
                 .into_iter()
                 .map(|u| {
-                    let text = if u == 0.0 { "0".into() } else { scale.label(u, 1) };
+                    let text = if u == 0.0 {
+                        "0".into()
+                    } else {
+                        scale.label(u, 1)
+                    };
                     (scale.position(u), text)
                 })
                 .collect(),
             name: "energy U".into(),
         };
-        let chart = chart(root, [54.0, 20.0, 14.0, 100.0], &x_axis, &y_axis, true)?;
+        let chart = chart(root, [54.0, 20.0, 46.0, 100.0], &x_axis, &y_axis, true)?;
         let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
         let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
         polyline(root, &[left, right], INK, 1.6)?;
-        let frame = [left.0, pixel(&chart, 0.0, high).1, right.0, pixel(&chart, 0.0, low).1];
+        let frame = [
+            left.0,
+            pixel(&chart, 0.0, high).1,
+            right.0,
+            pixel(&chart, 0.0, low).1,
+        ];
         let mut drawing = Drawing {
             root,
-            scene,
             scale,
             classes,
             at: &at,
@@ -166,7 +178,23 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             let top = tree_energy(tree);
             polyline(root, &[at(x, top), (at(x, top).0, frame[1])], INK, 1.8)?;
         }
-        drawing.merge_labels()
+        drawing.merge_labels()?;
+        let mut key = "each line a kind of state: its number, its energy, \u{d7} the copies of it \
+            that symmetry makes"
+            .to_owned();
+        if scene
+            .barriers
+            .iter()
+            .any(|b| b.lower.is_some() && b.upper.is_some())
+        {
+            key.push_str("; green: certified bounds");
+        }
+        Text::new(SMALL).colour(SOFT).write(
+            root,
+            &key,
+            (100.0, f64::from(SIZE.1) - 24.0),
+            (HPos::Left, VPos::Center),
+        )
     })
     .map(Some)
 }
@@ -194,7 +222,6 @@ fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
 
 struct Drawing<'a, 'b> {
     root: &'a Area<'b>,
-    scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
     classes: &'a [Class<'a>],
     at: &'a dyn Fn(f64, f64) -> Pixel,

@@ -4,7 +4,8 @@ use nalgebra::Vector2;
 use plotters::prelude::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Labels, Mark, Pixel, marker, polygon, polyline};
+use super::labels::Labels;
+use super::marks::{Mark, Pixel, marker, polygon, polyline};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
@@ -33,7 +34,10 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
     let rows = barriers.len().div_ceil(columns);
     let height = HEAD + PANEL_HEIGHT * rows as f64;
     Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        title(root, &format!("{}: energy along the pathways out", scene.name))?;
+        title(
+            root,
+            &format!("{}: energy along the pathways out", scene.name),
+        )?;
         let (_, body) = root.split_vertically(units(HEAD));
         let areas = body.split_evenly((rows, columns));
         for (area, barrier) in areas.iter().zip(&barriers) {
@@ -98,7 +102,10 @@ fn draw_panel(
 fn shown_energies(barrier: &Barrier) -> (f64, f64) {
     let energies = || barrier.pathway.iter().map(|p| p.energy);
     let (lower, upper) = (barrier.lower, barrier.upper);
-    let high = energies().fold(upper.unwrap_or(0.0).max(barrier.saddle_energy).max(0.0), f64::max);
+    let high = energies().fold(
+        upper.unwrap_or(0.0).max(barrier.saddle_energy).max(0.0),
+        f64::max,
+    );
     let lowest = energies().fold(lower.unwrap_or(0.0).min(0.0), f64::min);
     let start = barrier.pathway[0].energy.min(0.0);
     let climb = high - start;
@@ -123,7 +130,12 @@ impl Panel<'_, '_> {
         )?;
         self.bounds()?;
         let zero = (self.at)(0.0, 0.0).1;
-        polyline(self.root, &[(self.left, zero), (self.right, zero)], INK, 1.6)?;
+        polyline(
+            self.root,
+            &[(self.left, zero), (self.right, zero)],
+            INK,
+            1.6,
+        )?;
 
         let curve: Vec<Pixel> = barrier
             .pathway
@@ -134,7 +146,12 @@ impl Panel<'_, '_> {
         for piece in &pieces {
             polyline(self.root, piece, BLUE, 2.4)?;
         }
-        let frame = [self.left + 2.0, self.top + 2.0, self.right - 2.0, self.bottom - 2.0];
+        let frame = [
+            self.left + 2.0,
+            self.top + 2.0,
+            self.right - 2.0,
+            self.bottom - 2.0,
+        ];
         let mut labels = Labels::new(frame);
         for piece in &pieces {
             labels.keep_off_line(piece);
@@ -182,7 +199,12 @@ impl Panel<'_, '_> {
         if foot.1 - saddle.1 > 12.0 {
             let (x, y) = saddle;
             polyline(self.root, &[saddle, foot], VERMILLION, 1.6)?;
-            polyline(self.root, &[(x - 4.5, y + 15.0), (x, y + 7.0), (x + 4.5, y + 15.0)], VERMILLION, 1.6)?;
+            polyline(
+                self.root,
+                &[(x - 4.5, y + 15.0), (x, y + 7.0), (x + 4.5, y + 15.0)],
+                VERMILLION,
+                1.6,
+            )?;
             labels.keep_off_line(&[saddle, foot]);
         }
         marker(self.root, Mark::Saddle, saddle, 5.0)?;
@@ -192,7 +214,13 @@ impl Panel<'_, '_> {
         let font = Text::new(SMALL).bold().colour(VERMILLION);
         labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))?;
         let text = format!("saddle {}", self.scale.label(barrier.saddle_energy, 4));
-        labels.place(self.root, &text, Text::new(SMALL), saddle, Vector2::new(0.3, -1.0))
+        labels.place(
+            self.root,
+            &text,
+            Text::new(SMALL),
+            saddle,
+            Vector2::new(0.3, -1.0),
+        )
     }
 
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
@@ -204,7 +232,11 @@ impl Panel<'_, '_> {
     ) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let name = |place: Place, energy: f64| {
-            format!("{} {}", self.scene.name_of(place), self.scale.label(energy, 4))
+            format!(
+                "{} {}",
+                self.scene.name_of(place),
+                self.scale.label(energy, 4)
+            )
         };
         let font = Text::new(SMALL);
         marker(self.root, self.scene.mark_of(barrier.from), curve[0], 6.5)?;

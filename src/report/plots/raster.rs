@@ -137,11 +137,9 @@ impl Raster {
 /// Draws `image` stretched over a rectangle (pixels: x, y, width, height).
 pub fn draw_stretched(onto: &mut Pixmap, image: &Pixmap, rectangle: [f32; 4]) {
     let [x, y, width, height] = rectangle;
-    let transform = Transform::from_scale(
-        width / image.width() as f32,
-        height / image.height() as f32,
-    )
-    .post_translate(x, y);
+    let transform =
+        Transform::from_scale(width / image.width() as f32, height / image.height() as f32)
+            .post_translate(x, y);
     let paint = PixmapPaint {
         quality: FilterQuality::Bilinear,
         ..PixmapPaint::default()

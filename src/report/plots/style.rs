@@ -225,5 +225,8 @@ pub fn chart<'a, 'b>(
 /// Where a point of a chart lies on the picture (pixels).
 pub fn pixel(chart: &Chart, x: f64, y: f64) -> (f64, f64) {
     let (x, y) = chart.backend_coord(&(x, y));
-    (f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS))
+    (
+        f64::from(x) / f64::from(UNITS),
+        f64::from(y) / f64::from(UNITS),
+    )
 }
