@@ -55,8 +55,11 @@ impl Face {
 /// A tile: a rigid, flat body with magnets.
 #[derive(Clone, Debug)]
 pub struct Tile {
+    /// Its rim, profiles included.
     pub outline: Outline,
+    /// Its faces, counter-clockwise.
     pub faces: Vec<Face>,
+    /// Its magnets, face by face.
     pub magnets: Vec<Magnet>,
     /// Mass (kg).
     pub mass: f64,
