@@ -15,11 +15,14 @@ use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
 use crate::landscape::{Barrier, Place, StateKind};
 
 const SIZE: (u32, u32) = (1000, 700);
+/// Classes shown.
 const MOST: usize = 11;
+/// Saddles this close on the pictures' scale are drawn as one.
+const SAME_LEVEL: f64 = 0.004;
 
 /// A merge tree of classes of states.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Tree {
+enum Tree {
     /// A class by its number; `None` for free tiles.
     Leaf { class: Option<usize>, energy: f64 },
     Merge {
@@ -27,16 +30,28 @@ pub enum Tree {
         energy: f64,
         /// Certified bounds of the saddle energy (J).
         bounds: Option<(f64, f64)>,
-        children: Box<[Tree; 2]>,
+        children: Vec<Tree>,
     },
 }
 
 impl Tree {
+    /// Energy (J) of a state, or of the saddle that joins several.
+    fn energy(&self) -> f64 {
+        match self {
+            Self::Leaf { energy, .. } | Self::Merge { energy, .. } => *energy,
+        }
+    }
+
     /// Lowest energy (J) of the tree's states.
     fn lowest(&self) -> f64 {
+        let children = self.children().iter().map(Tree::lowest);
+        children.fold(self.energy(), f64::min)
+    }
+
+    fn children(&self) -> &[Tree] {
         match self {
-            Self::Leaf { energy, .. } => *energy,
-            Self::Merge { children, .. } => children[0].lowest().min(children[1].lowest()),
+            Self::Leaf { .. } => &[],
+            Self::Merge { children, .. } => children,
         }
     }
 
@@ -53,23 +68,51 @@ impl Tree {
             Self::Merge { children, .. } => children.iter().map(Tree::leaves).sum(),
         }
     }
+
+    /// Two trees joined over a saddle. A tree that was joined at this very level, to the eye, gives
+    /// its children.
+    fn join(
+        trees: [Tree; 2],
+        (energy, bounds): (f64, Option<(f64, f64)>),
+        scale: &EnergyScale,
+    ) -> Self {
+        let mut children = Vec::new();
+        for tree in trees {
+            let rise = scale.position(energy) - scale.position(tree.energy());
+            match tree {
+                Self::Merge { children: own, .. } if rise < SAME_LEVEL => children.extend(own),
+                other => children.push(other),
+            }
+        }
+        children.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
+        Self::Merge {
+            energy,
+            bounds,
+            children,
+        }
+    }
+}
+
+/// Saddle energy and certified bounds (J) of a barrier as the tree sees them: tiles far apart have
+/// U = 0, and no way to them has a lower highest energy.
+fn level(barrier: &Barrier) -> (f64, Option<(f64, f64)>) {
+    let least = if [barrier.from, barrier.to].contains(&Place::Free) {
+        0.0
+    } else {
+        f64::NEG_INFINITY
+    };
+    let bounds = barrier.lower.zip(barrier.upper);
+    (
+        barrier.saddle_energy.max(least),
+        bounds.map(|(lower, upper)| (lower.max(least), upper.max(least))),
+    )
 }
 
 /// Joins classes over their barriers, the lowest saddle first. Classes that no barrier joins stay
 /// trees of their own.
-fn merge(scene: &Scene, classes: &[Class]) -> Vec<Tree> {
-    let shown = |place: Place| match place {
-        Place::Free => true,
-        Place::State(_) => scene
-            .class_of(place)
-            .is_some_and(|number| classes.iter().any(|class| class.state.class == number)),
-    };
-    let mut barriers: Vec<&Barrier> = scene
-        .barriers
-        .iter()
-        .filter(|barrier| shown(barrier.from) && shown(barrier.to))
-        .collect();
-    barriers.sort_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy));
+fn merge(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
+    let mut barriers: Vec<&Barrier> = scene.all_barriers().collect();
+    barriers.sort_by(|a, b| level(a).0.total_cmp(&level(b).0));
     let mut trees: Vec<Tree> = classes
         .iter()
         .map(|class| Tree::Leaf {
@@ -82,11 +125,14 @@ fn merge(scene: &Scene, classes: &[Class]) -> Vec<Tree> {
         energy: 0.0,
     });
     for barrier in barriers {
-        let find = |trees: &[Tree], place| {
-            let class = scene.class_of(place);
+        let find = |place: Place| {
+            let class = match place {
+                Place::Free => None,
+                Place::State(_) => Some(scene.class_of(place)?),
+            };
             trees.iter().position(|tree| tree.holds(class))
         };
-        let (Some(a), Some(b)) = (find(&trees, barrier.from), find(&trees, barrier.to)) else {
+        let (Some(a), Some(b)) = (find(barrier.from), find(barrier.to)) else {
             continue;
         };
         if a == b {
@@ -94,17 +140,8 @@ fn merge(scene: &Scene, classes: &[Class]) -> Vec<Tree> {
         }
         let second = trees.remove(a.max(b));
         let first = trees.remove(a.min(b));
-        let mut children = [first, second];
-        children.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
-        trees.push(Tree::Merge {
-            energy: barrier.saddle_energy,
-            bounds: barrier.lower.zip(barrier.upper),
-            children: Box::new(children),
-        });
+        trees.push(Tree::join([first, second], level(barrier), scale));
     }
-    trees.retain(|tree| {
-        !matches!(tree, Tree::Leaf { class: None, .. }) || scene.barriers.is_empty()
-    });
     trees.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
     trees
 }
@@ -116,7 +153,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         return Ok(None);
     }
     let classes = &all[..all.len().min(MOST)];
-    let trees = merge(scene, classes);
+    let trees = merge(scene, classes, scale);
     let leaves: usize = trees.iter().map(Tree::leaves).sum();
     let (low, high) = extent(&trees, scale);
     Picture::draw(SIZE, |root, _| {
@@ -173,9 +210,10 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             next_leaf: 0,
             merges: Vec::new(),
         };
+        drawing.labels.keep_off_line(&[left, right]);
         for tree in &trees {
             let x = drawing.tree(tree)?;
-            let top = tree_energy(tree);
+            let top = tree.energy();
             polyline(root, &[at(x, top), (at(x, top).0, frame[1])], INK, 1.8)?;
         }
         drawing.merge_labels()?;
@@ -183,8 +221,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             that symmetry makes"
             .to_owned();
         if scene
-            .barriers
-            .iter()
+            .all_barriers()
             .any(|b| b.lower.is_some() && b.upper.is_some())
         {
             key.push_str("; green: certified bounds");
@@ -199,20 +236,16 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
     .map(Some)
 }
 
-fn tree_energy(tree: &Tree) -> f64 {
-    match tree {
-        Tree::Leaf { energy, .. } | Tree::Merge { energy, .. } => *energy,
-    }
-}
-
 /// Positions from below the lowest state's label to above the highest saddle.
 fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
-    fn highest(tree: &Tree) -> f64 {
-        match tree {
-            Tree::Leaf { energy, .. } => *energy,
-            Tree::Merge { energy, bounds, .. } => bounds.map_or(*energy, |(_, up)| up.max(*energy)),
-        }
-    }
+    let highest = |tree: &Tree| match tree {
+        Tree::Merge {
+            energy,
+            bounds: Some((_, upper)),
+            ..
+        } => upper.max(*energy),
+        other => other.energy(),
+    };
     let low = trees.iter().map(Tree::lowest).fold(0.0, f64::min);
     let high = trees.iter().map(highest).fold(0.0, f64::max);
     let (low, high) = (scale.position(low), scale.position(high));
@@ -244,15 +277,16 @@ impl Drawing<'_, '_> {
                 let mut ends = Vec::new();
                 for child in children.iter() {
                     let x = self.tree(child)?;
-                    let line = [(self.at)(x, tree_energy(child)), (self.at)(x, *energy)];
+                    let line = [(self.at)(x, child.energy()), (self.at)(x, *energy)];
                     polyline(self.root, &line, INK, 1.8)?;
                     self.labels.keep_off_line(&line);
                     ends.push(x);
                 }
-                let (a, b) = ((self.at)(ends[0], *energy), (self.at)(ends[1], *energy));
-                polyline(self.root, &[a, b], INK, 1.8)?;
-                self.labels.keep_off_line(&[a, b]);
-                let x = (ends[0] + ends[1]) / 2.0;
+                let (first, last) = (ends[0], ends[ends.len() - 1]);
+                let bar = [(self.at)(first, *energy), (self.at)(last, *energy)];
+                polyline(self.root, &bar, INK, 1.8)?;
+                self.labels.keep_off_line(&bar);
+                let x = (first + last) / 2.0;
                 if let Some(bounds) = bounds {
                     self.error_bar(x, *bounds)?;
                 }

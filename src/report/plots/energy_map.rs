@@ -234,7 +234,7 @@ impl Plot<'_> {
 }
 
 fn pathways(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), PictureError> {
-    for barrier in scene.escapes() {
+    for barrier in scene.main_escapes() {
         let points: Vec<_> = barrier
             .pathway
             .iter()
@@ -244,9 +244,10 @@ fn pathways(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), 
             seamed_line(root, piece, INK, 1.8)?;
         }
     }
-    for barrier in scene.escapes() {
+    for barrier in scene.main_escapes() {
         let saddle = view.pixel(barrier.saddle.position());
-        if inside(frame, saddle) {
+        let last = barrier.pathway.last().map(|p| p.configuration);
+        if inside(frame, saddle) && last != Some(barrier.saddle) {
             marker(root, Mark::Saddle, saddle, 5.0)?;
         }
     }

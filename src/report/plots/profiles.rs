@@ -25,7 +25,7 @@ const MARGIN: [f64; 4] = [32.0, 20.0, 60.0, 80.0];
 
 /// One panel a pathway out of a state; `None` where no pathway is known.
 pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let mut barriers = scene.escapes();
+    let mut barriers = scene.main_escapes();
     barriers.truncate(MOST);
     if barriers.is_empty() {
         return Ok(None);
@@ -62,6 +62,15 @@ struct Panel<'a, 'b> {
     bottom: f64,
 }
 
+/// The length (m) a panel shows: of an end that lies below the energy `low` (J) nothing.
+fn shown_length(barrier: &Barrier, low: f64) -> f64 {
+    let path = &barrier.pathway;
+    let whole = path[path.len() - 1].s - path[0].s;
+    let seen = path.iter().rfind(|p| p.energy >= low);
+    let seen = seen.map_or(whole, |p| 1.08 * (p.s - path[0].s));
+    seen.min(whole).max(f64::MIN_POSITIVE)
+}
+
 fn draw_panel(
     area: &Area,
     root: &Area,
@@ -72,7 +81,7 @@ fn draw_panel(
     let path = &barrier.pathway;
     let (low, high) = shown_energies(barrier);
     let start = path[0].s;
-    let length = (path[path.len() - 1].s - start).max(f64::MIN_POSITIVE);
+    let length = shown_length(barrier, low);
     // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
     let (joule, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
     let (metre, metre_prefix) = prefix_of(0.999 * length);
