@@ -1,4 +1,4 @@
-//! Moving the tile along a straight line until it is clear of the other.
+//! Moving the tile along a straight line until it is clear of the other, or touches it.
 
 use nalgebra::Vector2;
 
@@ -13,13 +13,7 @@ impl Contact {
     /// Each pair of convex parts overlaps on one open interval of t, found exactly from its
     /// separating axes; the answer is the first point outside their union.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
-        let mut blocked: Vec<(f64, f64)> = Vec::new();
-        for part in self.moving().parts() {
-            let placed = part.placed(q);
-            for other in self.fixed().parts() {
-                blocked.extend(overlap_interval(other, &placed, direction));
-            }
-        }
+        let mut blocked = self.blocked(q, direction);
         blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut lifted = 0.0;
         for (start, end) in blocked {
@@ -28,6 +22,25 @@ impl Contact {
             }
         }
         lifted
+    }
+
+    /// The translation t (m) along the unit vector `direction` at which the moving tile, coming
+    /// from infinity against it, first touches the other; `None` where it passes by.
+    pub fn landing(&self, q: &Configuration, direction: Vector2<f64>) -> Option<f64> {
+        let ends = self.blocked(q, direction).into_iter().map(|(_, end)| end);
+        ends.max_by(f64::total_cmp)
+    }
+
+    /// The open intervals of translations (m) at which two convex parts overlap.
+    fn blocked(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<(f64, f64)> {
+        let mut blocked = Vec::new();
+        for part in self.moving().parts() {
+            let placed = part.placed(q);
+            for other in self.fixed().parts() {
+                blocked.extend(overlap_interval(other, &placed, direction));
+            }
+        }
+        blocked
     }
 }
 

@@ -89,7 +89,8 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH || self.overlap_depth(q) <= TOUCH
+        self.clearance_bound(q) >= -TOUCH
+            || self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -102,21 +103,32 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        for part in self.moving.parts() {
+        self.close_parts(q, |fixed, moving| {
+            deepest = deepest.max(-separation(fixed, moving));
+            true
+        });
+        deepest
+    }
+
+    /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
+    /// overlap; stops at the first for which it does not.
+    fn close_parts(
+        &self,
+        q: &Configuration,
+        mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
+    ) -> bool {
+        self.moving.parts().iter().all(|part| {
             let placed = part.placed(q);
             let (low, high) = placed.bounding_box();
-            for other in self.fixed.parts() {
+            self.fixed.parts().iter().all(|other| {
                 let (other_low, other_high) = other.bounding_box();
                 let apart = low.x >= other_high.x
                     || other_low.x >= high.x
                     || low.y >= other_high.y
                     || other_low.y >= high.y;
-                if !apart {
-                    deepest = deepest.max(-separation(other, &placed));
-                }
-            }
-        }
-        deepest
+                apart || holds(other, &placed)
+            })
+        })
     }
 }
 
@@ -127,12 +139,23 @@ pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 
+/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
+/// so.
+fn separated(a: &ConvexPart, b: &ConvexPart, least: f64) -> bool {
+    let mut all = separations(a, b).chain(separations(b, a));
+    all.any(|separation| separation >= least)
+}
+
 fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
+    separations(of, from).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How far (m) one polygon lies outside each edge of another.
+fn separations<'a>(of: &'a ConvexPart, from: &'a ConvexPart) -> impl Iterator<Item = f64> + 'a {
     of.points
         .iter()
         .zip(&of.normals)
         .map(|(point, normal)| support(from, normal) - normal.dot(point))
-        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Least coordinate of a polygon along a direction.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::map::{Grid, Pair, Sample, evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::TOUCH;
+use crate::contact::Contact;
 use crate::tile::{Face, Tile};
 
 /// Two slices in front of the target face, the moving tile's target face turned towards it.
@@ -78,29 +78,18 @@ impl<'a> Approach<'a> {
         )
     }
 
-    /// Distance along the normal (m) at which the moving tile, coming from far away, first
-    /// touches; `None` where it passes by.
-    ///
-    /// Conservative advancement (Mirtich 1996): a translation no longer than the clearance stays
-    /// free, so steps of the clearance's length close in on the contact from the free side.
-    pub fn contact_distance(&self, pair: &Pair, tilt: f64, slide: f64) -> Option<f64> {
-        const STEPS: usize = 100;
-        let reach = pair.fixed.outline.circumradius() + pair.moving.outline.circumradius();
-        let near = 1e-6 * reach;
-        let mut distance = 2.0 * reach;
-        for _ in 0..STEPS {
-            let clearance = pair
-                .contact
-                .clearance(&self.configuration(tilt, slide, distance));
-            if clearance < near {
-                return (clearance >= -TOUCH).then_some(distance);
-            }
-            if distance < -2.0 * reach {
-                return None;
-            }
-            distance -= clearance;
-        }
-        Some(distance)
+    /// The configuration with this tilt and slide in which the moving tile, coming from far away,
+    /// first touches, `gap` (m) drawn back; `None` where it passes by.
+    pub fn before_contact(
+        &self,
+        contact: &Contact,
+        tilt: f64,
+        slide: f64,
+        gap: f64,
+    ) -> Option<Configuration> {
+        let level = self.configuration(tilt, slide, 0.0);
+        let distance = contact.landing(&level, self.face.normal())?;
+        Some(self.configuration(tilt, slide, distance + gap))
     }
 }
 
@@ -109,17 +98,12 @@ impl ApproachSlices {
         let tilts = evenly(-settings.tilt, settings.tilt, settings.samples);
         let gaps = evenly(0.0, settings.gap, settings.samples);
         let slides = evenly(-settings.slide, settings.slide, settings.samples);
-        let contacts: Vec<_> = tilts
-            .par_iter()
-            .map(|&tilt| approach.contact_distance(pair, tilt, 0.0))
-            .collect();
-        let gap = sampled(pair, &tilts, &gaps, |i, gap| {
-            contacts[i].map(|contact| approach.configuration(tilts[i], 0.0, contact + gap))
+        let contact = pair.contact;
+        let gap = sampled(pair, &tilts, &gaps, |tilt, gap| {
+            approach.before_contact(contact, tilt, 0.0, gap)
         });
-        let slide = sampled(pair, &tilts, &slides, |i, slide| {
-            approach
-                .contact_distance(pair, tilts[i], slide)
-                .map(|contact| approach.configuration(tilts[i], slide, contact))
+        let slide = sampled(pair, &tilts, &slides, |tilt, slide| {
+            approach.before_contact(contact, tilt, slide, 0.0)
         });
         Self { gap, slide }
     }
@@ -129,12 +113,12 @@ fn sampled(
     pair: &Pair,
     x: &[f64],
     y: &[f64],
-    configuration: impl Fn(usize, f64) -> Option<Configuration> + Sync,
+    configuration: impl Fn(f64, f64) -> Option<Configuration> + Sync,
 ) -> Grid<Sample> {
     let values = y
         .par_iter()
         .flat_map_iter(|&y| {
-            let row: Vec<_> = (0..x.len()).map(|i| configuration(i, y)).collect();
+            let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
             let free: Vec<_> = row.iter().flatten().copied().collect();
             let mut samples = with_energies(pair.potential, &free).into_iter();
             row.into_iter()

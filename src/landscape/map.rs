@@ -122,7 +122,7 @@ pub(super) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
 /// Halvings of the step between orientations in search of the lowest energy.
 const REFINEMENTS: i32 = 5;
 /// Halvings of the step between a free and a blocked orientation in search of contact.
-const BISECTIONS: usize = 10;
+const BISECTIONS: usize = 7;
 
 /// The search for the lowest energy over theta.
 struct Search<'a> {

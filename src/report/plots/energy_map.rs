@@ -28,8 +28,8 @@ const FOOT: f64 = 156.0;
 /// Share of the enlargement's width that lies behind the bound position.
 const LABELS: f64 = 0.4;
 /// Grid points along the longer side of a map, and orientations.
-const SAMPLES: f64 = 200.0;
-const ORIENTATIONS: usize = 72;
+const SAMPLES: f64 = 160.0;
+const ORIENTATIONS: usize = 48;
 /// Pixels of an embedded image a pixel of the picture.
 const IMAGE: f64 = 0.8;
 /// Classes of states that are named.
