@@ -237,6 +237,28 @@ impl<'a> Search<'a> {
         found
     }
 
+    /// The largest clearance (m) over theta at a place.
+    fn room(&self, place: Vector2<f64>) -> f64 {
+        let clearance = |theta: f64| {
+            let q = Configuration::new(place.x, place.y, wrap_angle(theta));
+            self.pair.contact.clearance(&q)
+        };
+        let sampled = self.thetas.iter().map(|&theta| (clearance(theta), theta));
+        let Some((mut room, mut at)) = sampled.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return f64::NEG_INFINITY;
+        };
+        for k in 1..=REFINEMENTS {
+            let turn = self.step / f64::from(1 << k);
+            for theta in [at - turn, at + turn] {
+                let found = clearance(theta);
+                if found > room {
+                    (room, at) = (found, theta);
+                }
+            }
+        }
+        room
+    }
+
     /// A sample's configuration turned to either side, where that is free.
     fn turned(&self, sample: Option<&Sample>, turn: f64) -> Vec<Configuration> {
         let Some(sample) = sample else {
@@ -295,15 +317,7 @@ fn room_beside_border(search: &Search, window: &Window, grid: &Grid<Sample>) -> 
             if !at_border {
                 return if free { spacing } else { -spacing };
             }
-            let p = window.place(grid.x[column], grid.y[row]);
-            let room = search
-                .thetas
-                .iter()
-                .map(|&theta| {
-                    let q = Configuration::new(p.x, p.y, wrap_angle(theta));
-                    search.pair.contact.clearance(&q)
-                })
-                .fold(f64::NEG_INFINITY, f64::max);
+            let room = search.room(window.place(grid.x[column], grid.y[row]));
             // Where only an orientation between the sampled ones is free, that one touches.
             let room = if free { room.max(0.0) } else { room };
             room.clamp(-2.0 * spacing, 2.0 * spacing)

@@ -32,6 +32,8 @@ const SAMPLES: f64 = 160.0;
 const ORIENTATIONS: usize = 48;
 /// Pixels of an embedded image a pixel of the picture.
 const IMAGE: f64 = 0.8;
+/// Pathways drawn.
+const PATHWAYS: usize = 8;
 /// Classes of states that are named.
 const NAMED: usize = 12;
 
@@ -234,7 +236,7 @@ impl Plot<'_> {
 }
 
 fn pathways(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), PictureError> {
-    for barrier in scene.main_escapes() {
+    for barrier in scene.main_escapes().into_iter().take(PATHWAYS) {
         let points: Vec<_> = barrier
             .pathway
             .iter()
@@ -244,7 +246,7 @@ fn pathways(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), 
             seamed_line(root, piece, INK, 1.8)?;
         }
     }
-    for barrier in scene.main_escapes() {
+    for barrier in scene.main_escapes().into_iter().take(PATHWAYS) {
         let saddle = view.pixel(barrier.saddle.position());
         let last = barrier.pathway.last().map(|p| p.configuration);
         if inside(frame, saddle) && last != Some(barrier.saddle) {

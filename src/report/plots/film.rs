@@ -87,7 +87,7 @@ fn draw_frame(
     Text::new(SMALL).bold().colour(SOFT).write(
         root,
         &number.to_string(),
-        (left + 8.0, top + 6.0),
+        (left + 4.0, bottom + 9.0),
         (HPos::Left, VPos::Top),
     )?;
     let middle = (left + right) / 2.0;

@@ -14,6 +14,11 @@ fn extent(font: Text, text: &str) -> (f64, f64) {
     (1.08 * font.width(text) + 6.0, 1.25 * font.size + 2.0)
 }
 
+/// The point of a rectangle that is nearest to another point.
+fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
+    (x.clamp(left, right), y.clamp(top, bottom))
+}
+
 /// Writes a text on a pale ground, joined to `anchor` by a thin line where it is not beside it.
 fn write(
     root: &Area,
@@ -22,7 +27,7 @@ fn write(
     anchor: Pixel,
     [left, top, right, bottom]: Box4,
 ) -> Result<(), PictureError> {
-    let nearest = (anchor.0.clamp(left, right), anchor.1.clamp(top, bottom));
+    let nearest = nearest(anchor, [left, top, right, bottom]);
     if (nearest.0 - anchor.0).hypot(nearest.1 - anchor.1) > 14.0 {
         polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
         polyline(root, &[anchor, nearest], SOFT, 1.0)?;
@@ -124,6 +129,7 @@ impl Labels {
             return Ok(());
         };
         self.taken.push(place);
+        self.keep_off_line(&[anchor, nearest(anchor, place)]);
         write(root, text, font, anchor, place)
     }
 
@@ -137,7 +143,7 @@ impl Labels {
     ) -> Option<Box4> {
         let directions = 16;
         let mut candidates = Vec::new();
-        for ring in 0..7 {
+        for ring in 0..9 {
             for k in 0..directions {
                 let angle = k as f64 * std::f64::consts::TAU / directions as f64;
                 let (dx, dy) = (angle.cos(), angle.sin());

@@ -21,8 +21,22 @@ pub fn polyline(
     colour: impl Color,
     width: f64,
 ) -> Result<(), PictureError> {
-    let points: Vec<_> = points.iter().map(|p| point(*p)).collect();
-    if points.len() > 1 {
+    let Some((last, rest)) = points.split_last() else {
+        return Ok(());
+    };
+    // Points too close together to be seen apart only make the file longer.
+    let mut kept: Vec<Pixel> = Vec::with_capacity(points.len());
+    for p in rest {
+        if kept
+            .last()
+            .is_none_or(|k| (k.0 - p.0).hypot(k.1 - p.1) > 0.5)
+        {
+            kept.push(*p);
+        }
+    }
+    kept.push(*last);
+    if kept.len() > 1 {
+        let points: Vec<_> = kept.into_iter().map(point).collect();
         root.draw(&PathElement::new(points, line(colour, width)))?;
     }
     Ok(())

@@ -262,7 +262,7 @@ impl Panel<'_, '_> {
         } else {
             let exit = last_seen.unwrap_or((end.0, self.bottom));
             let text = format!("\u{2193} {text}");
-            let exit = (exit.0, exit.1 - 8.0);
+            let exit = (exit.0, exit.1 - 14.0);
             labels.place(self.root, &text, font, exit, Vector2::new(-1.0, 0.0))
         }
     }

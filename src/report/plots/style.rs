@@ -23,7 +23,8 @@ pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub const YELLOW: RGBColor = RGBColor(240, 228, 66);
 pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 
-const FAMILY: FontFamily = FontFamily::Name("Noto Sans, Helvetica, Arial, sans-serif");
+/// Fonts of about the width that labels are laid out for, the last of them any browser's own.
+pub const FAMILY: &str = "Noto Sans, Helvetica, Arial, sans-serif";
 /// Sizes of text (pixels).
 pub const TITLE: f64 = 20.0;
 pub const LABEL: f64 = 15.0;
@@ -83,7 +84,7 @@ impl Text {
         } else {
             FontStyle::Normal
         };
-        FontDesc::new(FAMILY, size, weight)
+        FontDesc::new(FontFamily::Name(FAMILY), size, weight)
             .color(&self.colour)
             .pos(Pos::new(horizontal, vertical))
     }
