@@ -33,15 +33,30 @@ impl Contact {
 
     /// The open intervals of translations (m) at which two convex parts overlap.
     fn blocked(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<(f64, f64)> {
+        let across = Vector2::new(-direction.y, direction.x);
+        let lanes: Vec<(f64, f64)> = self
+            .fixed()
+            .parts()
+            .iter()
+            .map(|part| extent(part, &across))
+            .collect();
         let mut blocked = Vec::new();
         for part in self.moving().parts() {
             let placed = part.placed(q);
-            for other in self.fixed().parts() {
-                blocked.extend(overlap_interval(other, &placed, direction));
+            let (low, high) = extent(&placed, &across);
+            for (other, lane) in self.fixed().parts().iter().zip(&lanes) {
+                if low < lane.1 && lane.0 < high {
+                    blocked.extend(overlap_interval(other, &placed, direction));
+                }
             }
         }
         blocked
     }
+}
+
+/// Least and largest coordinate of a polygon along a direction.
+fn extent(part: &ConvexPart, direction: &Vector2<f64>) -> (f64, f64) {
+    (support(part, direction), -support(part, &-direction))
 }
 
 /// The open interval of translations of `moving` along `direction` at which it overlaps `fixed`.
@@ -100,6 +115,32 @@ mod tests {
                 assert!(t > 0.0 && contact.is_free(&at(t)));
                 assert!(contact.clearance(&at(t)).abs() < 1e-9);
                 assert!(!contact.is_free(&at(t - 1e-5)));
+            }
+        }
+    }
+    #[test]
+    fn a_landing_is_the_first_touch_on_the_way_in() {
+        for contact in [
+            Contact::new(&square(0.4), &square(0.3)),
+            Contact::new(&saw(false), &saw(true)),
+        ] {
+            for i in 0..200 {
+                let angle = 0.1 * i as f64;
+                let side = 0.37 * (i % 20) as f64 / 20.0;
+                let q = Configuration::new(side * angle.sin(), -side * angle.cos(), angle);
+                let direction = Vector2::new(angle.cos(), angle.sin());
+                let at = |t: f64| {
+                    Configuration::new(q.x + direction.x * t, q.y + direction.y * t, q.theta)
+                };
+                // Conservative advancement: no step is longer than the clearance.
+                let mut t = 2.0;
+                while t > -2.0 && contact.clearance(&at(t)) > 1e-9 {
+                    t -= contact.clearance(&at(t));
+                }
+                match contact.landing(&q, direction) {
+                    Some(landing) => assert!((landing - t).abs() < 1e-6, "{landing} {t}"),
+                    None => assert!(t <= -2.0),
+                }
             }
         }
     }

@@ -18,7 +18,7 @@ use parry2d_f64::shape::{Compound, SharedShape};
 
 use crate::configuration::Configuration;
 use crate::tile::Outline;
-use crate::tile::outline::ConvexPart;
+use crate::tile::outline::{Bounds, ConvexPart};
 
 /// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
@@ -31,6 +31,7 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
 }
@@ -40,6 +41,7 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
             fixed: fixed.clone(),
@@ -118,15 +120,12 @@ impl Contact {
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
         self.moving.parts().iter().all(|part| {
-            let placed = part.placed(q);
-            let (low, high) = placed.bounding_box();
-            self.fixed.parts().iter().all(|other| {
-                let (other_low, other_high) = other.bounding_box();
-                let apart = low.x >= other_high.x
-                    || other_low.x >= high.x
-                    || low.y >= other_high.y
-                    || other_low.y >= high.y;
-                apart || holds(other, &placed)
+            let bounds = part.placed_bounds(q);
+            let mut placed = None;
+            let mut fixed = self.fixed.parts().iter().zip(&self.fixed_bounds);
+            fixed.all(|(other, other_bounds)| {
+                bounds.apart(other_bounds)
+                    || holds(other, placed.get_or_insert_with(|| part.placed(q)))
             })
         })
     }

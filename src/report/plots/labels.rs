@@ -143,7 +143,7 @@ impl Labels {
     ) -> Option<Box4> {
         let directions = 16;
         let mut candidates = Vec::new();
-        for ring in 0..9 {
+        for ring in 0..13 {
             for k in 0..directions {
                 let angle = k as f64 * std::f64::consts::TAU / directions as f64;
                 let (dx, dy) = (angle.cos(), angle.sin());

@@ -167,8 +167,7 @@ impl Panel<'_, '_> {
         }
         labels.keep_off_line(&[(self.left, zero), (self.right, zero)]);
         self.barrier(&mut labels)?;
-        let last_seen = pieces.last().and_then(|piece| piece.last()).copied();
-        self.ends(&mut labels, &curve, last_seen)
+        self.ends(&mut labels, &curve)
     }
 
     /// The certified bounds of the saddle energy as a band with its figures.
@@ -218,10 +217,6 @@ impl Panel<'_, '_> {
         }
         marker(self.root, Mark::Saddle, saddle, 5.0)?;
         labels.keep_off(saddle, 6.0);
-        let text = format!("barrier {}", self.scale.label(barrier.forward(), 4));
-        let middle = (foot.0, (foot.1 + saddle.1) / 2.0);
-        let font = Text::new(SMALL).bold().colour(VERMILLION);
-        labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))?;
         let text = format!("saddle {}", self.scale.label(barrier.saddle_energy, 4));
         labels.place(
             self.root,
@@ -229,16 +224,15 @@ impl Panel<'_, '_> {
             Text::new(SMALL),
             saddle,
             Vector2::new(0.3, -1.0),
-        )
+        )?;
+        let text = format!("barrier {}", self.scale.label(barrier.forward(), 4));
+        let middle = (foot.0, (foot.1 + saddle.1) / 2.0);
+        let font = Text::new(SMALL).bold().colour(VERMILLION);
+        labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))
     }
 
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
-    fn ends(
-        &self,
-        labels: &mut Labels,
-        curve: &[Pixel],
-        last_seen: Option<Pixel>,
-    ) -> Result<(), PictureError> {
+    fn ends(&self, labels: &mut Labels, curve: &[Pixel]) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let name = |place: Place, energy: f64| {
             format!(
@@ -260,9 +254,9 @@ impl Panel<'_, '_> {
             labels.keep_off(end, 7.0);
             labels.place(self.root, &text, font, end, Vector2::new(-0.8, -0.3))
         } else {
-            let exit = last_seen.unwrap_or((end.0, self.bottom));
             let text = format!("\u{2193} {text}");
-            let exit = (exit.0, exit.1 - 14.0);
+            let seen = curve.iter().rfind(|p| p.1 <= self.bottom - 12.0);
+            let exit = seen.copied().unwrap_or((end.0, self.bottom - 12.0));
             labels.place(self.root, &text, font, exit, Vector2::new(-1.0, 0.0))
         }
     }
