@@ -120,7 +120,7 @@ pub(super) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
 }
 
 /// Halvings of the step between orientations in search of the lowest energy.
-const REFINEMENTS: i32 = 5;
+const REFINEMENTS: i32 = 6;
 /// Halvings of the step between a free and a blocked orientation in search of contact.
 const BISECTIONS: usize = 7;
 
@@ -198,7 +198,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The free orientations at a place, and those in contact between them and blocked ones.
+    /// The free orientations at a place, those in contact between them and blocked ones, and those
+    /// in gaps narrower than a step.
     fn free_orientations(&self, place: Vector2<f64>) -> Vec<Configuration> {
         let distance = place.norm();
         if distance < self.inner {
@@ -208,55 +209,85 @@ impl<'a> Search<'a> {
         if distance >= self.outer {
             return self.thetas.iter().map(|&theta| at(theta)).collect();
         }
-        let free: Vec<_> = self.thetas.iter().map(|&t| self.is_free(&at(t))).collect();
         let count = self.thetas.len();
+        let rooms: Vec<_> = self
+            .thetas
+            .iter()
+            .map(|&t| self.room_or_free(&at(t)))
+            .collect();
         let mut found = Vec::new();
         for i in 0..count {
-            if free[i] {
-                found.push(at(self.thetas[i]));
-            }
+            let (theta, room) = (self.thetas[i], rooms[i]);
             let next = (i + 1) % count;
-            if free[i] != free[next] {
-                let after = self.thetas[next] + if next == 0 { self.period } else { 0.0 };
-                let (mut inside, mut outside) = if free[i] {
-                    (self.thetas[i], after)
-                } else {
-                    (after, self.thetas[i])
-                };
-                for _ in 0..BISECTIONS {
-                    let middle = (inside + outside) / 2.0;
-                    if self.is_free(&at(middle)) {
-                        inside = middle;
-                    } else {
-                        outside = middle;
-                    }
+            let theta_next = self.thetas[next] + if next == 0 { self.period } else { 0.0 };
+            match (room >= 0.0, rooms[next] >= 0.0) {
+                (true, false) => found.push(at(self.contact_between(place, theta, theta_next))),
+                (false, true) => found.push(at(self.contact_between(place, theta_next, theta))),
+                _ => {}
+            }
+            if room >= 0.0 {
+                found.push(at(theta));
+            } else if room >= rooms[next].max(rooms[(i + count - 1) % count])
+                && -room < self.pair.moving.outline.circumradius() * self.step
+            {
+                let (room, theta) = self.widest(place, room, theta);
+                if room >= -TOUCH {
+                    found.push(at(theta));
                 }
-                found.push(at(inside));
             }
         }
         found
     }
 
+    /// Plus infinity for a free configuration, minus the depth of the overlap (m) for a blocked
+    /// one.
+    fn room_or_free(&self, q: &Configuration) -> f64 {
+        if self.is_free(q) {
+            f64::INFINITY
+        } else {
+            self.pair.contact.clearance(q)
+        }
+    }
+
+    /// The free orientation (rad) in contact between a free and a blocked one.
+    fn contact_between(&self, place: Vector2<f64>, mut free: f64, mut blocked: f64) -> f64 {
+        for _ in 0..BISECTIONS {
+            let middle = (free + blocked) / 2.0;
+            if self.is_free(&Configuration::new(place.x, place.y, wrap_angle(middle))) {
+                free = middle;
+            } else {
+                blocked = middle;
+            }
+        }
+        free
+    }
+
     /// The largest clearance (m) over theta at a place.
     fn room(&self, place: Vector2<f64>) -> f64 {
-        let clearance = |theta: f64| {
+        let sampled = self.thetas.iter().map(|&theta| {
             let q = Configuration::new(place.x, place.y, wrap_angle(theta));
-            self.pair.contact.clearance(&q)
-        };
-        let sampled = self.thetas.iter().map(|&theta| (clearance(theta), theta));
-        let Some((mut room, mut at)) = sampled.max_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return f64::NEG_INFINITY;
-        };
+            (self.pair.contact.clearance(&q), theta)
+        });
+        let most = sampled.max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map_or(f64::NEG_INFINITY, |(room, theta)| {
+            self.widest(place, room, theta).0
+        })
+    }
+
+    /// The largest clearance (m) near an orientation and the orientation (rad) that has it, by
+    /// steps that halve.
+    fn widest(&self, place: Vector2<f64>, mut room: f64, mut theta: f64) -> (f64, f64) {
         for k in 1..=REFINEMENTS {
             let turn = self.step / f64::from(1 << k);
-            for theta in [at - turn, at + turn] {
-                let found = clearance(theta);
+            for turned in [theta - turn, theta + turn] {
+                let q = Configuration::new(place.x, place.y, wrap_angle(turned));
+                let found = self.pair.contact.clearance(&q);
                 if found > room {
-                    (room, at) = (found, theta);
+                    (room, theta) = (found, turned);
                 }
             }
         }
-        room
+        (room, theta)
     }
 
     /// A sample's configuration turned to either side, where that is free.

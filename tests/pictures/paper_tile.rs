@@ -1,9 +1,11 @@
 //! The paper's tiles with states and pathways put together by hand.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use tilebind::contact::Contact;
 use tilebind::design::Design;
+use tilebind::landscape::map::Pair as Tiles;
 use tilebind::landscape::minimum::descend;
 use tilebind::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
 use tilebind::potential::{DipolePotential, Potential};
@@ -13,19 +15,26 @@ const SIDE: f64 = 0.43;
 /// Turns that map the square onto itself.
 const TURNS: usize = 4;
 
+#[derive(Clone)]
 pub struct Pair {
     pub design: Design,
     pub contact: Contact,
     pub potential: DipolePotential,
     pub space: ConfigurationSpace,
     pub states: Vec<State>,
-    pub barriers: Vec<Barrier>,
+    pub escapes: Vec<Option<Barrier>>,
 }
 
 pub const BOUND: Configuration = Configuration::new(SIDE, 0.0, 0.0);
 
+/// The pair, put together once.
+pub fn pair() -> &'static Pair {
+    static PAIR: OnceLock<Pair> = OnceLock::new();
+    PAIR.get_or_init(Pair::new)
+}
+
 impl Pair {
-    pub fn new() -> Self {
+    fn new() -> Self {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
         let design = Design::load(&file).unwrap();
         let mut pair = Self {
@@ -34,11 +43,21 @@ impl Pair {
             space: design.space(),
             design,
             states: Vec::new(),
-            barriers: Vec::new(),
+            escapes: Vec::new(),
         };
         pair.add_states();
-        pair.add_barriers();
+        pair.escapes = vec![None; pair.states.len()];
+        pair.add_escapes();
         pair
+    }
+
+    pub fn tiles(&self) -> Tiles<'_> {
+        Tiles {
+            fixed: &self.design.fixed,
+            moving: &self.design.moving,
+            potential: &self.potential,
+            contact: &self.contact,
+        }
     }
 
     fn add_states(&mut self) {
@@ -91,7 +110,7 @@ impl Pair {
         descend(&problem, &q).way.last().unwrap().q
     }
 
-    fn add_barriers(&mut self) {
+    fn add_escapes(&mut self) {
         let copies = TURNS * TURNS;
         let off = Configuration::new(0.52, 0.02, 0.02);
         let far = Configuration::new(0.90, 0.42, 0.9);
@@ -134,7 +153,7 @@ impl Pair {
             .max_by(|a, b| a.energy.total_cmp(&b.energy))
             .unwrap();
         let margin = width.map(|share| share * saddle.energy.abs().max(1e-3));
-        self.barriers.push(Barrier {
+        self.escapes[from] = Some(Barrier {
             from: Place::State(from),
             to,
             saddle_energy: saddle.energy,

@@ -8,142 +8,43 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::labels::Labels;
 use super::marks::{Mark, Pixel, marker, polyline};
+use super::merge_tree::{Join, Tree, merge};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::{Class, Scene};
 use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
-use crate::landscape::{Barrier, Place, StateKind};
+use crate::landscape::{Place, StateKind};
 
 const SIZE: (u32, u32) = (1000, 700);
 /// Classes shown.
 const MOST: usize = 11;
-/// Saddles this close on the pictures' scale are drawn as one.
-const SAME_LEVEL: f64 = 0.004;
 
-/// A merge tree of classes of states.
-#[derive(Clone, Debug, PartialEq)]
-enum Tree {
-    /// A class by its number; `None` for free tiles.
-    Leaf { class: Option<usize>, energy: f64 },
-    Merge {
-        /// Saddle energy (J).
-        energy: f64,
-        /// Certified bounds of the saddle energy (J).
-        bounds: Option<(f64, f64)>,
-        children: Vec<Tree>,
-    },
-}
-
-impl Tree {
-    /// Energy (J) of a state, or of the saddle that joins several.
-    fn energy(&self) -> f64 {
-        match self {
-            Self::Leaf { energy, .. } | Self::Merge { energy, .. } => *energy,
-        }
-    }
-
-    /// Lowest energy (J) of the tree's states.
-    fn lowest(&self) -> f64 {
-        let children = self.children().iter().map(Tree::lowest);
-        children.fold(self.energy(), f64::min)
-    }
-
-    fn children(&self) -> &[Tree] {
-        match self {
-            Self::Leaf { .. } => &[],
-            Self::Merge { children, .. } => children,
-        }
-    }
-
-    fn holds(&self, wanted: Option<usize>) -> bool {
-        match self {
-            Self::Leaf { class, .. } => *class == wanted,
-            Self::Merge { children, .. } => children.iter().any(|child| child.holds(wanted)),
-        }
-    }
-
-    fn leaves(&self) -> usize {
-        match self {
-            Self::Leaf { .. } => 1,
-            Self::Merge { children, .. } => children.iter().map(Tree::leaves).sum(),
-        }
-    }
-
-    /// Two trees joined over a saddle. A tree that was joined at this very level, to the eye, gives
-    /// its children.
-    fn join(
-        trees: [Tree; 2],
-        (energy, bounds): (f64, Option<(f64, f64)>),
-        scale: &EnergyScale,
-    ) -> Self {
-        let mut children = Vec::new();
-        for tree in trees {
-            let rise = scale.position(energy) - scale.position(tree.energy());
-            match tree {
-                Self::Merge { children: own, .. } if rise < SAME_LEVEL => children.extend(own),
-                other => children.push(other),
-            }
-        }
-        children.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
-        Self::Merge {
-            energy,
-            bounds,
-            children,
-        }
-    }
-}
-
-/// Saddle energy and certified bounds (J) of a barrier as the tree sees them: tiles far apart have
-/// U = 0, and no way to them has a lower highest energy.
-fn level(barrier: &Barrier) -> (f64, Option<(f64, f64)>) {
-    let least = if [barrier.from, barrier.to].contains(&Place::Free) {
-        0.0
-    } else {
-        f64::NEG_INFINITY
-    };
-    let bounds = barrier.lower.zip(barrier.upper);
-    (
-        barrier.saddle_energy.max(least),
-        bounds.map(|(lower, upper)| (lower.max(least), upper.max(least))),
-    )
-}
-
-/// Joins classes over their barriers, the lowest saddle first. Classes that no barrier joins stay
-/// trees of their own.
-fn merge(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
-    let mut barriers: Vec<&Barrier> = scene.all_barriers().collect();
-    barriers.sort_by(|a, b| level(a).0.total_cmp(&level(b).0));
-    let mut trees: Vec<Tree> = classes
+/// The merge tree of the classes, with free tiles at U = 0.
+fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
+    let mut leaves: Vec<_> = classes
         .iter()
-        .map(|class| Tree::Leaf {
-            class: Some(class.state.class),
-            energy: class.state.energy,
-        })
+        .map(|class| (Some(class.state.class), class.state.energy))
         .collect();
-    trees.push(Tree::Leaf {
-        class: None,
-        energy: 0.0,
+    leaves.push((None, 0.0));
+    let joins = scene.all_barriers().filter_map(|barrier| {
+        let end = |place: Place| match place {
+            Place::Free => Some(None),
+            Place::State(_) => Some(Some(scene.class_of(place)?)),
+        };
+        // Tiles far apart have U = 0, and no way to them has a lower highest energy.
+        let least = if [barrier.from, barrier.to].contains(&Place::Free) {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        };
+        let bounds = barrier.lower.zip(barrier.upper);
+        Some(Join {
+            ends: [end(barrier.from)?, end(barrier.to)?],
+            energy: barrier.saddle_energy.max(least),
+            bounds: bounds.map(|(lower, upper)| (lower.max(least), upper.max(least))),
+        })
     });
-    for barrier in barriers {
-        let find = |place: Place| {
-            let class = match place {
-                Place::Free => None,
-                Place::State(_) => Some(scene.class_of(place)?),
-            };
-            trees.iter().position(|tree| tree.holds(class))
-        };
-        let (Some(a), Some(b)) = (find(barrier.from), find(barrier.to)) else {
-            continue;
-        };
-        if a == b {
-            continue;
-        }
-        let second = trees.remove(a.max(b));
-        let first = trees.remove(a.min(b));
-        trees.push(Tree::join([first, second], level(barrier), scale));
-    }
-    trees.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
-    trees
+    merge(leaves, joins.collect(), scale)
 }
 
 /// The graph of the lowest classes of states; `None` where there is no state.
@@ -153,7 +54,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         return Ok(None);
     }
     let classes = &all[..all.len().min(MOST)];
-    let trees = merge(scene, classes, scale);
+    let trees = merge_tree(scene, classes, scale);
     let leaves: usize = trees.iter().map(Tree::leaves).sum();
     let (low, high) = extent(&trees, scale);
     Picture::draw(SIZE, |root, _| {

@@ -18,6 +18,7 @@ mod film;
 mod heat;
 mod labels;
 mod marks;
+mod merge_tree;
 mod picture;
 mod profiles;
 mod raster;

@@ -290,3 +290,22 @@ fn above(curve: &[Pixel], floor: f64) -> Vec<Vec<Pixel>> {
     }
     pieces
 }
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_curve_is_cut_where_it_dips_below_the_floor() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 12.0), (3.0, 8.0), (4.0, 12.0)];
+        let first = vec![(0.0, 0.0), (1.0, 8.0), (1.5, 10.0)];
+        let second = vec![(2.5, 10.0), (3.0, 8.0), (3.5, 10.0)];
+        assert_eq!(above(&curve, 10.0), [first, second]);
+    }
+
+    #[test]
+    fn a_curve_above_the_floor_stays_whole() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 3.0)];
+        assert_eq!(above(&curve, 10.0), [curve.to_vec()]);
+    }
+}

@@ -67,7 +67,7 @@ impl<'a> Scene<'a> {
                 .entry(state.class)
                 .or_insert(Class { state, copies: 0 });
             entry.copies += 1;
-            if self.from_bound(state) < self.from_bound(entry.state) - 1e-9 {
+            if self.distance_from_bound(state) < self.distance_from_bound(entry.state) - 1e-9 {
                 entry.state = state;
             }
         }
@@ -77,7 +77,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Distance of a state from the bound configuration (m).
-    fn from_bound(&self, state: &State) -> f64 {
+    fn distance_from_bound(&self, state: &State) -> f64 {
         self.space.distance(&state.configuration, &self.bound)
     }
 
@@ -125,8 +125,11 @@ impl<'a> Scene<'a> {
                 _ => None,
             }
         });
-        ways.min_by(|(a, _), (b, _)| self.from_bound(a).total_cmp(&self.from_bound(b)))
-            .map(|(_, pathway)| pathway)
+        ways.min_by(|(a, _), (b, _)| {
+            self.distance_from_bound(a)
+                .total_cmp(&self.distance_from_bound(b))
+        })
+        .map(|(_, pathway)| pathway)
     }
 
     /// The marker of a place.

@@ -231,3 +231,29 @@ pub fn pixel(chart: &Chart, x: f64, y: f64) -> (f64, f64) {
         f64::from(y) / f64::from(UNITS),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_numbers_within_the_range() {
+        let labels = |axis: Axis| -> Vec<String> {
+            axis.ticks.into_iter().map(|(_, label)| label).collect()
+        };
+        let wide = labels(Axis::linear(-0.73..0.73, 7, "x (m)"));
+        assert_eq!(wide, ["\u{2212}0.5", "0.0", "0.5"]);
+        let gaps = labels(Axis::linear(0.0..86.0, 9, "gap (mm)"));
+        assert_eq!(gaps[..3], ["0", "10", "20"]);
+        assert_eq!(gaps.len(), 9);
+    }
+
+    #[test]
+    fn text_has_the_width_of_its_font() {
+        let text = Text::new(20.0);
+        assert_eq!(text.width(""), 0.0);
+        // Digits of Noto Sans are 0.572 em wide.
+        assert!((text.width("00") - 22.88).abs() < 0.01);
+        assert!(text.bold().width("m") > text.width("m"));
+    }
+}
