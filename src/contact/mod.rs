@@ -5,9 +5,12 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
+pub(crate) mod sweep;
+mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 

@@ -2,6 +2,7 @@
 
 pub mod approach;
 pub mod capture;
+pub mod certificate;
 pub mod inventory;
 pub mod map;
 pub mod meeting;
