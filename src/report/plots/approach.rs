@@ -19,9 +19,9 @@ const PANEL: (f64, f64) = (490.0, 520.0);
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [84.0, 14.0, 62.0, 84.0];
 /// Pixels of an embedded image along either side.
-const IMAGE: usize = 300;
+const IMAGE: usize = 330;
 /// Grid points along either side.
-const SAMPLES: usize = 121;
+const SAMPLES: usize = 161;
 
 /// The motion in front of the target face, and the slices to draw.
 pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {

@@ -115,7 +115,13 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         for tree in &trees {
             let x = drawing.tree(tree)?;
             let top = tree.energy();
-            polyline(root, &[at(x, top), (at(x, top).0, frame[1])], INK, 1.8)?;
+            let end = (at(x, top).0, frame[1]);
+            polyline(root, &[at(x, top), end], INK, 1.8)?;
+            if trees.len() > 1 && !tree.holds(None) {
+                let beside = (end.0 + 6.0, end.1 + 8.0);
+                let font = Text::new(SMALL).colour(SOFT);
+                font.write(root, "no way found", beside, (HPos::Left, VPos::Center))?;
+            }
         }
         drawing.merge_labels()?;
         let mut key = "each line a kind of state: its number, its energy, \u{d7} the copies of it \

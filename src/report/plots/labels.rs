@@ -149,16 +149,12 @@ impl Labels {
                 let (dx, dy) = (angle.cos(), angle.sin());
                 let away = 1.0 - (dx * outwards.x + dy * outwards.y);
                 let reach = 11.0 + 16.0 * ring as f64;
-                let centre = (
-                    x + dx * (reach + width / 2.0),
-                    y + dy * (reach + height / 2.0),
-                );
-                let place = [
-                    centre.0 - width / 2.0,
-                    centre.1 - height / 2.0,
-                    centre.0 + width / 2.0,
-                    centre.1 + height / 2.0,
-                ];
+                let place = self.moved_inside([
+                    x + dx * (reach + width / 2.0) - width / 2.0,
+                    y + dy * (reach + height / 2.0) - height / 2.0,
+                    x + dx * (reach + width / 2.0) + width / 2.0,
+                    y + dy * (reach + height / 2.0) + height / 2.0,
+                ]);
                 candidates.push((reach + 24.0 * away, place));
             }
         }
@@ -166,17 +162,24 @@ impl Labels {
         candidates
             .into_iter()
             .map(|(_, place)| place)
-            .find(|place| self.is_free(place))
+            .find(|place| self.is_free(*place))
     }
 
-    fn is_free(&self, [left, top, right, bottom]: &Box4) -> bool {
-        let [l, t, r, b] = &self.within;
-        let inside = left >= l && top >= t && right <= r && bottom <= b;
-        inside
-            && self
-                .taken
-                .iter()
-                .all(|[l, t, r, b]| right <= l || r <= left || bottom <= t || b <= top)
+    /// A rectangle moved into the frame, as far as it fits.
+    fn moved_inside(&self, [left, top, right, bottom]: Box4) -> Box4 {
+        let [l, t, r, b] = self.within;
+        let dx = (l - left).max(0.0) - (right - r).max(0.0);
+        let dy = (t - top).max(0.0) - (bottom - b).max(0.0);
+        [left + dx, top + dy, right + dx, bottom + dy]
+    }
+
+    fn is_free(&self, [left, top, right, bottom]: Box4) -> bool {
+        // Moving a rectangle inside rounds it.
+        const ROUNDING: f64 = 1e-6;
+        let [l, t, r, b] = self.within;
+        let over = [l - left, t - top, right - r, bottom - b];
+        let apart = |[l, t, r, b]: &Box4| right <= *l || *r <= left || bottom <= *t || *b <= top;
+        over.iter().all(|o| *o <= ROUNDING) && self.taken.iter().all(apart)
     }
 }
 

@@ -65,7 +65,8 @@ impl Tree {
         }
     }
 
-    fn holds(&self, wanted: Option<usize>) -> bool {
+    /// Whether a class is among the tree's states.
+    pub fn holds(&self, wanted: Option<usize>) -> bool {
         match self {
             Self::Leaf { class, .. } => *class == wanted,
             Self::Merge { children, .. } => children.iter().any(|child| child.holds(wanted)),
