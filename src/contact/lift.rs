@@ -34,22 +34,26 @@ impl Contact {
     /// The open intervals of translations (m) at which two convex parts overlap.
     fn blocked(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<(f64, f64)> {
         let across = Vector2::new(-direction.y, direction.x);
-        let lanes: Vec<(f64, f64)> = self
-            .fixed()
-            .parts()
-            .iter()
-            .map(|part| extent(part, &across))
-            .collect();
-        let mut blocked = Vec::new();
-        for part in self.moving().parts() {
-            let placed = part.placed(q);
-            let (low, high) = extent(&placed, &across);
-            for (other, lane) in self.fixed().parts().iter().zip(&lanes) {
-                if low < lane.1 && lane.0 < high {
-                    blocked.extend(overlap_interval(other, &placed, direction));
+        let rotation = q.rotation();
+        let mut blocked: Vec<(f64, f64)> = Vec::new();
+        let mut placed: Option<(usize, ConvexPart)> = None;
+        self.fixed_tree.pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            &|between, radii| between.dot(&across).abs() > radii,
+            &mut |i, j| {
+                let (_, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => other.insert((j, self.moving().parts()[j].placed(q))),
+                };
+                let fixed = &self.fixed().parts()[i];
+                let (lane, own) = (extent(fixed, &across), extent(part, &across));
+                if own.0 < lane.1 && lane.0 < own.1 {
+                    blocked.extend(overlap_interval(fixed, part, direction));
                 }
-            }
-        }
+                true
+            },
+        );
         blocked
     }
 }

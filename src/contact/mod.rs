@@ -19,6 +19,7 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
 
+use self::tree::CircleTree;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::{Bounds, ConvexPart};
@@ -34,6 +35,8 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_tree: CircleTree,
+    moving_tree: CircleTree,
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
@@ -44,6 +47,8 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_tree: sweep::tree(fixed),
+            moving_tree: sweep::tree(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
@@ -122,15 +127,23 @@ impl Contact {
         q: &Configuration,
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
-        self.moving.parts().iter().all(|part| {
-            let bounds = part.placed_bounds(q);
-            let mut placed = None;
-            let mut fixed = self.fixed.parts().iter().zip(&self.fixed_bounds);
-            fixed.all(|(other, other_bounds)| {
-                bounds.apart(other_bounds)
-                    || holds(other, placed.get_or_insert_with(|| part.placed(q)))
-            })
-        })
+        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
+        let rotation = q.rotation();
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            0.0,
+            &mut |i, j| {
+                let (_, bounds, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => {
+                        let part = self.moving.parts()[j].placed(q);
+                        other.insert((j, part.bounds(), part))
+                    }
+                };
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
+            },
+        )
     }
 }
 
