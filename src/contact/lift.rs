@@ -1,4 +1,4 @@
-//! Moving the tile along a straight line until it is clear of the other.
+//! Moving the tile along a straight line until it is clear of the other, or touches it.
 
 use nalgebra::Vector2;
 
@@ -21,6 +21,7 @@ impl Contact {
             return 0.0;
         }
         let mut touching = self.touching_translations(q, direction);
+        touching.retain(|t| *t > 0.0);
         touching.sort_by(f64::total_cmp);
         touching.dedup_by(|a, b| *a - *b < TOUCH);
         let at = |t: f64| Configuration::new(q.x + direction.x * t, q.y + direction.y * t, q.theta);
@@ -28,7 +29,14 @@ impl Contact {
         pocket.or(touching.last()).copied().unwrap_or(0.0)
     }
 
-    /// All translations t > 0 along a direction at which a vertex meets an edge.
+    /// The translation t (m) along the unit vector `direction` at which the moving tile, coming
+    /// from infinity against it, first touches the other; `None` where it passes by.
+    pub fn landing(&self, q: &Configuration, direction: Vector2<f64>) -> Option<f64> {
+        let touching = self.touching_translations(q, direction);
+        touching.into_iter().max_by(f64::total_cmp)
+    }
+
+    /// All translations t along a direction at which a vertex meets an edge.
     fn touching_translations(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<f64> {
         let rotation = q.rotation();
         let seen = |p: &Vector2<f64>| [cross(direction, *p), direction.dot(p)];
@@ -43,7 +51,6 @@ impl Contact {
         // (lateral position, height) of vertices, and of edges that span the lateral position.
         meet(&moving, &fixed, |vertex, edge| found.push(edge - vertex));
         meet(&fixed, &moving, |vertex, edge| found.push(vertex - edge));
-        found.retain(|t| *t > 0.0);
         found
     }
 }

@@ -99,7 +99,8 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH || self.overlap_depth(q) <= TOUCH
+        self.clearance_bound(q) >= -TOUCH
+            || self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -112,6 +113,20 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
+        self.close_parts(q, |fixed, moving| {
+            deepest = deepest.max(-separation(fixed, moving));
+            true
+        });
+        deepest
+    }
+
+    /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
+    /// overlap; stops at the first for which it does not.
+    fn close_parts(
+        &self,
+        q: &Configuration,
+        mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
+    ) -> bool {
         let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
         let rotation = q.rotation();
         self.fixed_tree.near_pairs(
@@ -126,13 +141,9 @@ impl Contact {
                         other.insert((j, part.bounds(), part))
                     }
                 };
-                if !bounds.apart(&self.fixed_bounds[i]) {
-                    deepest = deepest.max(-separation(&self.fixed.parts()[i], part));
-                }
-                true
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
             },
-        );
-        deepest
+        )
     }
 }
 
@@ -143,12 +154,23 @@ pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 
+/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
+/// so.
+fn separated(a: &ConvexPart, b: &ConvexPart, least: f64) -> bool {
+    let mut all = separations(a, b).chain(separations(b, a));
+    all.any(|separation| separation >= least)
+}
+
 fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
+    separations(of, from).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How far (m) one polygon lies outside each edge of another.
+fn separations<'a>(of: &'a ConvexPart, from: &'a ConvexPart) -> impl Iterator<Item = f64> + 'a {
     of.points
         .iter()
         .zip(&of.normals)
         .map(|(point, normal)| support(from, normal) - normal.dot(point))
-        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Least coordinate of a polygon along a direction.
