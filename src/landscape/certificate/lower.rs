@@ -30,6 +30,14 @@ impl Assessment {
     pub fn by_energy(&self) -> f64 {
         self.estimate + UNCERTAINTY * (self.estimate - self.lower)
     }
+
+    /// This of a part of a cell of which `whole` is known.
+    pub fn within(self, whole: &Self) -> Self {
+        Self {
+            lower: self.lower.max(whole.lower),
+            ..self
+        }
+    }
 }
 
 /// Estimate of a cell whose centre lies deep in overlap: above every energy, the more so the
