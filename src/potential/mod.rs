@@ -1,10 +1,12 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
+pub mod cuboid;
 pub mod dipole;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
+pub use cuboid::CuboidPotential;
 pub use dipole::DipolePotential;
 
 /// A potential energy over configurations.
