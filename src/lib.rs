@@ -4,7 +4,10 @@ pub mod configuration;
 pub mod contact;
 pub mod landscape;
 pub mod potential;
+pub mod problem;
+pub mod roadmap;
 pub mod tile;
 pub mod units;
 
 pub use configuration::{Configuration, ConfigurationSpace};
+pub use problem::Problem;

@@ -3,17 +3,35 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::Contact;
+use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
 use crate::tile::Outline;
+use crate::tile::outline::contains;
 
 /// Vertices closer than this (m) count as coinciding.
 const COINCIDENT: f64 = 1e-7;
+
+/// A vertex of one tile in front of an edge of the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Touch {
+    /// Which tile the edge belongs to; the vertex is the other one's.
+    pub edge_of: EdgeOf,
+    pub edge: usize,
+    pub vertex: usize,
+}
+
+/// Which tile an edge belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum EdgeOf {
+    Fixed,
+    Moving,
+}
 
 /// One contact: `gap` (m) must not become negative; `gradient` is its derivative with respect to
 /// (x, y, theta).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
+    pub touch: Touch,
     pub gap: f64,
     pub gradient: Vector3<f64>,
 }
@@ -51,6 +69,10 @@ impl Placed {
             && p.y <= self.high.y + margin
     }
 
+    fn contains(&self, p: &Vector2<f64>) -> bool {
+        contains(&self.vertices, p)
+    }
+
     fn next(&self, i: usize) -> usize {
         (i + 1) % self.vertices.len()
     }
@@ -70,14 +92,20 @@ impl Placed {
     }
 }
 
-/// Which tile the constraint's edge belongs to.
-#[derive(Clone, Copy)]
-enum EdgeOf {
-    Fixed,
-    Moving,
-}
-
 impl Contact {
+    /// The constraint of one vertex and one edge, wherever they are.
+    pub fn constraint(&self, touch: Touch, q: &Configuration) -> Constraint {
+        let identity = Configuration::new(0.0, 0.0, 0.0);
+        let (edges, edge_pose, vertices, vertex_pose) = match touch.edge_of {
+            EdgeOf::Fixed => (self.fixed(), identity, self.moving(), *q),
+            EdgeOf::Moving => (self.moving(), *q, self.fixed(), identity),
+        };
+        let normal = edge_pose.rotation() * edges.normals()[touch.edge];
+        let start = edge_pose.transform(edges.vertices()[touch.edge]);
+        let vertex = vertex_pose.transform(vertices.vertices()[touch.vertex]);
+        constraint(touch, normal, start, vertex, q.position())
+    }
+
     /// The contacts with a gap of at most `margin` (m): a convex vertex of one tile in front of an
     /// edge of the other. Of two convex corners that coincide only one edge need separate them;
     /// the one that does so most clearly is taken.
@@ -98,7 +126,14 @@ impl Contact {
             convex_fixed,
             margin,
             |v, e| {
-                found.push(constraint(&fixed, e, &moving, v, EdgeOf::Fixed, centre));
+                found.push(placed_constraint(
+                    &fixed,
+                    e,
+                    &moving,
+                    v,
+                    EdgeOf::Fixed,
+                    centre,
+                ));
             },
         );
         vertices_against_edges(
@@ -108,7 +143,14 @@ impl Contact {
             convex_moving,
             margin,
             |v, e| {
-                found.push(constraint(&moving, e, &fixed, v, EdgeOf::Moving, centre));
+                found.push(placed_constraint(
+                    &moving,
+                    e,
+                    &fixed,
+                    v,
+                    EdgeOf::Moving,
+                    centre,
+                ));
             },
         );
         for (i, p) in moving.vertices.iter().enumerate() {
@@ -145,15 +187,15 @@ fn vertices_against_edges(
             if gap.abs() > margin {
                 continue;
             }
-            let along = end - start;
-            let t = (p - start).dot(&along) / along.norm();
-            let length = along.norm();
+            let length = (end - start).norm();
+            let t = (p - start).dot(&(end - start)) / length;
+            let beside = t < -COINCIDENT || t > length + COINCIDENT;
             let corner = |k: usize, q: &Vector2<f64>| convex_b[k] && (p - q).norm() <= COINCIDENT;
-            if t < -COINCIDENT
-                || t > length + COINCIDENT
-                || corner(j, start)
-                || corner(b.next(j), &end)
-            {
+            if beside || corner(j, start) || corner(b.next(j), &end) {
+                continue;
+            }
+            // Behind the edge's line, but outside: in front of another edge, past a corner.
+            if gap < -TOUCH && !b.contains(p) {
                 continue;
             }
             found(i, j);
@@ -171,19 +213,17 @@ fn corner_on_corner(
     let on_fixed = [fixed.previous(j), j]
         .into_iter()
         .filter(|&e| moving.wedge_is_beyond(i, &fixed.normals[e]))
-        .map(|e| constraint(fixed, e, moving, i, EdgeOf::Fixed, centre));
+        .map(|e| placed_constraint(fixed, e, moving, i, EdgeOf::Fixed, centre));
     let on_moving = [moving.previous(i), i]
         .into_iter()
         .filter(|&e| fixed.wedge_is_beyond(j, &moving.normals[e]))
-        .map(|e| constraint(moving, e, fixed, j, EdgeOf::Moving, centre));
+        .map(|e| placed_constraint(moving, e, fixed, j, EdgeOf::Moving, centre));
     on_fixed
         .chain(on_moving)
         .max_by(|a, b| a.gap.total_cmp(&b.gap))
 }
 
-/// The gap between a vertex and an edge and its derivative with respect to the moving tile's
-/// configuration, `centre` being its reference point.
-fn constraint(
+fn placed_constraint(
     edges: &Placed,
     edge: usize,
     vertices: &Placed,
@@ -191,17 +231,37 @@ fn constraint(
     edge_of: EdgeOf,
     centre: Vector2<f64>,
 ) -> Constraint {
-    let n = edges.normals[edge];
-    let p = vertices.vertices[vertex];
-    let gap = n.dot(&(p - edges.vertices[edge]));
-    let arm = p - centre;
-    let turning = n.y * arm.x - n.x * arm.y;
-    let gradient = match edge_of {
-        EdgeOf::Fixed => Vector3::new(n.x, n.y, turning),
-        // The edge turns with the tile, under a vertex that stays: the opposite of the above.
-        EdgeOf::Moving => -Vector3::new(n.x, n.y, turning),
+    let touch = Touch {
+        edge_of,
+        edge,
+        vertex,
     };
-    Constraint { gap, gradient }
+    let (normal, start) = (edges.normals[edge], edges.vertices[edge]);
+    constraint(touch, normal, start, vertices.vertices[vertex], centre)
+}
+
+/// The gap between a vertex and an edge, given by its normal and its start, and the gap's
+/// derivative with respect to the moving tile's configuration, `centre` being its reference point.
+fn constraint(
+    touch: Touch,
+    normal: Vector2<f64>,
+    start: Vector2<f64>,
+    vertex: Vector2<f64>,
+    centre: Vector2<f64>,
+) -> Constraint {
+    let gap = normal.dot(&(vertex - start));
+    let arm = vertex - centre;
+    let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
+    let gradient = match touch.edge_of {
+        EdgeOf::Fixed => along,
+        // The edge turns with the tile, under a vertex that stays: the opposite.
+        EdgeOf::Moving => -along,
+    };
+    Constraint {
+        touch,
+        gap,
+        gradient,
+    }
 }
 
 /// The point closest to `wanted` in the metric `(v - w)^T metric (v - w)` with

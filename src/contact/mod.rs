@@ -6,9 +6,10 @@
 //! [`TOUCH`] counts as touching.
 
 mod constraint;
+mod lift;
 mod motion;
 
-pub use constraint::{Constraint, closest_admissible};
+pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 
 use nalgebra::Vector2;
 use parry2d_f64::math::{Pose, Vector};

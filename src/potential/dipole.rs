@@ -63,31 +63,31 @@ pub fn pair(m1: Vector2<f64>, m2: Vector2<f64>, r: Vector2<f64>) -> (f64, Vector
     (energy, force, slope)
 }
 
-/// The interaction energy of two sets of point dipoles, one in each tile.
+/// The dipoles of a tile's magnets.
+pub fn dipoles(magnets: &[Magnet]) -> Vec<Dipole> {
+    magnets.iter().map(Dipole::from).collect()
+}
+
+/// The interaction energy of two sets of point dipoles, one in each tile, by the plain formula:
+/// what [`super::DipolePotential`] is checked against.
 #[derive(Clone, Debug)]
-pub struct DipolePotential {
+pub struct ScalarDipoles {
     fixed: Vec<Dipole>,
     moving: Vec<Dipole>,
     lever: f64,
 }
 
-impl DipolePotential {
-    pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
-        let dipoles = |magnets: &[Magnet]| magnets.iter().map(Dipole::from).collect::<Vec<_>>();
-        let moving = dipoles(moving);
-        let lever = moving
-            .iter()
-            .map(|dipole| dipole.position.norm())
-            .fold(0.0, f64::max);
+impl ScalarDipoles {
+    pub fn new(fixed: &[Dipole], moving: &[Dipole]) -> Self {
         Self {
-            fixed: dipoles(fixed),
-            moving,
-            lever,
+            fixed: fixed.to_vec(),
+            moving: moving.to_vec(),
+            lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
         }
     }
 }
 
-impl Potential for DipolePotential {
+impl Potential for ScalarDipoles {
     fn energy(&self, q: &Configuration) -> f64 {
         self.energy_and_gradient(q).0
     }

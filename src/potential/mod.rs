@@ -1,13 +1,14 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
+pub mod batch;
 pub mod cuboid;
 pub mod dipole;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
+pub use batch::DipolePotential;
 pub use cuboid::CuboidPotential;
-pub use dipole::DipolePotential;
 
 /// A potential energy over configurations.
 ///
@@ -26,6 +27,13 @@ pub trait Potential: Sync {
     fn energies(&self, qs: &[Configuration], out: &mut [f64]) {
         for (q, u) in qs.iter().zip(out) {
             *u = self.energy(q);
+        }
+    }
+
+    /// U (J) and its gradient of many configurations; `out` has the length of `qs`.
+    fn energies_and_gradients(&self, qs: &[Configuration], out: &mut [(f64, Vector3<f64>)]) {
+        for (q, result) in qs.iter().zip(out) {
+            *result = self.energy_and_gradient(q);
         }
     }
 

@@ -166,15 +166,9 @@ impl Outline {
         about_origin - self.area() * self.centroid().norm_squared()
     }
 
-    /// Whether a point lies inside (even-odd rule; on the boundary either answer may come).
+    /// Whether a point lies inside (on the boundary either answer may come).
     pub fn contains(&self, p: Vector2<f64>) -> bool {
-        self.edges()
-            .filter(|(a, b)| {
-                (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
-            })
-            .count()
-            % 2
-            == 1
+        contains(&self.vertices, &p)
     }
 
     /// Distance of a point to the boundary, positive outside, negative inside (m).
@@ -193,6 +187,20 @@ impl Outline {
     fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
         (0..self.vertices.len()).map(|i| self.edge(i))
     }
+}
+
+/// Whether a point lies inside a closed polygon (even-odd rule; on the boundary either answer may
+/// come).
+pub fn contains(polygon: &[Vector2<f64>], p: &Vector2<f64>) -> bool {
+    let n = polygon.len();
+    let mut inside = false;
+    for (i, a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % n];
+        if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
+            inside = !inside;
+        }
+    }
+    inside
 }
 
 /// z component of the cross product of two plane vectors.

@@ -1,0 +1,118 @@
+//! Local minima over the free configurations, and the overdamped motion that leads into them.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use nalgebra::Vector3;
+
+use super::slide::{self, Point, step_downhill};
+use super::stationary::{self, Stationary};
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+
+/// Longest step of a descent (m, mass metric).
+const LONGEST_STEP: f64 = 5e-3;
+/// A descent whose steps are shorter than this (m) has arrived.
+const SHORTEST_STEP: f64 = 1e-9;
+/// Newton's method is tried once steps are shorter than this (m).
+const TRY_NEWTON: f64 = 2e-4;
+const MOST_STEPS: usize = 20_000;
+/// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
+const PROBES: u64 = 48;
+
+/// Where a descent ended.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    Minimum(Box<Stationary>),
+    /// The tiles are far apart.
+    Free,
+    /// No step goes down, but no minimum is near: the accuracy of the energy is exhausted.
+    Stuck,
+}
+
+/// A descent: its way, start and end included, and where it ended.
+#[derive(Clone, Debug)]
+pub struct Descent {
+    pub way: Vec<Point>,
+    pub outcome: Outcome,
+}
+
+/// Overdamped motion from `start`: `v = -M^-1 grad U`, sliding along contact, until a minimum or
+/// far apart.
+pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
+    let mut way = vec![Point::new(problem, *start)];
+    let outcome = follow(problem, &mut way);
+    Descent { way, outcome }
+}
+
+fn follow(problem: &Problem, way: &mut Vec<Point>) -> Outcome {
+    let mut size = LONGEST_STEP;
+    let mut newton_below = TRY_NEWTON;
+    for _ in 0..MOST_STEPS {
+        let here = *way.last().expect("a way has a start");
+        if problem.space.is_far(&here.q) {
+            return Outcome::Free;
+        }
+        match step_downhill(problem, &here, size) {
+            Some(next) => {
+                let metric = problem.mass_metric(here.q.theta);
+                let moved = slide::length(&here.q.step_to(&next.q), &metric);
+                way.push(next);
+                if moved > 0.5 * size {
+                    size = (1.5 * size).min(LONGEST_STEP);
+                } else if moved < 0.05 * size {
+                    size *= 0.5;
+                }
+            }
+            None => size *= 0.5,
+        }
+        if size < newton_below {
+            // Ever finer, so that a failing attempt costs little.
+            newton_below = size / 8.0;
+            if let Some(found) = verified_minimum(problem, way) {
+                return Outcome::Minimum(Box::new(found));
+            }
+        }
+        if size < SHORTEST_STEP {
+            return Outcome::Stuck;
+        }
+    }
+    Outcome::Stuck
+}
+
+/// The minimum at the end of a way, if Newton's method finds one close by and no free
+/// configuration around it lies lower. Where one does, the way goes on from there.
+fn verified_minimum(problem: &Problem, way: &mut Vec<Point>) -> Option<Stationary> {
+    let here = *way.last()?;
+    let found = stationary::minimum(problem, &here.q)?;
+    let noise = 1e-12 * found.point.energy.abs();
+    let near = problem.space.distance(&here.q, &found.point.q) < 0.02;
+    if !near || found.point.energy > here.energy + noise || !problem.is_free(&found.point.q) {
+        return None;
+    }
+    if let Some(lower) = lower_neighbour(problem, &found.point) {
+        way.push(lower);
+        return None;
+    }
+    way.push(found.point);
+    Some(found)
+}
+
+/// A free configuration near `point` with a clearly lower energy, if probing finds one.
+fn lower_neighbour(problem: &Problem, point: &Point) -> Option<Point> {
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    for k in 0..PROBES {
+        let distance = 10f64.powf(-6.0 + 3.0 * k as f64 / PROBES as f64);
+        let mut draw = || rng.random_range(-1.0..1.0);
+        let direction = Vector3::new(draw(), draw(), draw() / problem.space.rho);
+        let aim = point.q.moved(direction * distance);
+        let Some(q) = slide::settle(problem, &aim, 4.0 * distance) else {
+            continue;
+        };
+        let energy = problem.energy(&q);
+        if energy < point.energy - 1e-9 * point.energy.abs() {
+            return Some(Point::new(problem, q));
+        }
+    }
+    None
+}

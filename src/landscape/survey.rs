@@ -1,0 +1,437 @@
+//! The survey of a landscape: from a roadmap to states, transition states and a network in which
+//! the ways between them are known accurately.
+//!
+//! The roadmap finds out which basins there are and roughly where they meet. Then, in rounds, each
+//! place where two basins meet is looked at more closely:
+//!
+//! 1. Newton's method looks for the transition state there; descents on either side of it tell
+//!    which states it joins.
+//! 2. Where that fails or does not join the two basins, the roadmap is densified around the place,
+//!    with half of the new milestones on the contact surface.
+//!
+//! until every meeting place is a transition state, or its energy moves by less than a set
+//! fraction of the barrier from round to round.
+
+use std::collections::{HashMap, HashSet};
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use nalgebra::Vector3;
+
+use super::minimum::{Descent, Outcome, descend};
+use super::network::{Link, Merge, Network, Way};
+use super::slide::{self, Point};
+use super::stationary::{self, Stationary};
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+use crate::roadmap::edge::{self, EdgeCosts};
+use crate::roadmap::{EdgeSettings, Milestone, Roadmap};
+
+/// Two stationary points closer than this (m, metric of the space) are the same.
+const SAME: f64 = 1e-5;
+/// How far (m, mass metric) from a transition state its descents start.
+const OFF_SADDLE: f64 = 2e-4;
+
+/// How closely the meeting places of basins are looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurveySettings {
+    pub edge: EdgeSettings,
+    /// A barrier is settled when it moves by less than this fraction from round to round.
+    pub settled: f64,
+    /// Milestones added around a meeting place in each round.
+    pub added_milestones: usize,
+    pub most_rounds: usize,
+    pub seed: u64,
+}
+
+/// A minimum with its node in the network.
+#[derive(Clone, Debug)]
+pub struct FoundState {
+    pub node: usize,
+    pub minimum: Stationary,
+}
+
+/// What a survey found.
+#[derive(Debug)]
+pub struct Survey {
+    pub network: Network,
+    pub states: Vec<FoundState>,
+    /// The node that stands for `free`.
+    pub free: usize,
+    /// Transition states, with the link of each.
+    pub transition_states: Vec<(Stationary, usize)>,
+    /// Meeting places that are not transition states: link and the last change of its energy (J).
+    pub unpolished: HashMap<usize, f64>,
+    pub rounds: usize,
+}
+
+impl Survey {
+    /// Surveys the landscape around a roadmap. `guesses` are configurations that may lie near
+    /// minima; `images` gives the configurations that symmetries make of one (itself included).
+    pub fn new(
+        problem: &Problem,
+        roadmap: &Roadmap,
+        guesses: &[Configuration],
+        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
+        settings: &SurveySettings,
+    ) -> Self {
+        let mut survey = Self::start(problem, roadmap);
+        survey.find_states(problem, guesses, settings);
+        let mut tried = HashSet::new();
+        for round in 0..settings.most_rounds {
+            survey.rounds = round;
+            let open: Vec<Merge> = survey
+                .merges()
+                .into_iter()
+                .filter(|merge| !survey.is_settled(merge, settings))
+                .collect();
+            if open.is_empty() {
+                break;
+            }
+            survey.polish(problem, &open, images, &mut tried, settings);
+            survey.densify(problem, &open, round as u64, settings);
+        }
+        survey
+    }
+
+    fn start(problem: &Problem, roadmap: &Roadmap) -> Self {
+        let mut network = Network::new(roadmap);
+        let free = network.add_node(None);
+        for (i, milestone) in roadmap.milestones.iter().enumerate() {
+            if problem.space.is_far(&milestone.configuration) {
+                network.add_link(same_link(i, free, milestone.energy));
+            }
+        }
+        Self {
+            network,
+            states: Vec::new(),
+            free,
+            transition_states: Vec::new(),
+            unpolished: HashMap::new(),
+            rounds: 0,
+        }
+    }
+
+    /// Follows the energy down from the guesses and from every milestone that has no lower
+    /// neighbour.
+    fn find_states(
+        &mut self,
+        problem: &Problem,
+        guesses: &[Configuration],
+        settings: &SurveySettings,
+    ) {
+        let nodes = self.network.local_minima();
+        let mut starts: Vec<(Option<usize>, Configuration)> =
+            guesses.iter().map(|q| (None, *q)).collect();
+        starts.extend(nodes.into_iter().filter_map(|node| {
+            let q = self.network.nodes[node]?.0;
+            (!problem.space.is_far(&q)).then_some((Some(node), q))
+        }));
+        let descents: Vec<Descent> = starts
+            .par_iter()
+            .map(|(_, q)| descend(problem, q))
+            .collect();
+        for ((node, _), descent) in starts.into_iter().zip(descents) {
+            let end = self.arrive(problem, &descent, settings);
+            if let (Some(node), Some(end)) = (node, end) {
+                self.network
+                    .add_way(problem, node, end, descent.way, &settings.edge);
+            }
+        }
+    }
+
+    /// The node in which a descent ended, made if need be.
+    fn arrive(
+        &mut self,
+        problem: &Problem,
+        descent: &Descent,
+        settings: &SurveySettings,
+    ) -> Option<usize> {
+        match &descent.outcome {
+            Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
+            Outcome::Free => {
+                let last = descent.way.last()?;
+                let node = self.network.add_node(Some((last.q, last.energy)));
+                let link = same_link(node, self.free, last.energy);
+                self.network.add_link(link);
+                Some(node)
+            }
+            Outcome::Stuck => None,
+        }
+    }
+
+    fn state_node(&mut self, problem: &Problem, minimum: &Stationary) -> usize {
+        let q = minimum.point.q;
+        if let Some(known) = self.state_at(problem, &q, SAME) {
+            return self.states[known].node;
+        }
+        let node = self.network.add_node(Some((q, minimum.point.energy)));
+        self.states.push(FoundState {
+            node,
+            minimum: minimum.clone(),
+        });
+        node
+    }
+
+    /// The state within `tolerance` (m, metric of the space) of a configuration.
+    pub fn state_at(&self, problem: &Problem, q: &Configuration, tolerance: f64) -> Option<usize> {
+        let distance = |s: &FoundState| problem.space.distance(&s.minimum.point.q, q);
+        (0..self.states.len())
+            .map(|i| (i, distance(&self.states[i])))
+            .filter(|(_, d)| *d <= tolerance)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(i, _)| i)
+    }
+
+    /// The merges of the basins of all states and `free`, ascending.
+    pub fn merges(&self) -> Vec<Merge> {
+        let mut labelled: Vec<(usize, f64)> = self
+            .states
+            .iter()
+            .map(|s| (s.node, s.minimum.point.energy))
+            .collect();
+        labelled.push((self.free, f64::NEG_INFINITY));
+        self.network.minimax_tree().merges(&labelled)
+    }
+
+    fn is_settled(&self, merge: &Merge, settings: &SurveySettings) -> bool {
+        let link = &self.network.links[merge.link];
+        if self.transition_states.iter().any(|(_, l)| *l == merge.link) {
+            return true;
+        }
+        let bottom = self.network.nodes[merge.upper].map_or(0.0, |n| n.1);
+        let allowed = settings.settled * (link.costs.peak - bottom);
+        self.unpolished
+            .get(&merge.link)
+            .is_some_and(|moved| moved.abs() <= allowed)
+    }
+
+    /// Looks for the transition states of meeting places and adds those found, with their
+    /// symmetric images.
+    fn polish(
+        &mut self,
+        problem: &Problem,
+        open: &[Merge],
+        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
+        tried: &mut HashSet<usize>,
+        settings: &SurveySettings,
+    ) {
+        let places: Vec<(Configuration, Vector3<f64>)> = open
+            .iter()
+            .filter(|merge| tried.insert(merge.link))
+            .filter_map(|merge| self.meeting_place(merge.link))
+            .collect();
+        let found: Vec<Option<Stationary>> = places
+            .par_iter()
+            .map(|(q, along)| {
+                stationary::transition_state(problem, q, along)
+                    .filter(|found| problem.is_free(&found.point.q))
+            })
+            .collect();
+        let mut fresh: Vec<Stationary> = Vec::new();
+        for found in found.into_iter().flatten() {
+            for q in images(&found.point.q) {
+                let known = |s: &Stationary| problem.space.distance(&s.point.q, &q) <= SAME;
+                if !fresh.iter().any(known) && !self.transition_states.iter().any(|s| known(&s.0)) {
+                    fresh.push(found.image(problem, q));
+                }
+            }
+        }
+        let joined: Vec<[Option<Descent>; 2]> = fresh
+            .par_iter()
+            .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign)))
+            .collect();
+        for (saddle, sides) in fresh.into_iter().zip(joined) {
+            self.add_transition_state(problem, saddle, sides, settings);
+        }
+    }
+
+    fn add_transition_state(
+        &mut self,
+        problem: &Problem,
+        saddle: Stationary,
+        sides: [Option<Descent>; 2],
+        settings: &SurveySettings,
+    ) {
+        let [Some(first), Some(second)] = sides else {
+            return;
+        };
+        let ends = [&first, &second].map(|side| self.arrive(problem, side, settings));
+        let [Some(from), Some(to)] = ends else {
+            return;
+        };
+        let mut way: Vec<Point> = first.way;
+        way.reverse();
+        way.push(saddle.point);
+        way.extend(second.way);
+        let link = self.network.add_way(problem, from, to, way, &settings.edge);
+        self.transition_states.push((saddle, link));
+    }
+
+    /// The highest configuration of a link and the direction in which the link passes it.
+    fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
+        let link = &self.network.links[number];
+        let q = self.network.peak_configuration(number)?;
+        let along = match &link.way {
+            Way::Same => return None,
+            Way::Straight => {
+                let (a, b) = (
+                    self.network.nodes[link.from]?.0,
+                    self.network.nodes[link.to]?.0,
+                );
+                a.step_to(&b)
+            }
+            Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
+        };
+        Some((q, along))
+    }
+
+    /// Adds milestones around the meeting places that are still no transition states, and notes
+    /// how far that has moved them.
+    fn densify(
+        &mut self,
+        problem: &Problem,
+        open: &[Merge],
+        round: u64,
+        settings: &SurveySettings,
+    ) {
+        let before: HashMap<usize, Merge> =
+            self.merges().into_iter().map(|m| (m.upper, m)).collect();
+        let still: Vec<Merge> = open
+            .iter()
+            .filter_map(|merge| before.get(&merge.upper).copied())
+            .filter(|merge| !self.is_settled(merge, settings))
+            .collect();
+        for merge in &still {
+            self.densify_around(problem, merge, round, settings);
+        }
+        let after: HashMap<usize, Merge> =
+            self.merges().into_iter().map(|m| (m.upper, m)).collect();
+        for merge in &still {
+            if let Some(now) = after.get(&merge.upper) {
+                let peak = |m: &Merge| self.network.links[m.link].costs.peak;
+                self.unpolished.insert(now.link, peak(merge) - peak(now));
+            }
+        }
+    }
+
+    fn densify_around(
+        &mut self,
+        problem: &Problem,
+        merge: &Merge,
+        round: u64,
+        settings: &SurveySettings,
+    ) {
+        let Some((centre, along)) = self.meeting_place(merge.link) else {
+            return;
+        };
+        let peak = self.network.links[merge.link].costs.peak;
+        let radius = problem.space.length(along).clamp(2e-3, 0.03);
+        let added = added_milestones(problem, &centre, radius, peak, round, merge.link, settings);
+        // Old nodes around the place, then the new ones; links among them all that involve a new
+        // one.
+        let mut around: Vec<(usize, Milestone)> = self
+            .network
+            .nodes
+            .iter()
+            .enumerate()
+            .filter_map(|(i, node)| {
+                let (q, _) = (*node)?;
+                (problem.space.distance(&q, &centre) <= 2.0 * radius)
+                    .then(|| (i, Milestone::new(problem, q)))
+            })
+            .collect();
+        let old = around.len();
+        for milestone in added {
+            let node = self
+                .network
+                .add_node(Some((milestone.configuration, milestone.energy)));
+            around.push((node, milestone));
+        }
+        let pairs = pairs_with_new(problem, &around, old, 12);
+        let milestones: Vec<Milestone> = around.iter().map(|a| a.1).collect();
+        for found in edge::edges(problem, &milestones, &pairs, &settings.edge) {
+            self.network.add_link(Link {
+                from: around[found.from as usize].0,
+                to: around[found.to as usize].0,
+                costs: found.costs,
+                way: Way::Straight,
+            });
+        }
+    }
+}
+
+/// Free configurations around a centre that lie below `peak`, half of them pushed into contact.
+fn added_milestones(
+    problem: &Problem,
+    centre: &Configuration,
+    radius: f64,
+    peak: f64,
+    round: u64,
+    link: usize,
+    settings: &SurveySettings,
+) -> Vec<Milestone> {
+    (0..settings.added_milestones)
+        .into_par_iter()
+        .filter_map(|i| {
+            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ (round << 56) ^ (link as u64));
+            rng.set_stream((1 << 32) + i as u64);
+            let mut draw = || rng.random_range(-1.0..1.0);
+            let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * radius;
+            let aim = centre.moved(step);
+            let q = slide::settle(problem, &aim, radius)?;
+            let milestone = Milestone::new(problem, q);
+            (milestone.energy < peak).then_some(milestone)
+        })
+        .collect()
+}
+
+/// For each new configuration (from `old` on) its `k` nearest among all.
+fn pairs_with_new(
+    problem: &Problem,
+    around: &[(usize, Milestone)],
+    old: usize,
+    k: usize,
+) -> Vec<(u32, u32)> {
+    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    for i in old..around.len() {
+        let here = &around[i].1.configuration;
+        let mut near: Vec<(f64, usize)> = (0..around.len())
+            .filter(|&j| j != i)
+            .map(|j| (problem.space.distance(here, &around[j].1.configuration), j))
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        pairs.extend(
+            near.iter()
+                .take(k)
+                .map(|&(_, j)| (i.min(j) as u32, i.max(j) as u32)),
+        );
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// The descent from a transition state to one of its sides.
+fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Descent> {
+    let unstable = saddle.modes.first()?.1;
+    let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
+    let start = slide::settle(problem, &aim, OFF_SADDLE)?;
+    let descent = descend(problem, &start);
+    (descent.way[0].energy <= saddle.point.energy).then_some(descent)
+}
+
+/// A link that identifies a far configuration with `free`.
+fn same_link(from: usize, to: usize, energy: f64) -> Link {
+    Link {
+        from,
+        to,
+        costs: EdgeCosts {
+            peak: energy,
+            ..EdgeCosts::default()
+        },
+        way: Way::Same,
+    }
+}

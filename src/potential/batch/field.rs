@@ -1,0 +1,218 @@
+//! The arithmetic of the kernel, written once for every instruction set.
+//!
+//! The energy is that of the moving tile's dipoles in the field of the fixed tile's. For a moving
+//! dipole of moment `m` at the place `p`, `U = m . A(p)` with
+//! `A(p) = sum_j r^-3 [m_j - 3 (m_j.d) d / r^2]`, `d = p - p_j`, `r = |d|` (minus the flux density,
+//! the moments being scaled by `sqrt(mu0 / 4 pi)`). A is summed over the fixed dipoles one after
+//! the other; what is in the lanes is the places, be it one dipole of several configurations or
+//! several dipoles of one. Either way a place's field comes out of the same operations in the same
+//! order, so it has the same bits.
+
+use super::lanes::Lanes;
+
+/// A dipole of the fixed tile: place (m), scaled moment (sqrt(J m^3)) and three times that.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    pub position: [f64; 2],
+    pub moment: [f64; 2],
+    pub thrice: [f64; 2],
+    /// Magnitude of the scaled moment.
+    pub magnitude: f64,
+}
+
+/// The field A at some places, with its derivatives if they are asked for.
+#[derive(Clone, Copy)]
+pub struct Field<F> {
+    pub x: F,
+    pub y: F,
+    /// dA_x/dx, dA_x/dy = dA_y/dx and dA_y/dy.
+    pub slope: [F; 3],
+}
+
+/// The field of the sources at `N` times `L::WIDTH` places (the `N` vectors are independent of
+/// each other, which keeps the arithmetic units busy).
+///
+/// With `s = m.d`, `u = 3 s / r^2` and `v = m - u d`, a source gives `A = r^-3 v` and
+/// `dA_a/db = -r^-5 [3 (v_a d_b + v_b d_a) + u d_a d_b + 3 s delta_ab]`, whose trace is
+/// `3 r^-5 s`.
+#[inline(always)]
+pub fn field<L: Lanes, const N: usize, const SLOPE: bool>(
+    l: L,
+    sources: &[Source],
+    place: [[L::F; 2]; N],
+) -> [Field<L::F>; N] {
+    let zero = l.splat(0.0);
+    let mut sums = [Sums {
+        a: [zero; 2],
+        outer: [zero; 2],
+        trace: zero,
+    }; N];
+    for source in sources {
+        let position = source.position.map(|c| l.splat(c));
+        let moment = source.moment.map(|c| l.splat(c));
+        let thrice = source.thrice.map(|c| l.splat(c));
+        for (sum, place) in sums.iter_mut().zip(&place) {
+            let d = [l.sub(place[0], position[0]), l.sub(place[1], position[1])];
+            let r2 = l.mul_add(d[0], d[0], l.mul(d[1], d[1]));
+            let s3 = l.mul_add(thrice[0], d[0], l.mul(thrice[1], d[1]));
+            let w1 = l.reciprocal_sqrt(r2);
+            let w2 = l.mul(w1, w1);
+            let w3 = l.mul(w1, w2);
+            let u = l.mul(s3, w2);
+            let v = [
+                l.neg_mul_add(u, d[0], moment[0]),
+                l.neg_mul_add(u, d[1], moment[1]),
+            ];
+            sum.a = [l.mul_add(w3, v[0], sum.a[0]), l.mul_add(w3, v[1], sum.a[1])];
+            if SLOPE {
+                let w5 = l.mul(w3, w2);
+                let f = [l.mul(w5, d[0]), l.mul(w5, d[1])];
+                // v + u d / 6 takes the term u d_a d_b into the symmetric product.
+                let u6 = l.mul(u, l.splat(1.0 / 6.0));
+                let v = [l.mul_add(u6, d[0], v[0]), l.mul_add(u6, d[1], v[1])];
+                sum.outer[0] = l.mul_add(v[0], f[0], sum.outer[0]);
+                sum.outer[1] = l.mul_add(v[0], f[1], sum.outer[1]);
+                sum.outer[1] = l.mul_add(v[1], f[0], sum.outer[1]);
+                sum.trace = l.mul_add(w5, s3, sum.trace);
+            }
+        }
+    }
+    sums.map(|sum| sum.field(l))
+}
+
+/// Running sums over the sources.
+#[derive(Clone, Copy)]
+struct Sums<F> {
+    a: [F; 2],
+    /// The xx and the xy element of the symmetric product of `v` and `r^-5 d`, halved on the
+    /// diagonal.
+    outer: [F; 2],
+    /// `3 r^-5 s`, the trace of the slope.
+    trace: F,
+}
+
+impl<F: Copy> Sums<F> {
+    #[inline(always)]
+    fn field<L: Lanes<F = F>>(self, l: L) -> Field<F> {
+        let xx = l.neg_mul_add(l.splat(6.0), self.outer[0], l.sub(l.splat(0.0), self.trace));
+        let xy = l.mul(l.splat(-3.0), self.outer[1]);
+        let yy = l.sub(self.trace, xx);
+        Field {
+            x: self.a[0],
+            y: self.a[1],
+            slope: [xx, xy, yy],
+        }
+    }
+}
+
+/// Configurations in lanes: cosine and sine of theta, and the reference point.
+#[derive(Clone, Copy)]
+pub struct Frame<F> {
+    pub cos: F,
+    pub sin: F,
+    pub x: F,
+    pub y: F,
+}
+
+impl<F: Copy> Frame<F> {
+    /// The place of a point given in the moving tile's frame.
+    #[inline(always)]
+    pub fn place<L: Lanes<F = F>>(&self, l: L, point: [F; 2]) -> [F; 2] {
+        [
+            l.mul_add(
+                self.cos,
+                point[0],
+                l.neg_mul_add(self.sin, point[1], self.x),
+            ),
+            l.mul_add(self.sin, point[0], l.mul_add(self.cos, point[1], self.y)),
+        ]
+    }
+
+    #[inline(always)]
+    fn rotate<L: Lanes<F = F>>(&self, l: L, v: [F; 2]) -> [F; 2] {
+        [
+            l.neg_mul_add(self.sin, v[1], l.mul(self.cos, v[0])),
+            l.mul_add(self.sin, v[0], l.mul(self.cos, v[1])),
+        ]
+    }
+}
+
+/// What the moving dipoles' shares are summed to. With complex numbers for vectors, and `m` a
+/// moment in the moving tile's frame, `along + i across = sum m conj(A)`; the energy is then the
+/// real part of `exp(i theta)` times it, and its derivative by the moments' direction minus the
+/// imaginary part.
+#[derive(Clone, Copy)]
+pub struct Shares<F> {
+    along: F,
+    across: F,
+    /// dU/dx, dU/dy, and the part of dU/dtheta that comes from the dipoles' motion.
+    slope: [F; 3],
+}
+
+impl<F: Copy> Shares<F> {
+    #[inline(always)]
+    pub fn zero<L: Lanes<F = F>>(l: L) -> Self {
+        Self::from_array([l.splat(0.0); 5])
+    }
+
+    #[inline(always)]
+    pub fn to_array(self) -> [F; 5] {
+        let [x, y, turn] = self.slope;
+        [self.along, self.across, x, y, turn]
+    }
+
+    #[inline(always)]
+    pub fn from_array([along, across, x, y, turn]: [F; 5]) -> Self {
+        Self {
+            along,
+            across,
+            slope: [x, y, turn],
+        }
+    }
+
+    #[inline(always)]
+    pub fn add<L: Lanes<F = F>>(self, l: L, other: Self) -> Self {
+        let (mut sum, other) = (self.to_array(), other.to_array());
+        for (a, b) in sum.iter_mut().zip(other) {
+            *a = l.add(*a, b);
+        }
+        Self::from_array(sum)
+    }
+
+    /// Adds the share of the dipole of the given moment (in the moving tile's frame) at `place`,
+    /// where the field is `field`.
+    #[inline(always)]
+    pub fn gather<L: Lanes<F = F>, const SLOPE: bool>(
+        &mut self,
+        l: L,
+        frame: &Frame<F>,
+        moment: [F; 2],
+        place: [F; 2],
+        field: &Field<F>,
+    ) {
+        self.along = l.mul_add(moment[0], field.x, self.along);
+        self.along = l.mul_add(moment[1], field.y, self.along);
+        self.across = l.mul_add(moment[1], field.x, self.across);
+        self.across = l.neg_mul_add(moment[0], field.y, self.across);
+        if SLOPE {
+            let [mx, my] = frame.rotate(l, moment);
+            let [xx, xy, yy] = field.slope;
+            let gx = l.mul_add(xx, mx, l.mul(xy, my));
+            let gy = l.mul_add(xy, mx, l.mul(yy, my));
+            let arm = [l.sub(place[0], frame.x), l.sub(place[1], frame.y)];
+            self.slope[0] = l.add(self.slope[0], gx);
+            self.slope[1] = l.add(self.slope[1], gy);
+            self.slope[2] = l.mul_add(arm[0], gy, self.slope[2]);
+            self.slope[2] = l.neg_mul_add(arm[1], gx, self.slope[2]);
+        }
+    }
+
+    /// The energy, and its gradient.
+    #[inline(always)]
+    pub fn finish<L: Lanes<F = F>>(&self, l: L, frame: &Frame<F>) -> (F, [F; 3]) {
+        let energy = l.neg_mul_add(frame.sin, self.across, l.mul(frame.cos, self.along));
+        let turn = l.neg_mul_add(frame.sin, self.along, self.slope[2]);
+        let turn = l.neg_mul_add(frame.cos, self.across, turn);
+        (energy, [self.slope[0], self.slope[1], turn])
+    }
+}

@@ -1,0 +1,153 @@
+//! Milestones by rejection sampling.
+//!
+//! Configurations are proposed from a mixture and accepted by their energy. The mixture, for tiles:
+//!
+//! - one part in four: uniform over the table and over theta;
+//! - three parts in four: around contact. A face of each tile is chosen and the two are set
+//!   against each other, slid by up to where they just lose sight of each other, tilted by an
+//!   angle drawn log-uniformly from 1 mrad to 1 rad of either sign (one in three: any
+//!   orientation at all); then the tile is pushed out along the face's normal into contact and,
+//!   in half of the cases, on by a gap drawn log-uniformly from 10 µm to 0.1 m.
+//!
+//! Scales are log-uniform because the energy of magnets is a power law: every decade of gap and
+//! tilt down to contact matters alike. Without faces (analytic landscapes) all are uniform.
+//!
+//! Each milestone has a random stream of its own (ChaCha8, stream = index), so that the result does
+//! not depend on the number of threads.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::Milestone;
+use crate::configuration::{Configuration, wrap_angle};
+use crate::problem::Problem;
+use crate::tile::Face;
+
+/// By which rule a proposed milestone is accepted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Acceptance {
+    /// The linear rule: with probability 1 below `lowest` (J), 0 above `highest` (J), and
+    /// `(highest - U) / (highest - lowest)` between. Source: Singh, Latombe and Brutlag, *A motion
+    /// planning approach to flexible ligand binding* (ISMB 1999), "Generation of milestones".
+    Linear { lowest: f64, highest: f64 },
+    /// With probability `min(1, exp(-U / energy))`, `energy` (J) > 0.
+    Boltzmann { energy: f64 },
+}
+
+impl Acceptance {
+    /// Probability of accepting a configuration of energy `u` (J).
+    pub fn probability(&self, u: f64) -> f64 {
+        match *self {
+            Self::Linear { lowest, highest } => {
+                ((highest - u) / (highest - lowest)).clamp(0.0, 1.0)
+            }
+            Self::Boltzmann { energy } => (-u / energy).exp().min(1.0),
+        }
+    }
+}
+
+/// How milestones are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MilestoneSettings {
+    pub count: usize,
+    pub acceptance: Acceptance,
+    pub seed: u64,
+}
+
+/// A proposal is given up after this many rejections; the milestone is then left out.
+const MOST_PROPOSALS: usize = 10_000;
+
+/// Draws the milestones, in the order of their random streams.
+pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Milestone> {
+    (0..settings.count)
+        .into_par_iter()
+        .with_min_len(16)
+        .filter_map(|i| {
+            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+            rng.set_stream(i as u64);
+            draw(problem, &settings.acceptance, &mut rng)
+        })
+        .collect()
+}
+
+fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Option<Milestone> {
+    for _ in 0..MOST_PROPOSALS {
+        let q = propose(problem, rng);
+        if !problem.is_free(&q) {
+            continue;
+        }
+        let (energy, gradient) = problem.energy_and_gradient(&q);
+        if rng.random::<f64>() < acceptance.probability(energy) {
+            return Some(Milestone {
+                configuration: q,
+                energy,
+                gradient,
+            });
+        }
+    }
+    None
+}
+
+fn propose(problem: &Problem, rng: &mut ChaCha8Rng) -> Configuration {
+    let faces = (&problem.fixed_faces, &problem.moving_faces);
+    if faces.0.is_empty() || faces.1.is_empty() || rng.random_bool(0.25) {
+        uniform(problem, rng)
+    } else {
+        around_contact(problem, rng)
+    }
+}
+
+fn uniform(problem: &Problem, rng: &mut impl Rng) -> Configuration {
+    let [x, y] = problem.space.half_size;
+    Configuration::new(
+        rng.random_range(-x..=x),
+        rng.random_range(-y..=y),
+        rng.random_range(-PI..=PI),
+    )
+}
+
+fn around_contact(problem: &Problem, rng: &mut impl Rng) -> Configuration {
+    let fixed = &problem.fixed_faces[rng.random_range(0..problem.fixed_faces.len())];
+    let moving = &problem.moving_faces[rng.random_range(0..problem.moving_faces.len())];
+    let tilt = if rng.random_bool(1.0 / 3.0) {
+        rng.random_range(-PI..=PI)
+    } else {
+        log_uniform(1e-3, 1.0, rng) * if rng.random_bool(0.5) { 1.0 } else { -1.0 }
+    };
+    let reach = (fixed.length() + moving.length()) / 2.0;
+    let slide = rng.random_range(-reach..=reach);
+    let gap = if rng.random_bool(0.5) {
+        log_uniform(1e-5, 0.1, rng)
+    } else {
+        0.0
+    };
+    let q = face_to_face(fixed, moving, slide, tilt);
+    let normal = fixed.normal();
+    let lifted = match &problem.contact {
+        Some(contact) => contact.lift(&q, normal),
+        None => 0.0,
+    };
+    shifted(&q, normal * (lifted + gap))
+}
+
+/// The configuration in which the base lines of two faces lie against each other, the moving one
+/// `slide` (m) along the fixed one and turned by `tilt` (rad) about its middle.
+pub fn face_to_face(fixed: &Face, moving: &Face, slide: f64, tilt: f64) -> Configuration {
+    let direction = |v: Vector2<f64>| v.y.atan2(v.x);
+    let theta = wrap_angle(direction(fixed.normal()) + PI - direction(moving.normal()) + tilt);
+    let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
+    let position = fixed.point(slide, 0.0) - turned;
+    Configuration::new(position.x, position.y, theta)
+}
+
+fn shifted(q: &Configuration, by: Vector2<f64>) -> Configuration {
+    Configuration::new(q.x + by.x, q.y + by.y, q.theta)
+}
+
+fn log_uniform(low: f64, high: f64, rng: &mut impl Rng) -> f64 {
+    (rng.random_range(low.ln()..high.ln())).exp()
+}

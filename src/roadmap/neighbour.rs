@@ -1,0 +1,167 @@
+//! Pairs of neighbouring milestones, by k-d tree in the metric of the configuration space.
+
+use std::f64::consts::{E, PI, TAU};
+use std::num::NonZeroUsize;
+
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
+
+use super::Milestone;
+use crate::configuration::{Configuration, ConfigurationSpace};
+
+/// Neighbours per milestone that a roadmap of n milestones needs for its paths to tend to the best
+/// ones: `e (1 + 1/d) ln n` in d = 3 dimensions, rounded up (PRM* of Karaman and Frazzoli,
+/// *Sampling-based algorithms for optimal motion planning*, IJRR 2011, section 3.3).
+pub fn neighbours_per_milestone(n: usize) -> usize {
+    (E * (1.0 + 1.0 / 3.0) * (n.max(2) as f64).ln()).ceil() as usize
+}
+
+/// Finds the milestones closest to a configuration.
+///
+/// The metric `d^2 = dx^2 + dy^2 + rho^2 dtheta^2` is Euclidean in (x, y, rho theta); theta's
+/// period is taken care of by asking again one turn away where the seam is closer than the
+/// farthest neighbour found.
+pub struct NeighbourSearch<'a> {
+    tree: ImmutableKdTree<f64, 3>,
+    space: &'a ConfigurationSpace,
+}
+
+impl<'a> NeighbourSearch<'a> {
+    pub fn new(milestones: &[Milestone], space: &'a ConfigurationSpace) -> Self {
+        let points: Vec<[f64; 3]> = milestones
+            .iter()
+            .map(|m| point(&m.configuration, space.rho, 0.0))
+            .collect();
+        Self {
+            tree: ImmutableKdTree::new_from_slice(&points)
+                .expect("a tree of milestones with finite coordinates"),
+            space,
+        }
+    }
+
+    /// The `k` milestones closest to `q` with their squared distances (m^2), nearest first; equal
+    /// distances by index.
+    pub fn nearest(&self, q: &Configuration, k: usize) -> Vec<(f64, u32)> {
+        let Some(count) = NonZeroUsize::new(k) else {
+            return Vec::new();
+        };
+        let mut found = self.ask(q, count, 0.0);
+        let seam = self.space.rho * (PI - q.theta.abs());
+        if found.len() < k || found.last().is_some_and(|f| f.0 >= seam * seam) {
+            found.extend(self.ask(q, count, -q.theta.signum() * TAU));
+            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut seen = std::collections::HashSet::new();
+            found.retain(|f| seen.insert(f.1));
+            found.truncate(k);
+        }
+        found
+    }
+
+    fn ask(&self, q: &Configuration, count: NonZeroUsize, turn: f64) -> Vec<(f64, u32)> {
+        let mut found: Vec<(f64, u32)> = self
+            .tree
+            .query(&point(q, self.space.rho, turn))
+            .nearest_n::<SquaredEuclidean<f64>>(count)
+            .execute()
+            .into_iter()
+            .map(|f| (f.distance, f.item as u32))
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found
+    }
+}
+
+fn point(q: &Configuration, rho: f64, turn: f64) -> [f64; 3] {
+    [q.x, q.y, rho * (q.theta + turn)]
+}
+
+/// All pairs (smaller index, larger index) in which one milestone is among the other's `k`
+/// nearest, sorted.
+pub fn neighbour_pairs(
+    milestones: &[Milestone],
+    space: &ConfigurationSpace,
+    k: usize,
+) -> Vec<(u32, u32)> {
+    if milestones.len() < 2 {
+        return Vec::new();
+    }
+    let search = NeighbourSearch::new(milestones, space);
+    let mut pairs: Vec<(u32, u32)> = milestones
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, milestone)| {
+            let i = i as u32;
+            search
+                .nearest(&milestone.configuration, k + 1)
+                .into_iter()
+                .filter(move |f| f.1 != i)
+                .take(k)
+                .map(move |(_, j)| (i.min(j), i.max(j)))
+        })
+        .collect();
+    pairs.par_sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
+        let space = ConfigurationSpace {
+            half_size: [1.0, 1.0],
+            rho: 0.3,
+            free_distance: 0.5,
+        };
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let milestones: Vec<Milestone> = (0..500)
+            .map(|_| Milestone {
+                configuration: Configuration::new(
+                    rng.random_range(-1.0..1.0),
+                    rng.random_range(-1.0..1.0),
+                    rng.random_range(-PI..PI),
+                ),
+                energy: 0.0,
+                gradient: Vector3::zeros(),
+            })
+            .collect();
+        let search = NeighbourSearch::new(&milestones, &space);
+        for m in &milestones {
+            let q = &m.configuration;
+            let mut plain: Vec<(f64, u32)> = milestones
+                .iter()
+                .enumerate()
+                .map(|(i, other)| (space.distance(q, &other.configuration).powi(2), i as u32))
+                .collect();
+            plain.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let found = search.nearest(q, 12);
+            assert_eq!(found.len(), 12);
+            for (f, p) in found.iter().zip(&plain) {
+                assert!((f.0 - p.0).abs() < 1e-12 && f.1 == p.1);
+            }
+        }
+    }
+
+    #[test]
+    fn few_milestones_have_few_neighbours() {
+        assert_eq!(neighbours_per_milestone(10_000), 34);
+        let space = ConfigurationSpace {
+            half_size: [1.0, 1.0],
+            rho: 0.3,
+            free_distance: 0.5,
+        };
+        let at = |x: f64| Milestone {
+            configuration: Configuration::new(x, 0.0, 0.0),
+            energy: 0.0,
+            gradient: Vector3::zeros(),
+        };
+        assert!(neighbour_pairs(&[at(0.0)], &space, 5).is_empty());
+        let pairs = neighbour_pairs(&[at(0.0), at(0.1), at(0.2)], &space, 5);
+        assert_eq!(pairs, [(0, 1), (0, 2), (1, 2)]);
+    }
+}
