@@ -48,9 +48,9 @@ pub fn field<L: Lanes, const N: usize, const SLOPE: bool>(
         trace: zero,
     }; N];
     for source in sources {
-        let position = source.position.map(|c| l.splat(c));
-        let moment = source.moment.map(|c| l.splat(c));
-        let thrice = source.thrice.map(|c| l.splat(c));
+        let position = pair_of(l, source.position);
+        let moment = pair_of(l, source.moment);
+        let thrice = pair_of(l, source.thrice);
         for (sum, place) in sums.iter_mut().zip(&place) {
             let d = [l.sub(place[0], position[0]), l.sub(place[1], position[1])];
             let r2 = l.mul_add(d[0], d[0], l.mul(d[1], d[1]));
@@ -77,7 +77,21 @@ pub fn field<L: Lanes, const N: usize, const SLOPE: bool>(
             }
         }
     }
-    sums.map(|sum| sum.field(l))
+    let mut fields = [Field {
+        x: zero,
+        y: zero,
+        slope: [zero; 3],
+    }; N];
+    for (field, sum) in fields.iter_mut().zip(&sums) {
+        *field = sum.field(l);
+    }
+    fields
+}
+
+/// The same pair of numbers in all lanes.
+#[inline(always)]
+pub fn pair_of<L: Lanes>(l: L, [x, y]: [f64; 2]) -> [L::F; 2] {
+    [l.splat(x), l.splat(y)]
 }
 
 /// Running sums over the sources.
@@ -93,7 +107,7 @@ struct Sums<F> {
 
 impl<F: Copy> Sums<F> {
     #[inline(always)]
-    fn field<L: Lanes<F = F>>(self, l: L) -> Field<F> {
+    fn field<L: Lanes<F = F>>(&self, l: L) -> Field<F> {
         let xx = l.neg_mul_add(l.splat(6.0), self.outer[0], l.sub(l.splat(0.0), self.trace));
         let xy = l.mul(l.splat(-3.0), self.outer[1]);
         let yy = l.sub(self.trace, xx);

@@ -28,6 +28,27 @@ pub trait Lanes: Copy {
     fn neg_mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// The smaller of two numbers; `b` where either is NaN.
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The first lane.
+    #[inline(always)]
+    fn first(self, lanes: Self::F) -> f64 {
+        let mut values = [0.0; MAX_WIDTH];
+        self.store(lanes, &mut values);
+        values[0]
+    }
+    /// The sum of the lanes: the upper half is added to the lower half until one is left.
+    #[inline(always)]
+    fn sum(self, lanes: Self::F) -> f64 {
+        let mut values = [0.0; MAX_WIDTH];
+        self.store(lanes, &mut values);
+        let mut width = Self::WIDTH / 2;
+        while width > 0 {
+            for i in 0..width {
+                values[i] += values[i + width];
+            }
+            width /= 2;
+        }
+        values[0]
+    }
     /// `1 / sqrt(a)` to a relative error of 1e-13, for `a` from 1e-37 to 1e37; NaN or infinite
     /// at 0.
     fn reciprocal_sqrt(self, a: Self::F) -> Self::F;
@@ -35,11 +56,17 @@ pub trait Lanes: Copy {
     fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F);
 }
 
+/// The most lanes any instruction set has.
+pub const MAX_WIDTH: usize = 8;
+
 /// The largest angle (rad) that [`Lanes::sin_cos`] takes.
 pub const MAX_ANGLE: f64 = 1e5;
 
-/// Something to be computed with whichever instruction set there is. `run` must be
-/// `#[inline(always)]`, and so must all it calls, for the instruction set to reach it.
+/// Something to be computed with whichever instruction set there is.
+///
+/// `run` and all it calls that has to do with vectors must be `#[inline(always)]`, or the
+/// instruction set does not reach it. That excludes closures on vectors, and `map` on arrays of
+/// them.
 pub trait Task {
     type Output;
     fn run<L: Lanes>(self, lanes: L) -> Self::Output;

@@ -42,18 +42,21 @@ pub fn sin_cos_from<L: Series>(lanes: L, angle: L::F) -> (L::F, L::F) {
     let x = lanes.neg_mul_add(quarters, lanes.splat(QUARTER[1]), x);
     let x2 = lanes.mul(x, x);
 
-    let polynomial = |c: [f64; 7]| {
-        let c = c.map(|c| lanes.splat(c));
-        let x4 = lanes.mul(x2, x2);
-        let low = lanes.mul_add(x2, c[1], c[0]);
-        let middle = lanes.mul_add(x2, c[3], c[2]);
-        let high = lanes.mul_add(x4, c[6], lanes.mul_add(x2, c[5], c[4]));
-        lanes.mul_add(x4, lanes.mul_add(x4, high, middle), low)
-    };
-    let sin = lanes.mul_add(lanes.mul(x, x2), polynomial(SIN), x);
-    let tail = lanes.mul(x2, polynomial(COS));
+    let sin = lanes.mul_add(lanes.mul(x, x2), polynomial(lanes, x2, &SIN), x);
+    let tail = lanes.mul(x2, polynomial(lanes, x2, &COS));
     let cos = lanes.mul_add(x2, lanes.sub(tail, lanes.splat(0.5)), lanes.splat(1.0));
     lanes.turn(shifted, sin, cos)
+}
+
+/// `c[0] + c[1] x + ... + c[6] x^6`, in a form that needs few operations one after the other.
+#[inline(always)]
+fn polynomial<L: Lanes>(l: L, x: L::F, c: &[f64; 7]) -> L::F {
+    let x2 = l.mul(x, x);
+    let low = l.mul_add(x, l.splat(c[1]), l.splat(c[0]));
+    let middle = l.mul_add(x, l.splat(c[3]), l.splat(c[2]));
+    let high = l.mul_add(x, l.splat(c[5]), l.splat(c[4]));
+    let high = l.mul_add(x2, l.splat(c[6]), high);
+    l.mul_add(x2, l.mul_add(x2, high, middle), low)
 }
 
 /// The coefficients `+-1/n!` for n = `first`, `first + 2`, ... of the Taylor series of the sine
