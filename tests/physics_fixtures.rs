@@ -113,7 +113,7 @@ fn dipoles_agree_with_the_independent_numbers() {
 fn blocks_agree_with_the_independent_numbers() {
     let potential = CuboidPotential::new(&magnets("NNNS"), &magnets("NSSS"));
     let tolerance = Tolerance {
-        relative: 1e-8,
+        relative: 1e-7,
         energy: 2e-12,
         force: 6e-8,
         torque: 6e-9,

@@ -26,6 +26,12 @@ pub trait Lanes: Copy {
     fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `c - a b`; rounded once where the instruction set fuses it.
     fn neg_mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    fn sqrt(self, a: Self::F) -> Self::F;
+    /// `a` where the sign bit of `condition` is clear, else `b`.
+    fn select(self, condition: Self::F, a: Self::F, b: Self::F) -> Self::F;
+    /// For a positive normal number `m 2^e` with m in [1, 2): m and e.
+    fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F);
     /// The smaller of two numbers; `b` where either is NaN.
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
     /// The first lane.
@@ -48,6 +54,13 @@ pub trait Lanes: Copy {
             width /= 2;
         }
         values[0]
+    }
+    /// The least of the lanes.
+    #[inline(always)]
+    fn least(self, lanes: Self::F) -> f64 {
+        let mut values = [f64::INFINITY; MAX_WIDTH];
+        self.store(lanes, &mut values);
+        values.into_iter().fold(f64::INFINITY, f64::min)
     }
     /// `1 / sqrt(a)` to a relative error of 1e-13, for `a` from 1e-37 to 1e37; NaN or infinite
     /// at 0.
@@ -194,6 +207,36 @@ impl Lanes for Portable {
     #[inline(always)]
     fn neg_mul_add(self, a: [f64; 4], b: [f64; 4], c: [f64; 4]) -> [f64; 4] {
         self.sub(c, self.mul(a, b))
+    }
+
+    #[inline(always)]
+    fn div(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        Self::zip(a, b, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: [f64; 4]) -> [f64; 4] {
+        a.map(f64::sqrt)
+    }
+
+    #[inline(always)]
+    fn select(self, condition: [f64; 4], a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|i| {
+            if condition[i].is_sign_positive() {
+                a[i]
+            } else {
+                b[i]
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: [f64; 4]) -> ([f64; 4], [f64; 4]) {
+        const MANTISSA: u64 = (1 << 52) - 1;
+        (
+            a.map(|a| f64::from_bits(a.to_bits() & MANTISSA | 1.0f64.to_bits())),
+            a.map(|a| (a.to_bits() >> 52) as f64 - 1023.0),
+        )
     }
 
     #[inline(always)]

@@ -104,6 +104,36 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn div(self, a: __m256d, b: __m256d) -> __m256d {
+        with!(self: _mm256_div_pd(a, b))
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: __m256d) -> __m256d {
+        with!(self: _mm256_sqrt_pd(a))
+    }
+
+    #[inline(always)]
+    fn select(self, condition: __m256d, a: __m256d, b: __m256d) -> __m256d {
+        with!(self: _mm256_blendv_pd(a, b, condition))
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: __m256d) -> (__m256d, __m256d) {
+        // An integer up to 2^52 with the bits of 2^52 above it is, as a number, 2^52 plus it.
+        const SHIFT: f64 = 4503599627370496.0;
+        with!(self: {
+            let exponent = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
+            let exponent = _mm256_or_pd(exponent, _mm256_set1_pd(SHIFT));
+            let fraction = _mm256_set1_pd(f64::from_bits((1 << 52) - 1));
+            (
+                _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0)),
+                _mm256_sub_pd(exponent, _mm256_set1_pd(SHIFT + 1023.0)),
+            )
+        })
+    }
+
+    #[inline(always)]
     fn min(self, a: __m256d, b: __m256d) -> __m256d {
         with!(self: _mm256_min_pd(a, b))
     }
@@ -185,6 +215,33 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn neg_mul_add(self, a: __m512d, b: __m512d, c: __m512d) -> __m512d {
         with!(self: _mm512_fnmadd_pd(a, b, c))
+    }
+
+    #[inline(always)]
+    fn div(self, a: __m512d, b: __m512d) -> __m512d {
+        with!(self: _mm512_div_pd(a, b))
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_sqrt_pd(a))
+    }
+
+    #[inline(always)]
+    fn select(self, condition: __m512d, a: __m512d, b: __m512d) -> __m512d {
+        with!(self: {
+            let sign = _mm512_set1_epi64(i64::MIN);
+            let negative = _mm512_test_epi64_mask(_mm512_castpd_si512(condition), sign);
+            _mm512_mask_blend_pd(negative, a, b)
+        })
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: __m512d) -> (__m512d, __m512d) {
+        with!(self: (
+            _mm512_getmant_pd::<_MM_MANT_NORM_1_2, _MM_MANT_SIGN_ZERO>(a),
+            _mm512_getexp_pd(a),
+        ))
     }
 
     #[inline(always)]

@@ -29,11 +29,7 @@
 //! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the
 //! error of leaving terms out is bounded by the A_k left out.
 
-use std::f64::consts::PI;
-
-use super::block::{Block, PairEnergy};
-use crate::units::MU0;
-use nalgebra::{Complex, Vector2};
+use nalgebra::Complex;
 
 /// Terms of the series that are summed, the dipole included.
 pub const TERMS: usize = 8;
@@ -98,10 +94,36 @@ fn rising_half(n: usize) -> f64 {
 /// The series of two block sizes.
 #[derive(Clone, Debug)]
 pub struct Multipole {
-    /// T_kll' of the terms summed: `coefficients[k][l / 2][(l' + 2k + 1) / 2]`.
-    coefficients: Vec<Vec<Vec<f64>>>,
+    /// The terms summed; for each k and l (see [`index`]) the sums and the differences of T_kll'
+    /// and T_kl-l', for l' = 1, 3 .. 2k+1.
+    coefficients: Vec<Vec<[f64; 2]>>,
     /// A_k (m^(2k)), longer than the coefficients.
     magnitudes: Vec<f64>,
+}
+
+/// Where the coefficient C_kl stands among those of all terms, given `l / 2`.
+#[inline(always)]
+pub const fn index(k: usize, half: usize) -> usize {
+    k * (k + 3) / 2 + half
+}
+
+/// How many C_kl there are.
+pub const COEFFICIENTS: usize = index(TERMS, 0);
+
+/// C_kl at one angle beta.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    /// How many terms k have been worked out.
+    pub terms: usize,
+    /// C_kl and its derivative by beta.
+    pub values: [[Complex<f64>; 2]; COEFFICIENTS],
+}
+
+impl Coefficients {
+    pub const NONE: Self = Self {
+        terms: 0,
+        values: [[Complex::new(0.0, 0.0); 2]; COEFFICIENTS],
+    };
 }
 
 impl Multipole {
@@ -115,17 +137,24 @@ impl Multipole {
             .iter()
             .map(|rows| rows.iter().flatten().map(|x| x.abs()).sum())
             .collect();
+        let fold = |row: &Vec<f64>| {
+            let half = row.len() / 2;
+            (0..half)
+                .map(|j| (row[half + j], row[half - 1 - j]))
+                .map(|(plus, minus)| [plus + minus, plus - minus])
+                .collect()
+        };
         Self {
-            coefficients: all.into_iter().take(TERMS).collect(),
+            coefficients: all.iter().take(TERMS).flatten().map(fold).collect(),
             magnitudes,
         }
     }
 
-    /// The distance (m) from which on the terms left out are together below `tolerance` times
-    /// `mu0 m1 m2 / (4 pi r^3)`.
-    pub fn radius(&self, tolerance: f64) -> f64 {
+    /// The distance (m) from which on the terms from number `terms` on are together below
+    /// `tolerance` times `mu0 m1 m2 / (4 pi r^3)`.
+    pub fn radius(&self, terms: usize, tolerance: f64) -> f64 {
         let error = |r: f64| -> f64 {
-            (TERMS..BOUND_TERMS)
+            (terms..BOUND_TERMS)
                 .map(|k| self.magnitudes[k] * r.powi(-2 * k as i32))
                 .sum()
         };
@@ -144,50 +173,27 @@ impl Multipole {
         high
     }
 
-    /// Energy, gradient and slope of two blocks of these sizes.
-    pub fn energy_and_gradient(&self, first: &Block, second: &Block) -> PairEnergy {
-        let axis = Complex::new(first.axis.x, first.axis.y);
-        let turn = Complex::new(second.axis.x, second.axis.y) * axis.conj();
-        let r = second.position - first.position;
-        let q = 1.0 / r.norm_squared();
-        let w = Complex::new(r.x, r.y) * axis.conj();
-        let v = w.conj() * w.conj() * q;
-        let scale = -MU0 / (4.0 * PI) * first.moment * second.moment * q * q.sqrt();
-        let (mut value, mut radial, mut angular, mut turning) = (0.0, 0.0, 0.0, 0.0);
-        let mut power = scale;
-        for (k, rows) in self.coefficients.iter().enumerate() {
-            let mut phase = Complex::new(1.0, 0.0);
-            for (l, row) in rows.iter().enumerate() {
-                let (c, c_turn) = evaluate(row, turn, k);
-                let term = c * phase;
-                value += power * term.re;
-                radial -= power * (3 + 2 * k) as f64 * term.re;
-                angular += power * (2 * l) as f64 * term.im;
-                turning += power * (c_turn * phase).re;
-                phase *= v;
+    /// Works out the coefficients of the terms below `terms` for `turn` = e^(i beta), beyond
+    /// those that are known.
+    pub fn evaluate(&self, turn: Complex<f64>, terms: usize, known: &mut Coefficients) {
+        let step = turn * turn;
+        let mut phases = [turn; TERMS];
+        for j in 1..terms {
+            phases[j] = phases[j - 1] * step;
+        }
+        for i in index(known.terms, 0)..index(terms, 0) {
+            let (mut value, mut slope) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
+            for (j, ([sum, difference], phase)) in
+                self.coefficients[i].iter().zip(&phases).enumerate()
+            {
+                let order = (2 * j + 1) as f64;
+                value += Complex::new(sum * phase.re, difference * phase.im);
+                slope += Complex::new(-order * sum * phase.im, order * difference * phase.re);
             }
-            power *= q;
+            known.values[i] = [value, slope];
         }
-        PairEnergy {
-            energy: value,
-            gradient: (r * radial + Vector2::new(-r.y, r.x) * angular) * q,
-            slope: turning,
-        }
+        known.terms = known.terms.max(terms);
     }
-}
-
-/// C_kl and its derivative by beta.
-fn evaluate(row: &[f64], turn: Complex<f64>, k: usize) -> (Complex<f64>, Complex<f64>) {
-    let mut phase = turn.conj().powu(2 * k as u32 + 1);
-    let step = turn * turn;
-    let (mut value, mut slope) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
-    for (j, t) in row.iter().enumerate() {
-        let order = 2.0 * j as f64 - (2 * k + 1) as f64;
-        value += phase * *t;
-        slope += Complex::new(0.0, order * t) * phase;
-        phase *= step;
-    }
-    (value, slope)
 }
 
 /// The coefficients T_kll' of term `k`, folded onto l >= 0.
@@ -211,59 +217,3 @@ fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Vec<f64>> {
     rows
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::potential::{cuboid::cloud, dipole};
-
-    fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
-        Block {
-            position: Vector2::new(x, y),
-            axis: Vector2::new(angle.cos(), angle.sin()),
-            moment: 0.3,
-            size,
-        }
-    }
-
-    #[test]
-    fn blocks_of_no_size_are_point_dipoles() {
-        let small = [1e-7, 2e-7, 3e-7];
-        let (first, second) = (block(0.1, 0.2, 0.4, small), block(0.3, -0.1, 2.0, small));
-        let got = Multipole::new(small, small).energy_and_gradient(&first, &second);
-        let (energy, force, slope) = dipole::pair(
-            first.axis * first.moment,
-            second.axis * second.moment,
-            second.position - first.position,
-        );
-        assert!((got.energy - energy).abs() < 1e-12 * energy.abs());
-        assert!((got.gradient + force).norm() < 1e-12 * force.norm());
-        assert!((got.slope - slope).abs() < 1e-12 * slope.abs());
-    }
-
-    #[test]
-    fn the_series_agrees_with_a_cloud_of_charges_within_its_bound() {
-        let (one, two) = ([0.010, 0.012, 0.003], [0.006, 0.008, 0.005]);
-        let series = Multipole::new(one, two);
-        for tolerance in [1e-4, 1e-6, 1e-9] {
-            let radius = series.radius(tolerance);
-            for i in 0..10 {
-                let direction = 0.37 * i as f64;
-                let first = block(0.0, 0.0, 0.5, one);
-                let second = block(
-                    radius * direction.cos(),
-                    radius * direction.sin(),
-                    1.1 * i as f64,
-                    two,
-                );
-                let got = series.energy_and_gradient(&first, &second);
-                let exact = cloud::energy_and_gradient(&first, &second, 10);
-                let scale = 1e-7 * 0.3 * 0.3 / radius.powi(3);
-                assert!((got.energy - exact.energy).abs() < tolerance * scale);
-                // The first term left out falls like r^-19.
-                let gradient = 19.0 * tolerance * scale / radius;
-                assert!((got.gradient - exact.gradient).norm() < gradient);
-                assert!((got.slope - exact.slope).abs() < 19.0 * tolerance * scale);
-            }
-        }
-    }
-}

@@ -47,13 +47,34 @@
 //! finite too, but jumps where one sheet passes through the other; `side` says on which side of
 //! the first sheet the second one's body lies, and touching sheets get that side's limit.
 
-use super::quadrature::{MAX_NODES, ellipse, rule};
+use super::elementary::{angle, ln_ratio};
+use super::quadrature::{Corner, Fineness, Panels, Rules};
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
 
 /// Added to squared distances so that products like `h^2 ln h` are 0, not NaN, at h = 0.
 const TINY: f64 = 1e-290;
 
 /// Below this share of the width a distance from the sheet counts as touching.
 const TOUCHING: f64 = 1e-10;
+
+/// The panels for the energy.
+pub const ENERGY: Fineness = Fineness {
+    finest: 0.125,
+    eight: EIGHT,
+    sixteen: SIXTEEN,
+};
+
+/// The panels for the gradient, whose integrand has a step near the first sheet's edges.
+pub const GRADIENT: Fineness = Fineness {
+    finest: 0.02,
+    eight: EIGHT,
+    sixteen: SIXTEEN,
+};
+
+// cosh(6 / (n - 1.5)) for n = 8 and 16 nodes: rho^(-2n) is then exp(-12) / rho^3, which the
+// weakness of the singularities (of the kind s^2 ln s) brings to some 1e-8.
+const EIGHT: f64 = 1.457_0;
+const SIXTEEN: f64 = 1.086_9;
 
 /// The second sheet as seen from the first, and both sizes.
 #[derive(Clone, Copy, Debug)]
@@ -82,91 +103,136 @@ pub struct SheetEnergy {
     pub by_angle: f64,
 }
 
-/// Phi / 2 and Phi_h / 2 at (x, h) of a sheet of width `w`.
-#[inline]
-fn potential(w: f64, heights: [f64; 2], x: f64, h: f64) -> (f64, f64) {
-    let (u1, v1) = at_height(x - w / 2.0, x + w / 2.0, h, heights[0]);
-    let (u0, v0) = at_height(x - w / 2.0, x + w / 2.0, h, heights[1]);
-    (u1 - u0, v1 - v0)
+/// Phi / 2 and Phi_h / 2 where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`).
+#[inline(always)]
+fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L::F, L::F) {
+    let zero = l.splat(0.0);
+    let above = l.select(h, h, l.sub(zero, h));
+    let hh = l.mul_add(h, h, l.splat(TINY));
+    let (k1, slope1) = at_height(l, s, above, hh, heights[0]);
+    let (k0, slope0) = if heights[1] > 0.0 {
+        at_height(l, s, above, hh, heights[1])
+    } else {
+        in_plane(l, s, above, hh)
+    };
+    let slope = l.sub(slope1, slope0);
+    (l.sub(k1, k0), l.select(h, slope, l.sub(zero, slope)))
 }
 
-/// K and K_h between s1 and s2 (s1 < s2).
-#[inline]
-fn at_height(s1: f64, s2: f64, h: f64, z: f64) -> (f64, f64) {
-    let zz = z * z;
-    let hh = h * h + TINY;
-    let (p1, p2) = (s1 * s1 + hh, s2 * s2 + hh);
-    let (r1, r2) = ((p1 + zz).sqrt(), (p2 + zz).sqrt());
-    // ln (s2 + r2) / (s1 + r1), with s + r = (h^2 + z^2) / (r - s) where s is negative.
-    let (a1, b1) = if s1 > 0.0 {
-        (1.0, s1 + r1)
-    } else {
-        (r1 - s1, hh + zz)
-    };
-    let (a2, b2) = if s2 > 0.0 {
-        (s2 + r2, 1.0)
-    } else {
-        (hh + zz, r2 - s2)
-    };
-    let log = ((a1 / b1) * (a2 / b2)).ln();
-    let mut k = -0.5 * hh * log - 0.5 * (s2 * r2 - s1 * r1);
-    let mut k_h = -h * log;
-    if z > 0.0 {
-        let angle = (s2 * z).atan2(h.abs() * r2) - (s1 * z).atan2(h.abs() * r1);
-        let rise = s2 * (z / p2.sqrt()).asinh() - s1 * (z / p1.sqrt()).asinh();
-        k += z * rise + 0.5 * zz * log - z * h.abs() * angle;
-        k_h -= z * angle.copysign(angle * h);
+/// `ln (s2 + r2) / (s1 + r1)`, with `s + r = edge / (r - s)` where s is negative.
+#[inline(always)]
+fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
+    let one = l.splat(1.0);
+    let over = l.mul(
+        l.select(s[0], one, l.sub(r[0], s[0])),
+        l.select(s[1], l.add(s[1], r[1]), edge),
+    );
+    let under = l.mul(
+        l.select(s[0], l.add(s[0], r[0]), edge),
+        l.select(s[1], one, l.sub(r[1], s[1])),
+    );
+    ln_ratio(l, over, under)
+}
+
+/// K and K_h between the two s at the height z > 0, for h >= 0.
+#[inline(always)]
+fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> (L::F, L::F) {
+    let (z, zz) = (l.splat(height), l.splat(height * height));
+    let edge = l.add(hh, zz);
+    let p = [
+        l.sqrt(l.mul_add(s[0], s[0], hh)),
+        l.sqrt(l.mul_add(s[1], s[1], hh)),
+    ];
+    let r = [
+        l.sqrt(l.mul_add(s[0], s[0], edge)),
+        l.sqrt(l.mul_add(s[1], s[1], edge)),
+    ];
+    let log = log(l, s, r, edge);
+    let rise = l.mul(s[1], ln_ratio(l, l.add(r[1], z), p[1]));
+    let rise = l.neg_mul_add(s[0], ln_ratio(l, l.add(r[0], z), p[0]), rise);
+    // The difference of two angles, by the product of (h r2, s2 z) and (h r1, -s1 z).
+    let (a1, a2) = (l.mul(h, r[0]), l.mul(h, r[1]));
+    let (b1, b2) = (l.mul(s[0], z), l.mul(s[1], z));
+    let angle = angle(
+        l,
+        l.mul_add(a1, a2, l.mul(b1, b2)),
+        l.neg_mul_add(b1, a2, l.mul(b2, a1)),
+    );
+    let slope = l.sub(l.splat(0.0), l.mul_add(h, log, l.mul(z, angle)));
+    let half = l.mul_add(l.sub(zz, hh), log, l.mul(s[0], r[0]));
+    let half = l.neg_mul_add(s[1], r[1], half);
+    let k = l.mul_add(half, l.splat(0.5), l.mul(z, rise));
+    (l.neg_mul_add(l.mul(z, h), angle, k), slope)
+}
+
+/// K and K_h between the two s at the height 0, for h >= 0.
+#[inline(always)]
+fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> (L::F, L::F) {
+    let p = [
+        l.sqrt(l.mul_add(s[0], s[0], hh)),
+        l.sqrt(l.mul_add(s[1], s[1], hh)),
+    ];
+    let log = log(l, s, p, hh);
+    let twice = l.neg_mul_add(s[1], p[1], l.mul(s[0], p[0]));
+    let twice = l.neg_mul_add(hh, log, twice);
+    (
+        l.mul(twice, l.splat(0.5)),
+        l.sub(l.splat(0.0), l.mul(h, log)),
+    )
+}
+
+/// N / 2 (m^3) at the squared distance `pp`, between the two heights.
+#[inline(always)]
+fn first_moment<L: Lanes>(l: L, pp: L::F, heights: [f64; 2]) -> L::F {
+    let pp = l.add(pp, l.splat(TINY));
+    let mut sum = l.splat(0.0);
+    for (sign, height) in [(0.5, heights[0]), (-0.5, heights[1])] {
+        let (z, zz) = (l.splat(height), l.splat(height * height));
+        let rr = l.add(pp, zz);
+        let r = l.sqrt(rr);
+        let rise = l.mul(z, ln_ratio(l, l.add(r, z), l.sqrt(pp)));
+        let cubic = l.mul(r, l.neg_mul_add(rr, l.splat(2.0 / 3.0), zz));
+        sum = l.mul_add(l.mul_add(pp, rise, cubic), l.splat(sign), sum);
     }
-    (k, k_h)
+    sum
 }
 
-/// f (m) at the distance p and its first moment N (m^3), at height z.
-#[inline]
-fn distance_kernels(p: f64, z: f64) -> f64 {
-    let pp = p * p + TINY;
-    let r = (pp + z * z).sqrt();
-    let rise = if z > 0.0 {
-        (z / pp.sqrt()).asinh()
-    } else {
-        0.0
-    };
-    0.5 * z * pp * rise + 0.5 * z * z * r - r * r * r / 3.0
+/// The quadrature's sums over the second sheet: of Phi, Phi_h and t Phi_h, all halved.
+#[derive(Clone, Copy)]
+struct Sums<F> {
+    phi: F,
+    slope: F,
+    turn: F,
 }
 
 impl SheetPair {
     /// The energy alone (m^3).
-    pub fn energy(&self) -> f64 {
-        let mut sum = 0.0;
-        self.for_each_node(|_, weight, x, h| {
-            sum += weight * potential(self.widths[0], self.heights, x, h).0;
-        });
-        2.0 * sum
+    #[inline(always)]
+    pub fn energy<L: Lanes>(&self, l: L, fineness: Fineness) -> f64 {
+        2.0 * l.sum(self.sums::<L, false>(l, fineness).phi)
     }
 
-    /// The energy and its derivatives.
-    pub fn energy_and_gradient(&self) -> SheetEnergy {
-        let (mut energy, mut h0, mut h1) = (0.0, 0.0, 0.0);
-        self.for_each_node(|t, weight, x, h| {
-            let (phi, slope) = potential(self.widths[0], self.heights, x, h);
-            energy += 2.0 * weight * phi;
-            h0 += 2.0 * weight * slope;
-            h1 += 2.0 * weight * slope * t;
-        });
-        let (x0, x1) = self.moments_along_x();
+    /// The energy, by panels as fine as `energy`, and its derivatives, by those of `gradient`.
+    #[inline(always)]
+    pub fn energy_and_gradient<L: Lanes>(
+        &self,
+        l: L,
+        energy: Fineness,
+        gradient: Fineness,
+    ) -> SheetEnergy {
+        let energy = self.energy(l, energy);
+        let ends = self.closed_forms(l);
+        let [x0, x1] = ends.moments;
+        let (h0, h1);
         if self.sin.abs() > std::f64::consts::FRAC_1_SQRT_2 {
+            let (start, stop) = (ends.phi[0], ends.phi[1]);
             let half = self.widths[1] / 2.0;
-            let end = |t: f64| {
-                2.0 * potential(
-                    self.widths[0],
-                    self.heights,
-                    self.x + t * self.cos,
-                    self.h + t * self.sin,
-                )
-                .0
-            };
-            let (start, stop) = (end(-half), end(half));
             h0 = ((stop - start) - self.cos * x0) / self.sin;
             h1 = (half * (stop + start) - energy - self.cos * x1) / self.sin;
+        } else {
+            let sums = self.sums::<L, true>(l, gradient);
+            h0 = 2.0 * l.sum(sums.slope);
+            h1 = 2.0 * l.sum(sums.turn);
         }
         SheetEnergy {
             energy,
@@ -176,25 +242,10 @@ impl SheetPair {
         }
     }
 
-    /// The moments 0 and 1 in t of Phi_x along the second sheet.
-    fn moments_along_x(&self) -> (f64, f64) {
-        let (mut zeroth, mut first) = (0.0, 0.0);
-        for sign in [-1.0, 1.0] {
-            let (foot, height) = self.corner(sign);
-            let phi = 2.0 * potential(self.widths[1], self.heights, -foot, height).0;
-            let (start, end) = self.distances_to_ends(foot, height);
-            let n = |p: f64| {
-                2.0 * (distance_kernels(p, self.heights[0]) - distance_kernels(p, self.heights[1]))
-            };
-            zeroth -= sign * phi;
-            first -= sign * (foot * phi + n(end) - n(start));
-        }
-        (zeroth, first)
-    }
-
     /// Where the first sheet's edge at `sign w_1 / 2` projects onto the second sheet's line, and
     /// its distance from that line.
-    fn corner(&self, sign: f64) -> (f64, f64) {
+    #[inline(always)]
+    fn corner(&self, sign: f64) -> Corner {
         let (dx, dh) = (sign * self.widths[0] / 2.0 - self.x, -self.h);
         (
             dx * self.cos + dh * self.sin,
@@ -202,82 +253,164 @@ impl SheetPair {
         )
     }
 
-    fn distances_to_ends(&self, foot: f64, height: f64) -> (f64, f64) {
-        let half = self.widths[1] / 2.0;
-        ((foot + half).hypot(height), (foot - half).hypot(height))
-    }
-
-    /// Calls `visit(t, weight, x, h)` at every node of the quadrature along the second sheet.
-    fn for_each_node(&self, mut visit: impl FnMut(f64, f64, f64, f64)) {
+    #[inline(always)]
+    fn sums<L: Lanes, const SLOPE: bool>(&self, l: L, fineness: Fineness) -> Sums<L::F> {
         let corners = [self.corner(-1.0), self.corner(1.0)];
-        let touching = TOUCHING * self.widths[0];
-        for_each_panel(self.widths[1] / 2.0, corners, |start, end, nodes| {
-            let (middle, half) = ((start + end) / 2.0, (end - start) / 2.0);
-            for &(node, weight) in rule(nodes) {
-                let t = middle + half * node;
-                let mut h = self.h + t * self.sin;
-                if h.abs() < touching {
-                    h = touching * self.side;
-                }
-                visit(t, half * weight, self.x + t * self.cos, h);
+        let rules = Rules::get();
+        let mut sums = Sums {
+            phi: l.splat(0.0),
+            slope: l.splat(0.0),
+            turn: l.splat(0.0),
+        };
+        for (start, end, eight) in Panels::new(self.widths[1] / 2.0, corners, fineness) {
+            let (nodes, weights): (&[f64], &[f64]) = if eight {
+                (&rules.eight[0], &rules.eight[1])
+            } else {
+                (&rules.sixteen[0], &rules.sixteen[1])
+            };
+            let (middle, half) = (l.splat((start + end) / 2.0), l.splat((end - start) / 2.0));
+            let mut from = 0;
+            while from < nodes.len() {
+                let t = l.mul_add(half, l.load(&nodes[from..]), middle);
+                let weight = l.mul(half, l.load(&weights[from..]));
+                self.add_node::<L, SLOPE>(l, t, weight, &mut sums);
+                from += L::WIDTH;
             }
-        });
+        }
+        sums
     }
-}
 
-/// Splits [-half, half] at the feet of the two corners and calls `visit(start, end, nodes)` for
-/// panels graded towards them.
-fn for_each_panel(half: f64, corners: [(f64, f64); 2], mut visit: impl FnMut(f64, f64, usize)) {
-    let mut cuts = [
-        corners[0].0.clamp(-half, half),
-        corners[1].0.clamp(-half, half),
-    ];
-    if cuts[0] > cuts[1] {
-        cuts.swap(0, 1);
+    #[inline(always)]
+    fn add_node<L: Lanes, const SLOPE: bool>(
+        &self,
+        l: L,
+        t: L::F,
+        weight: L::F,
+        sums: &mut Sums<L::F>,
+    ) {
+        let x = l.mul_add(t, l.splat(self.cos), l.splat(self.x));
+        let h = l.mul_add(t, l.splat(self.sin), l.splat(self.h));
+        let touching = TOUCHING * self.widths[0];
+        let above = l.select(h, h, l.sub(l.splat(0.0), h));
+        let clear = l.sub(above, l.splat(touching));
+        let h = l.select(clear, h, l.splat(touching * self.side));
+        let half = l.splat(self.widths[0] / 2.0);
+        let (phi, slope) = potential(l, [l.sub(x, half), l.add(x, half)], h, self.heights);
+        sums.phi = l.mul_add(weight, phi, sums.phi);
+        if SLOPE {
+            let weighted = l.mul(weight, slope);
+            sums.slope = l.add(sums.slope, weighted);
+            sums.turn = l.mul_add(weighted, t, sums.turn);
+        }
     }
-    let smallest = 1e-9 * half;
-    for (start, end) in [(-half, cuts[0]), (cuts[0], cuts[1]), (cuts[1], half)] {
-        if end - start > smallest {
-            graded(start, end, &corners, half, &mut visit);
+
+    /// What the gradient needs beside the quadrature, from the ends of the two sheets.
+    #[inline(always)]
+    fn closed_forms<L: Lanes>(&self, l: L) -> ClosedForms {
+        let halves = [self.widths[0] / 2.0, self.widths[1] / 2.0];
+        // Four potentials: of the second sheet at the first one's edges, and the other way round.
+        let mut s = [[0.0; MAX_WIDTH]; 2];
+        let mut h = [1.0; MAX_WIDTH];
+        let mut squares = [1.0; MAX_WIDTH];
+        let mut feet = [0.0; 2];
+        for (i, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let (foot, height) = self.corner(sign);
+            feet[i] = foot;
+            s[0][i] = foot - halves[1];
+            s[1][i] = foot + halves[1];
+            h[i] = height;
+            let t = sign * halves[1];
+            let x = self.x + t * self.cos;
+            s[0][2 + i] = x - halves[0];
+            s[1][2 + i] = x + halves[0];
+            h[2 + i] = self.h + t * self.sin;
+            // Squared distances of this edge from the second sheet's start and end.
+            squares[2 * i] = (foot + halves[1]).powi(2) + height * height;
+            squares[2 * i + 1] = (foot - halves[1]).powi(2) + height * height;
+        }
+        for i in 4..MAX_WIDTH {
+            s[0][i] = -1.0;
+            s[1][i] = 1.0;
+        }
+        let (phi, _) = potential(l, [l.load(&s[0]), l.load(&s[1])], l.load(&h), self.heights);
+        let n = first_moment(l, l.load(&squares), self.heights);
+        let (mut phis, mut ns) = ([0.0; MAX_WIDTH], [0.0; MAX_WIDTH]);
+        l.store(phi, &mut phis);
+        l.store(n, &mut ns);
+        ClosedForms {
+            moments: [
+                2.0 * (phis[0] - phis[1]),
+                2.0 * (feet[0] * phis[0] + ns[1] - ns[0] - feet[1] * phis[1] - ns[3] + ns[2]),
+            ],
+            phi: [2.0 * phis[2], 2.0 * phis[3]],
         }
     }
 }
 
-/// The share of a panel that grading cuts off at the end next to a corner.
-const GRADING: f64 = 0.2;
-/// Panels shorter than this share of the sheet's half width are not cut further.
-const FINEST: f64 = 0.02;
-/// The natural logarithm of the accuracy asked of a rule on a panel, halved.
-const EFFORT: f64 = 9.0;
+/// The moments 0 and 1 in t of Phi_x along the second sheet, and Phi at its two ends.
+struct ClosedForms {
+    moments: [f64; 2],
+    phi: [f64; 2],
+}
 
-fn graded(
-    start: f64,
-    end: f64,
-    corners: &[(f64, f64); 2],
-    half: f64,
-    visit: &mut impl FnMut(f64, f64, usize),
-) {
-    let length = end - start;
-    let (mut rho, mut near_start) = (f64::INFINITY, false);
-    for &(foot, height) in corners {
-        let (to_start, to_end) = ((foot - start).hypot(height), (foot - end).hypot(height));
-        let size = ellipse(to_start, to_end, length);
-        if size < rho {
-            (rho, near_start) = (size, to_start < to_end);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::potential::batch::lanes::{Level, Task};
+    use rand::{RngExt, SeedableRng};
+
+    const FINE: Fineness = Fineness {
+        finest: 1e-9,
+        eight: 11.0,
+        sixteen: 1.9,
+    };
+
+    struct Job(SheetPair, Fineness, Fineness);
+    impl Task for Job {
+        type Output = SheetEnergy;
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> SheetEnergy {
+            self.0.energy_and_gradient(l, self.1, self.2)
         }
     }
-    let nodes = (EFFORT / rho.ln()).ceil() + 1.0;
-    if nodes <= MAX_NODES as f64 {
-        visit(start, end, nodes as usize);
-    } else if length < FINEST * half {
-        visit(start, end, MAX_NODES / 2);
-    } else if near_start {
-        let cut = start + GRADING * length;
-        graded(start, cut, corners, half, visit);
-        graded(cut, end, corners, half, visit);
-    } else {
-        let cut = end - GRADING * length;
-        graded(start, cut, corners, half, visit);
-        graded(cut, end, corners, half, visit);
+
+    #[test]
+    fn explore() {
+        let level = Level::best();
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let grid = std::env::var("GRID").unwrap_or_default();
+        let v: Vec<f64> = grid.split(',').filter_map(|x| x.parse().ok()).collect();
+        let (mut f, mut g) = (ENERGY, GRADIENT);
+        if v.len() == 2 { f.finest = v[0]; g.finest = v[1]; }
+        println!("{f:?} {g:?}");
+        for gap in [0.0, 1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2] {
+            for tilt in [0.0, 1e-3, 0.03, 0.3, 1.2] {
+                let mut worst = [0.0f64; 4];
+                let mut nodes = [0; 2];
+                for trial in 0..60 {
+                    let angle: f64 = if trial % 2 == 0 { tilt } else { -tilt };
+                    let angle = if trial % 3 == 0 { angle + std::f64::consts::PI } else { angle };
+                    let (w1, w2) = (0.01, if trial % 5 == 0 { 0.01 } else { 0.007 });
+                    let x = match trial % 7 { 0 => 0.0, 1 => 0.002, _ => rng.random_range(-0.012..0.012) };
+                    let h = gap + 0.5 * w2 * angle.sin().abs();
+                    let pair = SheetPair { widths: [w1, w2], heights: [0.003, 0.0], x, h, cos: angle.cos(), sin: angle.sin(), side: 1.0 };
+                    let exact = level.run(Job(pair, FINE, FINE));
+                    let got = level.run(Job(pair, f, g));
+                    let force = exact.by_x.hypot(exact.by_h);
+                    let off = [
+                        (got.energy - exact.energy).abs() / exact.energy,
+                        (got.by_x - exact.by_x).abs() / force,
+                        (got.by_h - exact.by_h).abs() / force,
+                        (got.by_angle - exact.by_angle).abs() / force / w1,
+                    ];
+                    for i in 0..4 { worst[i] = worst[i].max(off[i]); }
+                    for (k, fine) in [f, g].into_iter().enumerate() {
+                        let corners = [pair.corner(-1.0), pair.corner(1.0)];
+                        nodes[k] += Panels::new(w2 / 2.0, corners, fine).map(|p| if p.2 { 8 } else { 16 }).sum::<usize>();
+                    }
+                }
+                println!("gap {gap:7.0e} tilt {tilt:6.0e}: E {:.1e} Fx {:.1e} Fh {:.1e} T {:.1e}  nodes {} {}", worst[0], worst[1], worst[2], worst[3], nodes[0] / 60, nodes[1] / 60);
+            }
+        }
     }
 }

@@ -1,0 +1,128 @@
+//! The sum over all pairs of blocks at one configuration.
+
+use nalgebra::{Complex, Vector2, Vector3};
+
+use super::far::{self, Group, Sums};
+use super::multipole::Coefficients;
+use super::{CuboidPotential, block};
+use crate::configuration::Configuration;
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::units::MU0;
+
+/// The energy at a configuration, and its gradient where asked for (else it is zero).
+pub struct Sum<'a, const SLOPE: bool> {
+    pub potential: &'a CuboidPotential,
+    pub q: &'a Configuration,
+}
+
+/// What is summed up.
+struct Total {
+    energy: f64,
+    gradient: Vector3<f64>,
+    /// Pairs (fixed block, moving block) that are too close for the far form.
+    near: Vec<(usize, usize)>,
+}
+
+impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
+    type Output = (f64, Vector3<f64>);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let (sin, cos) = self.q.theta.sin_cos();
+        let mut total = Total {
+            energy: 0.0,
+            gradient: Vector3::zeros(),
+            near: Vec::new(),
+        };
+        let groups = &self.potential.moving_groups;
+        for moving in groups {
+            for fixed in &self.potential.fixed_groups {
+                self.add_groups(l, fixed, moving, Complex::new(cos, sin), &mut total);
+            }
+        }
+        for &(first, second) in &total.near {
+            let first = &self.potential.fixed[first];
+            let second = self.potential.moving[second].moved(cos, sin, self.q.position());
+            if SLOPE {
+                let pair = block::energy_and_gradient(l, first, &second);
+                let arm = second.position - self.q.position();
+                let turn = pair.slope + arm.perp(&pair.gradient);
+                total.energy += pair.energy;
+                total.gradient += Vector3::new(pair.gradient.x, pair.gradient.y, turn);
+            } else {
+                total.energy += block::energy(l, first, &second);
+            }
+        }
+        (total.energy, total.gradient)
+    }
+}
+
+impl<const SLOPE: bool> Sum<'_, SLOPE> {
+    /// Adds the pairs of two groups that are far enough apart, and lists the others.
+    #[inline(always)]
+    fn add_groups<L: Lanes>(
+        &self,
+        l: L,
+        fixed: &Group,
+        moving: &Group,
+        rotation: Complex<f64>,
+        total: &mut Total,
+    ) {
+        let far = &self.potential.far[fixed.size][moving.size];
+        let turn = moving.axis * rotation * fixed.axis.conj();
+        let axis = fixed.axis * fixed.axis;
+        let near = l.splat(far.near());
+        let mut coefficients = Coefficients::NONE;
+        for (j, &second) in moving.members.iter().enumerate() {
+            let arm = rotation * Complex::new(moving.x[j], moving.y[j]);
+            let place = Vector2::new(self.q.x + arm.re, self.q.y + arm.im);
+            let mut sums = Sums::zero(l);
+            let mut from = 0;
+            while from < fixed.x.len() {
+                let r = [
+                    l.sub(l.splat(place.x), l.load(&fixed.x[from..])),
+                    l.sub(l.splat(place.y), l.load(&fixed.y[from..])),
+                ];
+                let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
+                let mut moment = l.load(&fixed.moment[from..]);
+                let mut apart = rr;
+                let least = l.least(rr);
+                if least < far.near() {
+                    let mut squares = [0.0; MAX_WIDTH];
+                    l.store(rr, &mut squares);
+                    for (lane, square) in squares[..L::WIDTH].iter().enumerate() {
+                        if *square < far.near() {
+                            total.near.push((fixed.members[from + lane], second));
+                        }
+                    }
+                    let outside = l.sub(rr, near);
+                    moment = l.select(outside, moment, l.splat(0.0));
+                    apart = l.select(outside, rr, near);
+                }
+                let terms = far.terms(least);
+                if terms > coefficients.terms {
+                    far.series.evaluate(turn, terms, &mut coefficients);
+                }
+                far::add::<L, SLOPE>(
+                    l,
+                    &coefficients,
+                    terms,
+                    axis,
+                    moment,
+                    r,
+                    apart,
+                    &mut sums,
+                );
+                from += L::WIDTH;
+            }
+            let scale = -MU0 / (4.0 * std::f64::consts::PI) * moving.moment[j];
+            total.energy += scale * l.sum(sums.energy);
+            if SLOPE {
+                let gx = scale * l.sum(sums.gradient[0]);
+                let gy = scale * l.sum(sums.gradient[1]);
+                let turn = scale * l.sum(sums.slope) + arm.re * gy - arm.im * gx;
+                total.gradient += Vector3::new(gx, gy, turn);
+            }
+        }
+    }
+}
