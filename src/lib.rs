@@ -2,6 +2,7 @@
 
 pub mod configuration;
 pub mod contact;
+pub mod design;
 pub mod landscape;
 pub mod potential;
 pub mod problem;

@@ -123,7 +123,7 @@ impl Contact {
 /// Largest separation (m) of two convex polygons over the normals of their edges: at most their
 /// distance where they are apart, minus the overlap's depth where they are not (separating axis
 /// theorem).
-fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
+pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 

@@ -55,14 +55,8 @@ fn follow(problem: &Problem, way: &mut Vec<Point>) -> Outcome {
         }
         match step_downhill(problem, &here, size) {
             Some(next) => {
-                let metric = problem.mass_metric(here.q.theta);
-                let moved = slide::length(&here.q.step_to(&next.q), &metric);
                 way.push(next);
-                if moved > 0.5 * size {
-                    size = (1.5 * size).min(LONGEST_STEP);
-                } else if moved < 0.05 * size {
-                    size *= 0.5;
-                }
+                size = (1.5 * size).min(LONGEST_STEP);
             }
             None => size *= 0.5,
         }
@@ -74,7 +68,13 @@ fn follow(problem: &Problem, way: &mut Vec<Point>) -> Outcome {
             }
         }
         if size < SHORTEST_STEP {
-            return Outcome::Stuck;
+            // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
+            match lower_neighbour(problem, &here) {
+                Some(lower) => way.push(lower),
+                None => return Outcome::Stuck,
+            }
+            size = LONGEST_STEP;
+            newton_below = TRY_NEWTON;
         }
     }
     Outcome::Stuck

@@ -127,19 +127,22 @@ impl Network {
         })
     }
 
-    /// Nodes from which no link that goes down leads on: where a descent is worth following.
+    /// Nodes from which no link leads down all the way: where a descent is worth following.
     pub fn local_minima(&self) -> Vec<usize> {
-        let energy = |node: NodeIndex<u32>| self.nodes[node.index()].map(|n| n.1);
-        self.graph
-            .node_indices()
-            .filter(|&node| {
-                energy(node).is_some_and(|here| {
-                    self.graph
-                        .neighbors(node)
-                        .all(|other| energy(other).is_some_and(|there| there >= here))
-                })
-            })
-            .map(NodeIndex::index)
+        let mut lowest = vec![true; self.nodes.len()];
+        for link in &self.links {
+            for (here, there) in [(link.from, link.to), (link.to, link.from)] {
+                let (Some((_, high)), Some((_, low))) = (self.nodes[here], self.nodes[there])
+                else {
+                    continue;
+                };
+                if low < high && link.costs.peak <= high {
+                    lowest[here] = false;
+                }
+            }
+        }
+        (0..self.nodes.len())
+            .filter(|&node| lowest[node] && self.nodes[node].is_some())
             .collect()
     }
 

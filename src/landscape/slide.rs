@@ -1,9 +1,9 @@
 //! Motion along contact: steps that never push the tiles into each other.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::configuration::Configuration;
-use crate::contact::{Constraint, closest_admissible};
+use crate::contact::{Constraint, Touch, closest_admissible};
 use crate::problem::Problem;
 
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
@@ -11,6 +11,14 @@ const RESIDUAL: f64 = 1e-12;
 
 /// Contacts are looked for this far (m) beyond what a step needs.
 const MARGIN: f64 = 1e-6;
+
+/// At rest where contact leaves less than this fraction of the force.
+const EQUILIBRIUM: f64 = 1e-9;
+
+/// A step must lower the energy by this fraction of what the slope at its start promises. Half is
+/// what a step to the lowest point along a parabola fulfils: longer ones, that would swing from
+/// side to side of a valley, are refused.
+const FULFILLED: f64 = 0.5;
 
 /// A configuration with its energy (J) and the energy's gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,47 +52,88 @@ pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Con
         .map_or_else(Vec::new, |contact| contact.constraints(q, margin))
 }
 
-/// The overdamped motion's direction at a point, of length 1 in the mass metric:
-/// `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of least constraint).
-/// Zero where the point is in equilibrium.
-pub fn downhill(problem: &Problem, point: &Point) -> Vector3<f64> {
+/// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
+/// it presses on: `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of least
+/// constraint). `None` in equilibrium.
+pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
     let metric = problem.mass_metric(point.q.theta);
-    let Some(free) = steepest(&metric, &point.gradient) else {
-        return Vector3::zeros();
-    };
+    let free = -(metric.try_inverse()? * point.gradient);
+    let strength = length(&free, &metric);
     let mut touching = constraints(problem, &point.q, MARGIN);
     for constraint in &mut touching {
         constraint.gap = 0.0;
     }
-    closest_admissible(free, &metric, &touching).map_or_else(Vector3::zeros, |(v, _)| v)
+    let (along, multipliers) = closest_admissible(free, &metric, &touching)?;
+    let size = length(&along, &metric);
+    if !(size > EQUILIBRIUM * strength && size.is_finite()) {
+        return None;
+    }
+    let pressed = touching
+        .iter()
+        .zip(multipliers)
+        .filter(|(_, multiplier)| *multiplier > 0.0)
+        .map(|(constraint, _)| constraint.touch)
+        .collect();
+    Some((along / size, pressed))
 }
 
-fn steepest(metric: &Matrix3<f64>, gradient: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let v = -(metric.try_inverse()? * gradient);
-    let size = length(&v, metric);
-    (size > 0.0 && size.is_finite()).then(|| v / size)
-}
-
-/// One step downhill of at most `size` (m, mass metric), sliding along contact. `None` where no
-/// such step leads to a free configuration of lower energy.
+/// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step
+/// leads to a free configuration of lower energy.
+///
+/// Contacts that are pressed on stay closed, though the surface may curve away from the straight
+/// step; contacts in the way shorten the step or turn it aside.
 pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Point> {
+    let (direction, pressed) = downhill(problem, point)?;
     let metric = problem.mass_metric(point.q.theta);
-    let wanted = steepest(&metric, &point.gradient)? * size;
-    let q = step(problem, &point.q, wanted, &metric)?;
-    let next = Point::new(problem, q);
-    (next.energy < point.energy).then_some(next)
+    let wanted = direction * size;
+    let margin = reach(problem, &wanted) + MARGIN;
+    let near = constraints(problem, &point.q, margin);
+    let (straight, _) = closest_admissible(wanted, &metric, &near)?;
+    let promised = point.gradient.dot(&straight);
+    let moved = point.q.moved(straight);
+    let closed = if pressed.is_empty() {
+        moved
+    } else {
+        // A vertex that has slid past the end of its edge presses no longer.
+        let still: Vec<Touch> = constraints(problem, &moved, margin)
+            .iter()
+            .map(|constraint| constraint.touch)
+            .filter(|touch| pressed.contains(touch))
+            .collect();
+        close(problem, &still, &moved).unwrap_or(moved)
+    };
+    let next = Point::new(problem, settle(problem, &closed, size)?);
+    (promised < 0.0 && next.energy <= point.energy + FULFILLED * promised).then_some(next)
 }
 
-/// The free configuration closest to `q` + `wanted` that a slide along contact reaches.
-fn step(
-    problem: &Problem,
-    q: &Configuration,
-    wanted: Vector3<f64>,
-    metric: &Matrix3<f64>,
-) -> Option<Configuration> {
-    let near = constraints(problem, q, reach(problem, &wanted) + MARGIN);
-    let (admissible, _) = closest_admissible(wanted, metric, &near)?;
-    settle(problem, &q.moved(admissible), length(&wanted, metric))
+/// The configuration near `q` at which the given contacts are closed; `None` where there is none
+/// or the contacts depend on each other.
+pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<Configuration> {
+    let Some(contact) = &problem.contact else {
+        return Some(*q);
+    };
+    let mut q = *q;
+    for _ in 0..12 {
+        let rows: Vec<Constraint> = touches
+            .iter()
+            .map(|touch| contact.constraint(*touch, &q))
+            .collect();
+        let widest = rows.iter().map(|c| c.gap.abs()).fold(0.0, f64::max);
+        if widest <= 1e-13 {
+            return Some(q);
+        }
+        let inverse = problem.mass_metric(q.theta).try_inverse()?;
+        let n = rows.len();
+        let gram = DMatrix::from_fn(n, n, |a, b| {
+            rows[a].gradient.dot(&(inverse * rows[b].gradient))
+        });
+        let missing = DVector::from_fn(n, |a, _| -rows[a].gap);
+        let amounts = gram.cholesky()?.solve(&missing);
+        let push: Vector3<f64> = (0..n).map(|a| rows[a].gradient * amounts[a]).sum();
+        q = q.moved(inverse * push);
+    }
+    let gap = |touch: &Touch| contact.constraint(*touch, &q).gap.abs();
+    touches.iter().all(|touch| gap(touch) <= 1e-10).then_some(q)
 }
 
 /// How far (m) a step moves any point of the moving tile at most.

@@ -244,26 +244,7 @@ impl<'a> Surface<'a> {
 
     /// The configuration near `q` at which all closed contacts are closed.
     fn retract(&self, q: &Configuration) -> Option<Configuration> {
-        let mut q = *q;
-        for _ in 0..12 {
-            let rows = self.constraints(&q);
-            if rows.iter().all(|c| c.gap.abs() <= 1e-13) {
-                return Some(q);
-            }
-            let inverse = self.problem.mass_metric(q.theta).try_inverse()?;
-            let n = rows.len();
-            let gram = DMatrix::from_fn(n, n, |a, b| {
-                rows[a].gradient.dot(&(inverse * rows[b].gradient))
-            });
-            let missing = DVector::from_fn(n, |a, _| -rows[a].gap);
-            let amounts = gram.cholesky()?.solve(&missing);
-            let push: Vector3<f64> = (0..n).map(|a| rows[a].gradient * amounts[a]).sum();
-            q = q.moved(inverse * push);
-        }
-        self.constraints(&q)
-            .iter()
-            .all(|c| c.gap.abs() <= 1e-10)
-            .then_some(q)
+        slide::close(self.problem, &self.closed, q)
     }
 
     /// Goes along a step on the surface, up to the first contact that closes on the way.

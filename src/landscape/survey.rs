@@ -134,7 +134,7 @@ impl Survey {
             .map(|(_, q)| descend(problem, q))
             .collect();
         for ((node, _), descent) in starts.into_iter().zip(descents) {
-            let end = self.arrive(problem, &descent, settings);
+            let end = self.arrive(problem, &descent);
             if let (Some(node), Some(end)) = (node, end) {
                 self.network
                     .add_way(problem, node, end, descent.way, &settings.edge);
@@ -143,12 +143,7 @@ impl Survey {
     }
 
     /// The node in which a descent ended, made if need be.
-    fn arrive(
-        &mut self,
-        problem: &Problem,
-        descent: &Descent,
-        settings: &SurveySettings,
-    ) -> Option<usize> {
+    fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
             Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
             Outcome::Free => {
@@ -258,7 +253,7 @@ impl Survey {
         let [Some(first), Some(second)] = sides else {
             return;
         };
-        let ends = [&first, &second].map(|side| self.arrive(problem, side, settings));
+        let ends = [&first, &second].map(|side| self.arrive(problem, side));
         let [Some(from), Some(to)] = ends else {
             return;
         };

@@ -1,7 +1,11 @@
 //! Tiles: an outline, its faces and the magnets they carry.
 
+pub mod assembly;
+pub mod barcode;
 pub mod magnet;
 pub mod outline;
+pub mod profile;
+pub mod symmetry;
 
 pub use magnet::Magnet;
 pub use outline::Outline;

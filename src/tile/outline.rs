@@ -20,7 +20,7 @@ pub struct ConvexPart {
 }
 
 impl ConvexPart {
-    fn new(points: Vec<Vector2<f64>>) -> Self {
+    pub(crate) fn new(points: Vec<Vector2<f64>>) -> Self {
         let normals = (0..points.len())
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();

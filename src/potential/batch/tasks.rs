@@ -23,7 +23,7 @@ fn in_range(theta: f64) -> f64 {
 
 /// One configuration in all lanes.
 #[inline(always)]
-fn frame_of_one<L: Lanes>(l: L, q: &Configuration) -> Frame<L::F> {
+pub fn frame_of_one<L: Lanes>(l: L, q: &Configuration) -> Frame<L::F> {
     let (sin, cos) = l.sin_cos(l.splat(in_range(q.theta)));
     Frame {
         cos,
@@ -69,16 +69,16 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         shares: &mut Shares<L::F>,
     ) {
         let moving = &self.potential.moving;
-        let mut place = [[l.splat(0.0); 2]; N];
-        for (k, place) in place.iter_mut().enumerate() {
+        let mut places = [[l.splat(0.0); 2]; N];
+        for (k, place) in places.iter_mut().enumerate() {
             let i = first + k * L::WIDTH;
             *place = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
-        let fields = field::<L, N, SLOPE>(l, &self.potential.fixed, place);
+        let fields = field::<L, N, SLOPE>(l, &self.potential.sources, &places);
         for k in 0..N {
             let i = first + k * L::WIDTH;
             let moment = [l.load(&moving.moment_x[i..]), l.load(&moving.moment_y[i..])];
-            shares.gather::<L, SLOPE>(l, frame, moment, place[k], &fields[k]);
+            shares.gather::<L, SLOPE>(l, frame, moment, places[k], &fields[k]);
         }
     }
 }
@@ -128,16 +128,16 @@ impl<P, const SLOPE: bool> Many<'_, P, SLOPE> {
         shares: &mut [Shares<L::F>; 2],
     ) {
         let moving = &self.potential.moving;
-        let mut place = [[l.splat(0.0); 2]; 2];
-        for (k, place) in place.iter_mut().enumerate() {
-            let point = [moving.x[first + k], moving.y[first + k]];
-            *place = frame.place(l, pair_of(l, point));
+        let mut places = [[l.splat(0.0); 2]; 2];
+        for (k, place) in places.iter_mut().enumerate() {
+            let i = first + k;
+            *place = frame.place(l, pair_of(l, [moving.x[i], moving.y[i]]));
         }
-        let fields = field::<L, 2, SLOPE>(l, &self.potential.fixed, place);
-        for k in 0..2 {
-            let moment = [moving.moment_x[first + k], moving.moment_y[first + k]];
-            let moment = pair_of(l, moment);
-            shares[k].gather::<L, SLOPE>(l, frame, moment, place[k], &fields[k]);
+        let fields = field::<L, 2, SLOPE>(l, &self.potential.sources, &places);
+        for (k, shares) in shares.iter_mut().enumerate() {
+            let i = first + k;
+            let moment = pair_of(l, [moving.moment_x[i], moving.moment_y[i]]);
+            shares.gather::<L, SLOPE>(l, frame, moment, places[k], &fields[k]);
         }
     }
 
@@ -190,51 +190,6 @@ where
                 let (energy, slope) = finite(energy[lane], slope);
                 (self.put)(block * L::WIDTH + lane, energy, slope);
             }
-        }
-    }
-}
-
-/// [`DipolePotential::curvature_bound`], the moving dipoles in the lanes.
-pub struct Curvature<'a> {
-    pub potential: &'a DipolePotential,
-    pub q: &'a Configuration,
-    pub reach: f64,
-}
-
-impl Task for Curvature<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, l: L) -> f64 {
-        let DipolePotential { moving, lever, .. } = self.potential;
-        let frame = frame_of_one(l, self.q);
-        let turn = if *lever > 0.0 { 1.0 / lever } else { 0.0 };
-        let reach = l.splat(self.reach);
-        let (mut sum, mut nearest) = (l.splat(0.0), l.splat(f64::INFINITY));
-        for first in (0..moving.x.len()).step_by(L::WIDTH) {
-            let place = frame.place(l, [l.load(&moving.x[first..]), l.load(&moving.y[first..])]);
-            let mut share = l.splat(0.0);
-            for source in &self.potential.fixed {
-                let position = pair_of(l, source.position);
-                let d = [l.sub(place[0], position[0]), l.sub(place[1], position[1])];
-                let r2 = l.mul_add(d[0], d[0], l.mul(d[1], d[1]));
-                let r = l.sub(l.mul(r2, l.reciprocal_sqrt(r2)), reach);
-                nearest = l.min(r, nearest);
-                let w1 = l.reciprocal_sqrt(l.mul(r, r));
-                let w2 = l.mul(w1, w1);
-                let p = l.mul_add(l.splat(24.0), w1, l.splat(18.0 * turn));
-                let p = l.mul_add(p, w1, l.splat(2.0 * turn * turn));
-                share = l.mul_add(l.mul(l.mul(w1, w2), p), l.splat(source.magnitude), share);
-            }
-            sum = l.mul_add(share, l.load(&moving.magnitude[first..]), sum);
-        }
-        let mut distances = [f64::INFINITY; MAX_WIDTH];
-        l.store(nearest, &mut distances);
-        let bound = l.sum(sum);
-        if bound.is_finite() && distances.iter().all(|r| *r > 0.0) {
-            bound
-        } else {
-            f64::INFINITY
         }
     }
 }

@@ -1,0 +1,161 @@
+//! What is wrong with a design file, where, and how to mend it.
+
+use std::fmt;
+use std::ops::Range;
+
+/// A fault of a design file.
+///
+/// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
+/// place marked, and the mend:
+///
+/// ```text
+/// flat.toml:12:8: `side` = 430 m: did you mean 0.43 (430 mm)?
+///    |
+/// 12 | side = 430
+///    |        ^^^
+///    = help: lengths are in metres
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DesignError {
+    /// The file's name, as it was given.
+    pub file: String,
+    /// Where in the file; `None` where the file as a whole is at fault (it cannot be read).
+    pub place: Option<Box<Place>>,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: String,
+}
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Line, counted from 1.
+    pub line: usize,
+    /// Column in characters, counted from 1.
+    pub column: usize,
+    /// How many characters of the line are meant, at least 1.
+    pub width: usize,
+    /// The line's text.
+    pub source: String,
+}
+
+impl Place {
+    /// The place of a range of bytes of `text`; a range over several lines is cut at the end of
+    /// its first.
+    fn new(text: &str, span: Span) -> Self {
+        let start = floor_char_boundary(text, span.start);
+        let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+        let end = floor_char_boundary(text, span.end).clamp(start, line_end);
+        Self {
+            line: text[..start].matches('\n').count() + 1,
+            column: text[line_start..start].chars().count() + 1,
+            width: text[start..end].chars().count().max(1),
+            source: text[line_start..line_end].trim_end_matches('\r').to_owned(),
+        }
+    }
+}
+
+fn floor_char_boundary(text: &str, at: usize) -> usize {
+    let at = at.min(text.len());
+    (0..=at)
+        .rev()
+        .find(|&i| text.is_char_boundary(i))
+        .unwrap_or(0)
+}
+
+impl fmt::Display for DesignError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(place) = &self.place else {
+            writeln!(f, "{}: {}", self.file, self.message)?;
+            return write!(f, "  = help: {}", self.help);
+        };
+        let number = place.line.to_string();
+        let gutter = " ".repeat(number.len());
+        let source = place.source.replace('\t', " ");
+        let indent = " ".repeat(place.column - 1);
+        let carets = "^".repeat(place.width);
+        writeln!(
+            f,
+            "{}:{number}:{}: {}",
+            self.file, place.column, self.message
+        )?;
+        writeln!(f, "{gutter} |")?;
+        writeln!(f, "{number} | {source}")?;
+        writeln!(f, "{gutter} | {indent}{carets}")?;
+        write!(f, "{gutter} = help: {}", self.help)
+    }
+}
+
+impl std::error::Error for DesignError {}
+
+/// A range of bytes of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Span {
+    pub start: usize,
+    pub end: usize,
+}
+
+impl From<Range<usize>> for Span {
+    fn from(range: Range<usize>) -> Self {
+        Self {
+            start: range.start,
+            end: range.end,
+        }
+    }
+}
+
+/// A design file's name and text, from which every fault takes its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    pub fn error(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> DesignError {
+        DesignError {
+            file: self.file.to_owned(),
+            place: Some(Box::new(Place::new(self.text, span))),
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_shows_its_place_and_its_mend() {
+        let source = Source {
+            file: "a.toml",
+            text: "name = \"ä\"\nside = 430 # m\n",
+        };
+        let at = source.text.find("430").unwrap();
+        let error = source.error((at..at + 3).into(), "too large", "use metres");
+        assert_eq!(
+            error.to_string(),
+            "a.toml:2:8: too large\n  |\n2 | side = 430 # m\n  |        ^^^\n  = help: use metres"
+        );
+    }
+
+    #[test]
+    fn columns_count_characters_and_places_never_leave_the_text() {
+        let source = Source {
+            file: "a.toml",
+            text: "ä = ü",
+        };
+        let place = |span: Range<usize>| *source.error(span.into(), "", "").place.unwrap();
+        assert_eq!((place(5..7).column, place(5..7).width), (5, 1));
+        assert_eq!((place(90..99).line, place(90..99).column), (1, 6));
+        assert_eq!(place(6..6).column, 5);
+    }
+}

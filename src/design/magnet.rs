@@ -1,0 +1,278 @@
+//! The keys that describe a magnet, in `[magnet]`, in a face's `magnet = { ... }` and in the
+//! entries of `magnets`.
+
+use std::f64::consts::PI;
+
+use super::error::{DesignError, Span};
+use super::quantity::{self, four_digits};
+use super::reader::{Entry, Result, Section};
+use crate::tile::barcode::Pole;
+use crate::units::MU0;
+
+/// How strong a magnet is; one of the three ways to say it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Strength {
+    /// Magnetic moment (A m^2).
+    Moment(f64),
+    /// Remanence Br of the uniformly magnetised block (T).
+    Remanence(f64),
+    /// Field at the centre of the block's pole face (T).
+    SurfaceField(f64),
+}
+
+impl Strength {
+    /// The moment (A m^2) of a block of `size` (m; along its axis first): `m = Br V / mu0`, with
+    /// Br from [`surface_field_share`] where the field at the pole face is what is known.
+    pub fn moment(self, size: [f64; 3]) -> f64 {
+        let volume: f64 = size.iter().product();
+        match self {
+            Self::Moment(moment) => moment,
+            Self::Remanence(remanence) => remanence * volume / MU0,
+            Self::SurfaceField(field) => field / surface_field_share(size) * volume / MU0,
+        }
+    }
+}
+
+/// B0 / Br: the field at the centre of the pole face of a uniformly magnetised block, as a share
+/// of its remanence.
+///
+/// The two pole faces (a by b, the length l apart) are sheets of magnetic charge; on its axis a
+/// charged rectangle gives a field in proportion to the solid angle that it fills, 2 pi right at
+/// the sheet and `4 atan(a b / (2 l sqrt(4 l^2 + a^2 + b^2)))` at the distance l. The near sheet's
+/// field less the far sheet's is
+///
+/// ```text
+/// B0 / Br = 1/2 - (1/pi) atan(a b / (2 l sqrt(4 l^2 + a^2 + b^2)))
+/// ```
+///
+/// Source: charge model, Furlani, *Permanent Magnet and Electromechanical Devices* (2001),
+/// section 4.2; solid angle of a rectangle, Khadjavi, J. Opt. Soc. Am. 58 (1968) 1417.
+/// Edges: a long bar has 1/2, a thin plate tends to 0 as `(2/pi) l sqrt(1/a^2 + 1/b^2)`.
+pub fn surface_field_share([l, a, b]: [f64; 3]) -> f64 {
+    // atan(1 / x) = pi/2 - atan(x): no difference of nearly equal numbers for a thin plate.
+    (2.0 * l * (4.0 * l * l + a * a + b * b).sqrt() / (a * b)).atan() / PI
+}
+
+/// The magnet keys of one place in the file; what is not given there is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct MagnetKeys {
+    pub size: Option<[f64; 3]>,
+    pub strength: Option<Strength>,
+    pub pitch: Option<f64>,
+    pub inset: Option<f64>,
+    pub axis: Option<f64>,
+}
+
+const STRENGTHS: [&str; 3] = ["remanence", "moment", "surface_field"];
+/// The keys of `[magnet]` and of a face's `magnet`.
+pub(super) const MAGNET_KEYS: [&str; 7] = [
+    "size",
+    "remanence",
+    "moment",
+    "surface_field",
+    "pitch",
+    "inset",
+    "axis",
+];
+
+impl MagnetKeys {
+    /// Reads what a table says of a magnet; which other keys it may hold is the caller's affair.
+    pub fn read(section: &Section) -> Result<Self> {
+        let size = section
+            .get("size")
+            .map(|entry| {
+                let what = "along its magnetic axis, along the face, through the tile's thickness";
+                entry.numbers::<3>(quantity::MAGNET_SIZE, what)
+            })
+            .transpose()?;
+        Ok(Self {
+            size,
+            strength: strength(section)?,
+            pitch: section.number("pitch", quantity::PITCH)?,
+            inset: section.number("inset", quantity::INSET)?,
+            axis: section.number("axis", quantity::AXIS)?,
+        })
+    }
+
+    /// These keys, and those of `lower` where these are silent.
+    pub fn over(self, lower: Self) -> Self {
+        Self {
+            size: self.size.or(lower.size),
+            strength: self.strength.or(lower.strength),
+            pitch: self.pitch.or(lower.pitch),
+            inset: self.inset.or(lower.inset),
+            axis: self.axis.or(lower.axis),
+        }
+    }
+
+    /// The keys of the mating magnet.
+    pub fn mate(self) -> Self {
+        Self {
+            axis: self.axis.map(|axis| -axis),
+            ..self
+        }
+    }
+
+    /// The size and the moment (A m^2), both of which a magnet must have.
+    pub fn block(&self) -> std::result::Result<([f64; 3], f64), &'static str> {
+        let size = self.size.ok_or("size")?;
+        let strength = self.strength.ok_or("remanence")?;
+        Ok((size, strength.moment(size)))
+    }
+}
+
+/// The one way in which a table says how strong its magnets are.
+fn strength(section: &Section) -> Result<Option<Strength>> {
+    let mut given: Vec<Entry> = STRENGTHS
+        .iter()
+        .filter_map(|key| section.get(key))
+        .collect();
+    given.sort_by_key(Entry::span);
+    if let [first, second, ..] = given.as_slice() {
+        return Err(second.key_error(
+            format!(
+                "`{}` and `{}` both say how strong the magnet is",
+                first.key, second.key
+            ),
+            "keep exactly one of remanence, moment and surface_field",
+        ));
+    }
+    let Some(entry) = given.first() else {
+        return Ok(None);
+    };
+    Ok(Some(match entry.key {
+        "moment" => Strength::Moment(entry.number(quantity::MOMENT)?),
+        "remanence" => Strength::Remanence(entry.number(quantity::REMANENCE)?),
+        _ => Strength::SurfaceField(entry.number(quantity::SURFACE_FIELD)?),
+    }))
+}
+
+/// The remanence (T) that no material comes near; a moment or a surface field that asks for more
+/// was given in another unit.
+const IMPOSSIBLE_REMANENCE: f64 = 10.0;
+
+/// What is wrong with the strength of a block, if anything.
+pub(super) fn impossible(size: [f64; 3], moment: f64) -> Option<(String, String)> {
+    let remanence = MU0 * moment / size.iter().product::<f64>();
+    (remanence > IMPOSSIBLE_REMANENCE).then(|| {
+        (
+            format!(
+                "a block of this size and strength would have a remanence of {} T",
+                four_digits(remanence)
+            ),
+            format!(
+                "strong magnets have 1.2 T, which for this size is moment = {} A m^2",
+                four_digits(moment * 1.2 / remanence)
+            ),
+        )
+    })
+}
+
+/// One magnet of a list `magnets = [{ at, pole, ... }]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ListedMagnet {
+    pub at: f64,
+    pub pole: Pole,
+    pub keys: MagnetKeys,
+    pub span: Span,
+}
+
+impl ListedMagnet {
+    pub fn read(entry: &Entry) -> Result<Self> {
+        let section = entry.section("a magnet of `magnets`")?;
+        let known: Vec<_> = ["at", "pole"]
+            .into_iter()
+            .chain(MAGNET_KEYS.into_iter().filter(|key| *key != "pitch"))
+            .collect();
+        section.allow(&known)?;
+        let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
+        let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
+        Ok(Self {
+            at: at.number(quantity::ALONG_FACE)?,
+            pole: pole.word(&[("N", Pole::North), ("S", Pole::South)])?,
+            keys: MagnetKeys::read(&section)?,
+            span: entry.span(),
+        })
+    }
+
+    /// The magnet that binds it on the mating face.
+    pub fn mate(self) -> Self {
+        Self {
+            at: -self.at,
+            pole: self.pole.opposite(),
+            keys: self.keys.mate(),
+            ..self
+        }
+    }
+}
+
+/// A fault for a magnet that lacks its size or its strength.
+pub(super) fn missing_key(key: &str, error: impl Fn(String, String) -> DesignError) -> DesignError {
+    let (what, example) = match key {
+        "pitch" => ("spacing", "pitch = 0.040"),
+        "size" => ("size", "size = [0.010, 0.010, 0.003]"),
+        _ => ("strength", "remanence = 1.2 (or moment, or surface_field)"),
+    };
+    error(
+        format!("the {what} of this magnet is not given"),
+        format!("write `{example}` under [magnet], or in this face's `magnet = {{ ... }}`"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The field at a point on the axis, summed over both pole faces cut into small charges.
+    fn summed_field(size: [f64; 3], above: f64) -> f64 {
+        let [l, a, b] = size;
+        let n = 800;
+        let sheet = |z: f64| -> f64 {
+            let mut sum = 0.0;
+            for i in 0..n {
+                for j in 0..n {
+                    let x = a * ((f64::from(i) + 0.5) / f64::from(n) - 0.5);
+                    let y = b * ((f64::from(j) + 0.5) / f64::from(n) - 0.5);
+                    sum += z / (x * x + y * y + z * z).powf(1.5);
+                }
+            }
+            sum * a * b / f64::from(n * n) / (4.0 * PI)
+        };
+        sheet(above) - sheet(l + above)
+    }
+
+    #[test]
+    fn the_surface_field_is_the_limit_of_the_field_above_the_face() {
+        for size in [
+            [0.010, 0.010, 0.003],
+            [0.003, 0.010, 0.010],
+            [0.02, 0.01, 0.01],
+        ] {
+            // The field falls off linearly right above the face: extrapolate from two heights.
+            let step = 2e-4;
+            let (near, far) = (summed_field(size, step), summed_field(size, 2.0 * step));
+            let surface = 2.0 * near - far;
+            let share = surface_field_share(size);
+            assert!((surface / share - 1.0).abs() < 5e-3, "{surface} {share}");
+        }
+    }
+
+    #[test]
+    fn the_surface_field_has_its_limits() {
+        assert!((surface_field_share([1.0, 1e-4, 1e-4]) - 0.5).abs() < 1e-8);
+        let (l, a, b) = (1e-6, 0.02, 0.01);
+        let thin = 2.0 / PI * l * f64::hypot(1.0 / a, 1.0 / b);
+        assert!((surface_field_share([l, a, b]) / thin - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_three_ways_to_say_a_strength_agree() {
+        let size = [0.010, 0.010, 0.003];
+        let moment = Strength::Remanence(1.2).moment(size);
+        assert!((moment - 0.28648).abs() < 1e-5);
+        assert_eq!(Strength::Moment(moment).moment(size), moment);
+        let field = 1.2 * surface_field_share(size);
+        let from_field = Strength::SurfaceField(field).moment(size);
+        assert!((from_field / moment - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,243 @@
+//! The design file: a pair of tiles in TOML, read and checked.
+//!
+//! [`Design::load`] turns a file into two [`Tile`]s, the configuration in which they are meant to
+//! bind, and the table they float on. Everything that can be wrong with a file is found here and
+//! told as a [`DesignError`] with line, column and the mend; behind this door tiles are sound.
+//! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2.
+//!
+//! What the keys mean where a choice had to be made:
+//!
+//! - A face's own entry overrides `all` key by key. `code`, `magnets` or `profile` in a face's own
+//!   entry set aside a `mates` of `all`.
+//! - A mate takes over its partner's line, code or magnets *and* its `magnet` keys (another pitch
+//!   or size would keep it from being the complement); `magnet` keys given for the mate itself
+//!   have the last word.
+//! - The outermost point of a magnet's block lies `inset` behind the outline at the magnet's s,
+//!   measured along the face's normal. For a block along the normal this is the centre of its
+//!   outer pole face. At a step of the outline, the lower side counts; on a face drawn back by
+//!   `fit`, the line drawn back.
+//! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
+//!   opposite (`S`).
+
+mod base;
+mod error;
+mod face;
+mod magnet;
+mod overlap;
+mod potential;
+mod quantity;
+mod reader;
+mod shield;
+mod svg;
+mod target;
+mod tile;
+
+pub use error::{DesignError, Place};
+pub use magnet::{Strength, surface_field_share};
+pub use potential::MagnetModel;
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use toml::de::DeTable;
+
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::tile::Tile;
+use error::Source;
+use magnet::{MAGNET_KEYS, MagnetKeys};
+use reader::{Result, Section};
+use tile::{TILES, TileEntry};
+
+/// A pair of tiles and how they are meant to bind.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The design's name; the file's where it gives none.
+    pub name: String,
+    pub description: String,
+    /// SHA-256 of the file's bytes, in hexadecimal.
+    pub sha256: String,
+    /// Size of the air table (m) along x and along y.
+    pub table: [f64; 2],
+    /// The tile at the table's centre, unrotated.
+    pub fixed: Tile,
+    /// The tile that moves.
+    pub moving: Tile,
+    /// The faces of the fixed and of the moving tile that are meant to bind.
+    pub target: (usize, usize),
+    /// The configuration in which the target faces coincide.
+    pub bound: Configuration,
+    /// How magnets are modelled.
+    pub model: MagnetModel,
+    /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
+    pub pitch: Option<f64>,
+    /// Doubts that do not keep the design from being used, such as a magnet whose corners break
+    /// through a curved surface.
+    pub warnings: Vec<DesignError>,
+}
+
+const ROOT_KEYS: [&str; 9] = [
+    "name",
+    "description",
+    "table",
+    "magnet",
+    "fixed",
+    "moving",
+    "target",
+    "potential",
+    "shield",
+];
+
+impl Design {
+    /// Reads a design file.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or is no sound design.
+    pub fn load(path: &Path) -> Result<Self> {
+        let file = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|error| DesignError {
+            file: file.clone(),
+            place: None,
+            message: format!("cannot read the design file: {error}"),
+            help: "check the path; shipped designs are in shapes/".to_owned(),
+        })?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::parse(&text, &file),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes());
+                let source = Source {
+                    file: &file,
+                    text: &text,
+                };
+                Err(source.error(
+                    (at..at + 1).into(),
+                    "the file is not UTF-8 text",
+                    "save it as UTF-8",
+                ))
+            }
+        }
+    }
+
+    /// Reads a design from the text of its file; `file` is its name, for messages and where the
+    /// design gives no name of its own.
+    ///
+    /// # Errors
+    /// Where the text is no sound design.
+    pub fn parse(text: &str, file: &str) -> Result<Self> {
+        let source = Source { file, text };
+        let root = DeTable::parse(text).map_err(|error| {
+            source.error(
+                error.span().unwrap_or_default().into(),
+                error.message().trim(),
+                "the file is TOML: `key = value` lines under [section] headers",
+            )
+        })?;
+        let root = Section::root(source, root.get_ref());
+        root.allow(&ROOT_KEYS)?;
+        if let Some(shield) = root.get("shield") {
+            return Err(shield::refused(&shield));
+        }
+        let table = table(&root)?;
+        let magnet = root.section("magnet", "[magnet]")?;
+        let keys = match &magnet {
+            Some(magnet) => {
+                magnet.allow(&MAGNET_KEYS)?;
+                MagnetKeys::read(magnet)?
+            }
+            None => MagnetKeys::default(),
+        };
+        let sections = ["[fixed]", "[moving]"];
+        let faces = ["[fixed.faces]", "[moving.faces]"];
+        let tile_entry = |i: usize| {
+            let help = format!(
+                "describe it under [{}]: side, thickness, mass, faces",
+                TILES[i]
+            );
+            let section = root.require(TILES[i], &help)?.section(sections[i])?;
+            TileEntry::read(section, faces[i])
+        };
+        let entries = [tile_entry(0)?, tile_entry(1)?];
+        let target = target::read(&root, &entries)?;
+        let model = potential::read(&root)?;
+        let contents = tile::resolve(&entries, keys)?;
+        let fixed = tile::build(&entries[0], &contents[0])?;
+        let moving = tile::build(&entries[1], &contents[1])?;
+        let mut warnings = Vec::new();
+        for (entry, built) in entries.iter().zip([&fixed, &moving]) {
+            warnings.extend(overlap::check_magnets(&entry.section, built)?);
+        }
+        let (fixed, moving) = (fixed.tile, moving.tile);
+        let bound = target.configuration(&fixed, &moving)?;
+        let design = Self {
+            name: root
+                .string("name")?
+                .map_or_else(|| stem(file), str::to_owned),
+            description: root.string("description")?.unwrap_or_default().to_owned(),
+            sha256: hexadecimal(&Sha256::digest(text.as_bytes())),
+            table,
+            fixed,
+            moving,
+            target: target.faces,
+            bound,
+            model,
+            pitch: keys.pitch,
+            warnings,
+        };
+        design.check_table(&root)?;
+        Ok(design)
+    }
+
+    /// The space of configurations of the moving tile: its reference point on the table, rho its
+    /// radius of gyration, the tiles free of each other where their circles about the reference
+    /// points are.
+    pub fn space(&self) -> ConfigurationSpace {
+        ConfigurationSpace {
+            half_size: self.table.map(|size| size / 2.0),
+            rho: self.moving.radius_of_gyration(),
+            free_distance: self.fixed.outline.circumradius() + self.moving.outline.circumradius(),
+        }
+    }
+
+    /// Refuses a table on which the tiles cannot bind or cannot come apart.
+    fn check_table(&self, root: &Section) -> Result<()> {
+        let space = self.space();
+        let entry = root
+            .require("table", TABLE_HELP)?
+            .section("[table]")?
+            .require("size", TABLE_HELP)?;
+        let [x, y] = space.half_size;
+        if !space.contains(&self.bound) {
+            return Err(entry.error(
+                "the bound configuration lies off the table",
+                "make the table larger",
+            ));
+        }
+        if x.hypot(y) <= space.free_distance {
+            let needed = quantity::four_digits(3.0 * space.free_distance);
+            return Err(entry.error(
+                "the table is too small for the tiles to come apart",
+                format!("make it larger: size = [{needed}, {needed}]"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";
+
+fn table(root: &Section) -> Result<[f64; 2]> {
+    let section = root.require("table", TABLE_HELP)?.section("[table]")?;
+    section.allow(&["size"])?;
+    section
+        .require("size", TABLE_HELP)?
+        .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")
+}
+
+fn stem(file: &str) -> String {
+    let stem = Path::new(file).file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,40 @@
+//! The section `[potential]`: how magnets are modelled.
+
+use super::reader::{Result, Section};
+
+/// How magnets are modelled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MagnetModel {
+    /// Point dipoles at the blocks' centres.
+    #[default]
+    Dipole,
+    /// Uniformly magnetised blocks.
+    Cuboid,
+}
+
+/// Models that a design may ask for.
+const SUPPORTED: &[MagnetModel] = &[MagnetModel::Dipole];
+
+impl MagnetModel {
+    /// What the design file calls each model.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+}
+
+pub(super) fn read(root: &Section) -> Result<MagnetModel> {
+    let Some(section) = root.section("potential", "[potential]")? else {
+        return Ok(MagnetModel::default());
+    };
+    section.allow(&["model"])?;
+    let Some(entry) = section.get("model") else {
+        return Ok(MagnetModel::default());
+    };
+    let model = entry.word(&MagnetModel::NAMES)?;
+    if !SUPPORTED.contains(&model) {
+        return Err(entry.error(
+            "uniformly magnetised blocks are not supported yet",
+            "use model = \"dipole\"",
+        ));
+    }
+    Ok(model)
+}

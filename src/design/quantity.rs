@@ -1,0 +1,211 @@
+//! Quantities of a design file: their units, and which magnitudes give one pause.
+
+/// A kind of quantity: its unit, and the magnitudes of it that tiles and magnets have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Quantity {
+    /// What the unit is called after a number: `m`.
+    unit: &'static str,
+    /// What to tell a reader who took another unit.
+    rule: &'static str,
+    sign: Sign,
+    /// Magnitudes taken without a question.
+    accepted: (f64, f64),
+    /// Magnitudes that a question may propose.
+    typical: (f64, f64),
+    /// Other units that the number may have been given in: how many make one, and their name.
+    others: &'static [(f64, &'static str)],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sign {
+    Positive,
+    NotNegative,
+    Any,
+}
+
+const LENGTHS: &[(f64, &str)] = &[(100.0, "cm"), (1000.0, "mm")];
+const FIELDS: &[(f64, &str)] = &[(1000.0, "mT"), (1e4, "G")];
+const METRES: &str = "lengths are in metres";
+const TESLA: &str = "remanence and surface field are in tesla";
+const RADIANS: &str = "angles are in radians";
+
+const fn length(sign: Sign, accepted: (f64, f64), typical: (f64, f64)) -> Quantity {
+    Quantity {
+        unit: "m",
+        rule: METRES,
+        sign,
+        accepted,
+        typical,
+        others: LENGTHS,
+    }
+}
+
+const fn angle(limit: f64) -> Quantity {
+    Quantity {
+        unit: "rad",
+        rule: RADIANS,
+        sign: Sign::Any,
+        accepted: (0.0, limit),
+        typical: (0.0, limit),
+        others: &[(180.0 / std::f64::consts::PI, "degrees")],
+    }
+}
+
+pub(super) const TILE_SIDE: Quantity = length(Sign::Positive, (1e-3, 10.0), (0.01, 2.0));
+pub(super) const TILE_CORNER: Quantity = length(Sign::Any, (0.0, 10.0), (0.01, 2.0));
+pub(super) const TILE_THICKNESS: Quantity = length(Sign::Positive, (1e-4, 0.5), (5e-4, 0.1));
+pub(super) const TABLE_SIZE: Quantity = length(Sign::Positive, (0.01, 100.0), (0.1, 10.0));
+pub(super) const MAGNET_SIZE: Quantity = length(Sign::Positive, (1e-4, 0.5), (5e-4, 0.05));
+pub(super) const PITCH: Quantity = length(Sign::Positive, (1e-4, 2.0), (1e-3, 0.2));
+pub(super) const INSET: Quantity = length(Sign::NotNegative, (0.0, 0.5), (1e-4, 0.05));
+pub(super) const FIT: Quantity = length(Sign::NotNegative, (0.0, 0.05), (1e-5, 5e-3));
+pub(super) const PROFILE_WIDTH: Quantity = length(Sign::Positive, (1e-4, 10.0), (1e-3, 2.0));
+pub(super) const PROFILE_DEPTH: Quantity = length(Sign::Any, (0.0, 1.0), (1e-4, 0.1));
+pub(super) const ALONG_FACE: Quantity = length(Sign::Any, (0.0, 10.0), (1e-3, 2.0));
+
+/// The lean of a side: below a right angle.
+pub(super) const DRAFT: Quantity = angle(1.5);
+/// A direction: up to a whole turn either way.
+pub(super) const AXIS: Quantity = angle(std::f64::consts::TAU);
+
+pub(super) const MASS: Quantity = Quantity {
+    unit: "kg",
+    rule: "masses are in kilograms",
+    sign: Sign::Positive,
+    accepted: (1e-6, 1e3),
+    typical: (1e-3, 10.0),
+    others: &[(1000.0, "g")],
+};
+
+pub(super) const REMANENCE: Quantity = Quantity {
+    unit: "T",
+    rule: TESLA,
+    sign: Sign::Positive,
+    accepted: (1e-3, 2.5),
+    typical: (0.05, 1.6),
+    others: FIELDS,
+};
+
+pub(super) const SURFACE_FIELD: Quantity = Quantity {
+    unit: "T",
+    rule: TESLA,
+    sign: Sign::Positive,
+    accepted: (1e-5, 1.25),
+    typical: (0.01, 0.8),
+    others: FIELDS,
+};
+
+pub(super) const MOMENT: Quantity = Quantity {
+    unit: "A m^2",
+    rule: "magnetic moments are in A m^2",
+    sign: Sign::Positive,
+    accepted: (1e-9, 1e4),
+    typical: (1e-4, 100.0),
+    others: &[(1000.0, "mA m^2, or emu")],
+};
+
+impl Quantity {
+    /// Whether `value`, given for `what`, may stand; or what is wrong with it and the mend.
+    pub fn check(&self, what: &str, value: f64) -> Result<(), (String, String)> {
+        let help = |text: &str| format!("{text}; {}", self.rule);
+        let unit = self.unit;
+        if !value.is_finite() {
+            return Err((
+                format!("{what} is {value}, which is no number"),
+                help("give a finite number"),
+            ));
+        }
+        if self.sign == Sign::Positive && value <= 0.0 {
+            return Err((
+                format!("{what} must be above zero, not {value} {unit}"),
+                help("give a positive number"),
+            ));
+        }
+        if self.sign == Sign::NotNegative && value < 0.0 {
+            return Err((
+                format!("{what} must not be negative: {value} {unit}"),
+                help("give zero or a positive number"),
+            ));
+        }
+        let (low, high) = self.accepted;
+        if (low..=high).contains(&value.abs()) {
+            return Ok(());
+        }
+        let limits = if low > 0.0 {
+            format!("from {low} to {high} {unit}")
+        } else {
+            format!("of at most {high} {unit}")
+        };
+        let message = match self.proposals(value).as_slice() {
+            [] => format!("{what} = {value} {unit} is out of all proportion"),
+            proposals => format!(
+                "{what} = {value} {unit}: did you mean {}?",
+                proposals.join(" or ")
+            ),
+        };
+        Err((message, help(&format!("{what} is taken {limits}"))))
+    }
+
+    fn proposals(&self, value: f64) -> Vec<String> {
+        let (low, high) = self.typical;
+        self.others
+            .iter()
+            .map(|(factor, name)| (value / factor, name))
+            .filter(|(meant, _)| (low..=high).contains(&meant.abs()))
+            .map(|(meant, name)| format!("{} ({value} {name})", four_digits(meant)))
+            .collect()
+    }
+}
+
+/// A number to four significant digits, without trailing zeros.
+pub(super) fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(quantity: Quantity, value: f64) -> String {
+        quantity.check("`it`", value).unwrap_err().0
+    }
+
+    #[test]
+    fn a_wrong_unit_gets_a_question() {
+        assert_eq!(
+            message(TILE_SIDE, 430.0),
+            "`it` = 430 m: did you mean 0.43 (430 mm)?"
+        );
+        assert_eq!(
+            message(TILE_SIDE, 43.0),
+            "`it` = 43 m: did you mean 0.43 (43 cm) or 0.043 (43 mm)?"
+        );
+        assert_eq!(
+            message(DRAFT, -17.0),
+            "`it` = -17 rad: did you mean -0.2967 (-17 degrees)?"
+        );
+        assert!(message(REMANENCE, 12000.0).contains("1.2 (12000 G)"));
+    }
+
+    #[test]
+    fn what_no_unit_explains_is_refused_without_a_guess() {
+        assert!(message(TILE_SIDE, 1e9).contains("out of all proportion"));
+        assert!(message(TILE_SIDE, f64::NAN).contains("no number"));
+        assert!(message(TILE_SIDE, 0.0).contains("above zero"));
+        assert!(message(INSET, -0.001).contains("must not be negative"));
+    }
+
+    #[test]
+    fn the_paper_s_numbers_pass() {
+        for (quantity, value) in [
+            (TILE_SIDE, 0.43),
+            (MAGNET_SIZE, 0.003),
+            (REMANENCE, 1.2),
+            (MOMENT, 0.2865),
+            (INSET, 0.0),
+            (TABLE_SIZE, 2.0),
+        ] {
+            assert_eq!(quantity.check("it", value), Ok(()));
+        }
+    }
+}

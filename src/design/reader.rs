@@ -1,0 +1,326 @@
+//! Typed reading of a TOML tree in which every key and value knows its place in the file.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{DesignError, Source, Span};
+use super::quantity::Quantity;
+
+pub(super) type Result<T> = std::result::Result<T, DesignError>;
+
+/// A table of the file.
+#[derive(Clone, Copy)]
+pub(super) struct Section<'a> {
+    source: Source<'a>,
+    /// What a message calls it: `[fixed.faces]`.
+    name: &'a str,
+    /// The byte range that stands for it where something is missing from it.
+    span: Span,
+    table: &'a DeTable<'a>,
+}
+
+/// A key with its value.
+#[derive(Clone, Copy)]
+pub(super) struct Entry<'a> {
+    source: Source<'a>,
+    pub key: &'a str,
+    key_span: Span,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Section<'a> {
+    /// The whole file.
+    pub fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+        Self {
+            source,
+            name: "the design file",
+            span: Span { start: 0, end: 0 },
+            table,
+        }
+    }
+
+    /// Refuses every key that is not among `known`, naming the nearest one that is.
+    pub fn allow(&self, known: &[&str]) -> Result<()> {
+        let first_unknown = self
+            .entries()
+            .into_iter()
+            .filter(|entry| !known.contains(&entry.key))
+            .min_by_key(|entry| entry.key_span);
+        match first_unknown {
+            None => Ok(()),
+            Some(entry) => Err(entry.key_error(
+                format!("{} has no key `{}`", self.name, entry.key),
+                nearest_help(entry.key, known),
+            )),
+        }
+    }
+
+    /// All keys, in the order of their names.
+    pub fn entries(&self) -> Vec<Entry<'a>> {
+        self.table
+            .iter()
+            .map(|(key, value)| Entry {
+                source: self.source,
+                key: key.get_ref(),
+                key_span: key.span().into(),
+                value,
+            })
+            .collect()
+    }
+
+    pub fn get(&self, key: &str) -> Option<Entry<'a>> {
+        self.table.get_key_value(key).map(|(key, value)| Entry {
+            source: self.source,
+            key: key.get_ref(),
+            key_span: key.span().into(),
+            value,
+        })
+    }
+
+    /// The entry for `key`; where it is missing, `help` says what to write.
+    pub fn require(&self, key: &str, help: &str) -> Result<Entry<'a>> {
+        self.get(key)
+            .ok_or_else(|| self.error(format!("{} lacks `{key}`", self.name), help))
+    }
+
+    /// The table for `key`, named `name` in messages.
+    pub fn section(&self, key: &str, name: &'a str) -> Result<Option<Section<'a>>> {
+        self.get(key).map(|entry| entry.section(name)).transpose()
+    }
+
+    pub fn number(&self, key: &str, quantity: Quantity) -> Result<Option<f64>> {
+        self.get(key)
+            .map(|entry| entry.number(quantity))
+            .transpose()
+    }
+
+    pub fn string(&self, key: &str) -> Result<Option<&'a str>> {
+        self.get(key).map(|entry| entry.string()).transpose()
+    }
+
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// A fault of the table as a whole.
+    pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
+        self.source.error(self.span(), message, help)
+    }
+
+    /// A fault at another place of the same file.
+    pub fn error_at(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> DesignError {
+        self.source.error(span, message, help)
+    }
+}
+
+impl<'a> Entry<'a> {
+    pub fn span(&self) -> Span {
+        self.value.span().into()
+    }
+
+    /// A fault of the value.
+    pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
+        self.source.error(self.span(), message, help)
+    }
+
+    /// A fault of the key.
+    pub fn key_error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
+        self.source.error(self.key_span, message, help)
+    }
+
+    fn wrong_type(&self, wanted: &str) -> DesignError {
+        let found = match self.value.get_ref() {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "a boolean",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "an array",
+            DeValue::Table(_) => "a table",
+        };
+        self.error(
+            format!("`{}` must be {wanted}, not {found}", self.key),
+            format!("write {wanted} here"),
+        )
+    }
+
+    /// The table, named `name` in messages. Its place is that of its key.
+    pub fn section(&self, name: &'a str) -> Result<Section<'a>> {
+        let DeValue::Table(table) = self.value.get_ref() else {
+            return Err(self.wrong_type("a table"));
+        };
+        Ok(Section {
+            source: self.source,
+            name,
+            span: self.key_span,
+            table,
+        })
+    }
+
+    pub fn string(&self) -> Result<&'a str> {
+        self.value
+            .get_ref()
+            .as_str()
+            .ok_or_else(|| self.wrong_type("a string"))
+    }
+
+    /// The place of character `index` of a string: the character itself where the string is
+    /// written out plainly, the whole value where escapes or several lines hide it.
+    pub fn character_span(&self, index: usize) -> Span {
+        let span = self.value.span();
+        let written = &self.source.text[span.clone()];
+        let plain = self.value.get_ref().as_str().is_some_and(|value| {
+            written.len() == value.len() + 2 && &written[1..written.len() - 1] == value
+        });
+        let inside = written.char_indices().nth(index + 1).filter(|_| plain);
+        match inside {
+            Some((at, c)) => (span.start + at..span.start + at + c.len_utf8()).into(),
+            None => span.into(),
+        }
+    }
+
+    /// A string, or a whole number as a string: the name of a face.
+    pub fn name_or_number(&self) -> Result<String> {
+        match self.value.get_ref() {
+            DeValue::Integer(integer) => Ok(integer.as_str().to_owned()),
+            _ => self.string().map(str::to_owned),
+        }
+    }
+
+    /// A fault at `span` rather than at the whole value.
+    pub fn error_at(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> DesignError {
+        self.source.error(span, message, help)
+    }
+
+    /// The word, one of `known`; any other is answered with the nearest of them.
+    pub fn word<T: Copy>(&self, known: &[(&str, T)]) -> Result<T> {
+        let word = self.string()?;
+        let names: Vec<_> = known.iter().map(|(name, _)| *name).collect();
+        known
+            .iter()
+            .find(|(name, _)| *name == word)
+            .map(|(_, value)| *value)
+            .ok_or_else(|| {
+                self.error(
+                    format!("`{}` cannot be \"{word}\"", self.key),
+                    nearest_help(word, &names),
+                )
+            })
+    }
+
+    fn raw_number(&self) -> Result<f64> {
+        let parsed = match self.value.get_ref() {
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(|value| value as f64),
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            _ => return Err(self.wrong_type("a number")),
+        };
+        parsed.ok_or_else(|| {
+            self.error(
+                format!("`{}` is a number that cannot be read", self.key),
+                "write a plain decimal number, such as 0.43",
+            )
+        })
+    }
+
+    pub fn number(&self, quantity: Quantity) -> Result<f64> {
+        let value = self.raw_number()?;
+        match quantity.check(&format!("`{}`", self.key), value) {
+            Ok(()) => Ok(value),
+            Err((message, help)) => Err(self.error(message, help)),
+        }
+    }
+
+    /// A whole number from 1 to `largest`.
+    pub fn count(&self, largest: u32) -> Result<u32> {
+        let value = self.raw_number()?;
+        if value.fract() == 0.0 && value >= 1.0 && value <= f64::from(largest) {
+            return Ok(value as u32);
+        }
+        Err(self.error(
+            format!(
+                "`{}` = {value} is not a whole number from 1 to {largest}",
+                self.key
+            ),
+            "give a whole number",
+        ))
+    }
+
+    pub fn array(&self) -> Result<Vec<Entry<'a>>> {
+        let DeValue::Array(items) = self.value.get_ref() else {
+            return Err(self.wrong_type("an array"));
+        };
+        Ok(items
+            .iter()
+            .map(|value| Entry {
+                source: self.source,
+                key: self.key,
+                key_span: value.span().into(),
+                value,
+            })
+            .collect())
+    }
+
+    /// An array of exactly N numbers, such as a size along N directions.
+    pub fn numbers<const N: usize>(&self, quantity: Quantity, what: &str) -> Result<[f64; N]> {
+        let items = self.array()?;
+        let values = items
+            .iter()
+            .map(|item| item.number(quantity))
+            .collect::<Result<Vec<_>>>()?;
+        values.try_into().map_err(|values: Vec<f64>| {
+            self.error(
+                format!("`{}` holds {} numbers, not {N}", self.key, values.len()),
+                format!("give {N} numbers: {what}"),
+            )
+        })
+    }
+}
+
+/// Names the known word nearest to `word`, or all of them where none is near.
+pub(super) fn nearest_help(word: &str, known: &[&str]) -> String {
+    let nearest = known
+        .iter()
+        .map(|name| {
+            (
+                strsim::damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase()),
+                name,
+            )
+        })
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, name)| *distance <= 1 + name.len().min(word.len()) / 4);
+    match nearest {
+        Some((_, name)) => format!("did you mean `{name}`?"),
+        None => format!("known here: {}", known.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_known_word_is_named_and_only_a_near_one() {
+        let known = ["side", "sides", "thickness", "mass"];
+        assert_eq!(
+            nearest_help("thicknes", &known),
+            "did you mean `thickness`?"
+        );
+        assert_eq!(nearest_help("Mass", &known), "did you mean `mass`?");
+        assert_eq!(nearest_help("sdie", &known), "did you mean `side`?");
+        assert_eq!(
+            nearest_help("colour", &known),
+            "known here: side, sides, thickness, mass"
+        );
+    }
+}

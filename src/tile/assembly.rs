@@ -1,0 +1,310 @@
+//! From faces and their profiles to a tile's outline.
+//!
+//! The profiles are strung together corner by corner. Where a profile runs back along its
+//! neighbour from their corner (square teeth that cut in right at the end of a square's face), the
+//! strip without area is taken away. Then every face is drawn back by its `fit`: each edge of the
+//! face moves inwards along its normal, and neighbouring edges are lengthened or shortened until
+//! they meet again (mitre joins), also across the corners to faces that stay where they are. So
+//! each drawn-back edge is `fit` away from where it was, and a mate drawn back by `fit` leaves a
+//! gap of exactly that width.
+
+use nalgebra::Vector2;
+
+use super::Face;
+use super::outline::cross;
+use super::profile::Polyline;
+
+/// Points closer to each other than this share of the tile's size are one point.
+const SAME_POINT: f64 = 1e-12;
+
+/// Edges whose directions differ by no more than this (rad) have no corner to mitre.
+const PARALLEL: f64 = 1e-9;
+
+/// How the outline of one face is drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FaceLine {
+    /// The profile, as points (s, h) of the face's frame (m); empty for the base line.
+    pub polyline: Polyline,
+    /// How far the line is drawn back along its normal (m).
+    pub fit: f64,
+}
+
+/// A closed polygon, each edge of which belongs to a face.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ring {
+    /// Corners (m), counter-clockwise.
+    pub points: Vec<Vector2<f64>>,
+    /// The face of the edge from point i to point i + 1.
+    pub faces: Vec<usize>,
+}
+
+/// The drawn-back line of a face vanishes or turns over somewhere: the face's number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("face {0} cannot be drawn back so far")]
+pub struct FitTooLarge(pub usize);
+
+/// The closed polygon of a tile's faces, each with its line.
+///
+/// # Errors
+/// Where an edge would vanish or turn over when its face is drawn back.
+pub fn assemble(faces: &[Face], lines: &[FaceLine]) -> Result<Ring, FitTooLarge> {
+    let scale = faces
+        .iter()
+        .map(|face| face.start.norm())
+        .fold(0.0, f64::max);
+    let mut ring = Ring::default();
+    for (number, (face, line)) in faces.iter().zip(lines).enumerate() {
+        ring.push(face.start, number);
+        for &[s, h] in &line.polyline {
+            ring.push(face.point(s, h), number);
+        }
+    }
+    ring.clean(scale * SAME_POINT);
+    if lines.iter().all(|line| line.fit == 0.0) {
+        return Ok(ring);
+    }
+    let mut drawn = ring.drawn_back(|face| lines[face].fit)?;
+    drawn.clean(scale * SAME_POINT);
+    Ok(drawn)
+}
+
+impl Ring {
+    fn push(&mut self, point: Vector2<f64>, face: usize) {
+        self.points.push(point);
+        self.faces.push(face);
+    }
+
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The edge from point i to point i + 1.
+    fn edge(&self, i: usize) -> Vector2<f64> {
+        self.points[(i + 1) % self.len()] - self.points[i]
+    }
+
+    /// Merges repeated points and takes away strips without area between two faces.
+    fn clean(&mut self, tolerance: f64) {
+        let mut i = 0;
+        while i < self.len() && self.len() > 2 {
+            let n = self.len();
+            let before = (i + n - 1) % n;
+            if self.edge(i).norm() <= tolerance {
+                // Keep the first point of the pair, and the edge that leaves the second.
+                self.faces[i] = self.faces[(i + 1) % n];
+                self.remove((i + 1) % n);
+            } else if self.faces[before] != self.faces[i] && self.folds_back(before, i) {
+                // The longer of the two edges is left over, its far part.
+                if self.edge(before).norm() <= self.edge(i).norm() {
+                    self.faces[before] = self.faces[i];
+                }
+                self.remove(i);
+            } else {
+                i += 1;
+                continue;
+            }
+            i = i.saturating_sub(2);
+        }
+    }
+
+    fn remove(&mut self, i: usize) {
+        self.points.remove(i);
+        self.faces.remove(i);
+    }
+
+    /// Whether edge `next` runs straight back over edge `before`.
+    fn folds_back(&self, before: usize, next: usize) -> bool {
+        let (u, v) = (self.edge(before), self.edge(next));
+        cross(u, v).abs() <= SAME_POINT * u.norm() * v.norm() && u.dot(&v) < 0.0
+    }
+
+    /// Each edge moved inwards by the distance that belongs to its face (m).
+    fn drawn_back(&self, fit: impl Fn(usize) -> f64) -> Result<Self, FitTooLarge> {
+        let n = self.len();
+        let corners: Vec<_> = (0..n)
+            .map(|i| {
+                let before = (i + n - 1) % n;
+                let shifts = [before, i].map(|k| (self.inward_normal(k), fit(self.faces[k])));
+                mitre(shifts).map(|shift| self.points[i] + shift)
+            })
+            .collect();
+        let mut ring = Self::default();
+        for i in 0..n {
+            let (start, end) = (corners[i][1], corners[(i + 1) % n][0]);
+            if (end - start).dot(&self.edge(i)) <= 0.0 {
+                let drawn = if fit(self.faces[i]) > 0.0 {
+                    i
+                } else if fit(self.faces[(i + n - 1) % n]) > 0.0 {
+                    (i + n - 1) % n
+                } else {
+                    (i + 1) % n
+                };
+                return Err(FitTooLarge(self.faces[drawn]));
+            }
+            ring.push(start, self.faces[i]);
+            ring.push(end, self.faces[i]);
+        }
+        Ok(ring)
+    }
+
+    fn inward_normal(&self, i: usize) -> Vector2<f64> {
+        let t = self.edge(i).normalize();
+        Vector2::new(-t.y, t.x)
+    }
+}
+
+/// How a corner moves when its two edges move along their normals by the given distances: as the
+/// end of the first edge and as the start of the second. The two differ only where edges on one
+/// line move by different distances.
+fn mitre([(n1, d1), (n2, d2)]: [(Vector2<f64>, f64); 2]) -> [Vector2<f64>; 2] {
+    let sine = cross(n1, n2);
+    if sine.abs() <= PARALLEL {
+        return [n1 * d1, n2 * d2];
+    }
+    // The point x with n1.x = d1 and n2.x = d2.
+    let x = Vector2::new(d1 * n2.y - d2 * n1.y, d2 * n1.x - d1 * n2.x) / sine;
+    [x, x]
+}
+
+/// The edges of one face in a tile's outline, each from point to point (s, h) of the face's frame.
+pub fn face_edges(ring: &Ring, face: &Face, number: usize) -> Vec<[[f64; 2]; 2]> {
+    let local = |p: Vector2<f64>| {
+        let d = p - face.middle();
+        [d.dot(&face.tangent()), d.dot(&face.normal())]
+    };
+    (0..ring.len())
+        .filter(|&i| ring.faces[i] == number)
+        .map(|i| {
+            [
+                local(ring.points[i]),
+                local(ring.points[(i + 1) % ring.len()]),
+            ]
+        })
+        .collect()
+}
+
+/// The height (m) of a face's outermost surface at s, over its edges as [`face_edges`] gives them;
+/// at a step, the height of the lower side. `None` where the face has no surface.
+pub fn surface_height(edges: &[[[f64; 2]; 2]], s: f64) -> Option<f64> {
+    let one_sided = |inside: &dyn Fn(f64, f64) -> bool| {
+        edges
+            .iter()
+            .filter(|[a, b]| inside(a[0].min(b[0]), a[0].max(b[0])))
+            .map(|[a, b]| a[1] + (b[1] - a[1]) * (s - a[0]) / (b[0] - a[0]))
+            .fold(None, |top: Option<f64>, h| {
+                Some(top.map_or(h, |top| top.max(h)))
+            })
+    };
+    let from_left = one_sided(&|low, high| low < s && s <= high);
+    let from_right = one_sided(&|low, high| low <= s && s < high);
+    match (from_left, from_right) {
+        (Some(left), Some(right)) => Some(left.min(right)),
+        (left, right) => left.or(right),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tile::Outline;
+    use crate::tile::profile::{Profile, Waveform};
+
+    fn square(side: f64) -> Vec<Face> {
+        let h = side / 2.0;
+        let corners = [[h, -h], [h, h], [-h, h], [-h, -h]].map(|[x, y]| Vector2::new(x, y));
+        (0..4)
+            .map(|i| Face {
+                name: i.to_string(),
+                start: corners[i],
+                end: corners[(i + 1) % 4],
+            })
+            .collect()
+    }
+
+    fn east(profile: Profile, fit: f64) -> Vec<FaceLine> {
+        let mut lines = vec![FaceLine::default(); 4];
+        lines[0] = FaceLine {
+            polyline: profile.polyline().unwrap(),
+            fit,
+        };
+        lines
+    }
+
+    fn area(ring: &Ring) -> f64 {
+        Outline::new(ring.points.clone()).unwrap().area()
+    }
+
+    #[test]
+    fn flat_faces_give_the_square_back() {
+        let ring = assemble(&square(2.0), &east(Profile::Flat, 0.0)).unwrap();
+        assert_eq!(ring.faces, [0, 1, 2, 3]);
+        assert_eq!(area(&ring), 4.0);
+    }
+
+    #[test]
+    fn square_teeth_up_to_the_corners_leave_no_strip_without_area() {
+        let teeth = Profile::Teeth {
+            form: Waveform::Square,
+            count: 3,
+            depth: 0.2,
+            span: 2.0,
+        };
+        let ring = assemble(&square(2.0), &east(teeth, 0.0)).unwrap();
+        // As much is added by the teeth as is taken away.
+        assert!((area(&ring) - 4.0).abs() < 1e-12);
+        // The first tooth cuts in: the south face ends where the cut does.
+        assert!(
+            ring.points
+                .iter()
+                .any(|p| (p - Vector2::new(0.9, -1.0)).norm() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn a_flat_face_is_drawn_back_between_its_neighbours() {
+        let ring = assemble(&square(2.0), &east(Profile::Flat, 0.1)).unwrap();
+        assert!((area(&ring) - 2.0 * 1.9).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slot_drawn_back_grows_on_all_sides() {
+        let slot = Profile::Tab {
+            width: 1.0,
+            depth: -0.5,
+            draft: 0.0,
+            offset: 0.0,
+        };
+        let ring = assemble(&square(2.0), &east(slot, 0.1)).unwrap();
+        // The face stands 0.1 farther back and the slot reaches 0.1 deeper: as deep as before,
+        // and wider by twice 0.1.
+        assert!((area(&ring) - (2.0 * 1.9 - 1.2 * 0.5)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tab_thinner_than_twice_the_fit_cannot_be_drawn_back() {
+        let tab = |width| Profile::Tab {
+            width,
+            depth: 0.5,
+            draft: 0.0,
+            offset: 0.0,
+        };
+        assert_eq!(
+            assemble(&square(2.0), &east(tab(0.15), 0.1)),
+            Err(FitTooLarge(0))
+        );
+        assert!(assemble(&square(2.0), &east(tab(0.25), 0.1)).is_ok());
+    }
+
+    #[test]
+    fn the_surface_of_a_step_is_its_lower_side() {
+        let edges = [
+            [[-1.0, 0.0], [0.0, 0.0]],
+            [[0.0, 0.0], [0.0, 0.5]],
+            [[0.0, 0.5], [1.0, 1.5]],
+        ];
+        assert_eq!(surface_height(&edges, 0.0), Some(0.0));
+        assert_eq!(surface_height(&edges, 0.5), Some(1.0));
+        assert_eq!(surface_height(&edges, 2.0), None);
+        assert_eq!(surface_height(&edges, 1.0), Some(1.5));
+    }
+}

@@ -1,0 +1,143 @@
+//! Barcodes: which pole of each magnet of a face points outwards.
+//!
+//! A code is read counter-clockwise along its face: `N` north pole out (the moment along the
+//! outward normal), `S` south pole out, `.` no magnet. Character k of n sits at
+//! `s = (k - (n - 1) / 2) * pitch` from the middle of the face.
+//!
+//! Two faces that touch run against each other, so the mate of a code is its reverse with N and S
+//! exchanged: `NNNS` binds `NSSS`. The same rule holds for magnets in any place and at any angle:
+//! the mate of a magnet at s, turned by `axis` from the normal, sits at -s, has the other pole out
+//! and is turned by `-axis`. Head to tail across the gap, the two moments (along the normal and
+//! along the face) are those of a magnet and its image in a soft-iron wall, so that each pair
+//! attracts at every angle.
+
+use std::fmt;
+
+/// The pole of a magnet that points outwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pole {
+    North,
+    South,
+}
+
+impl Pole {
+    /// The pole that it attracts.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::North => Self::South,
+            Self::South => Self::North,
+        }
+    }
+
+    /// The pole of a code's character, `N` or `S`.
+    pub fn from_char(c: char) -> Option<Self> {
+        match c {
+            'N' => Some(Self::North),
+            'S' => Some(Self::South),
+            _ => None,
+        }
+    }
+}
+
+/// The poles along a face, counter-clockwise; `None` where there is no magnet.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Barcode(Vec<Option<Pole>>);
+
+/// A character that stands for no pole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("'{character}' is no pole; a code is made of N, S and . (no magnet)")]
+pub struct BarcodeError {
+    /// Which character, counted from 0.
+    pub index: usize,
+    pub character: char,
+}
+
+impl Barcode {
+    /// Reads a code such as `NN.S`.
+    ///
+    /// # Errors
+    /// At the first character that is none of `N`, `S` and `.`.
+    pub fn parse(code: &str) -> Result<Self, BarcodeError> {
+        code.chars()
+            .enumerate()
+            .map(|(index, character)| match Pole::from_char(character) {
+                Some(pole) => Ok(Some(pole)),
+                None if character == '.' => Ok(None),
+                None => Err(BarcodeError { index, character }),
+            })
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+
+    /// Number of places, empty ones included.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The code that binds this one.
+    pub fn mate(&self) -> Self {
+        Self(
+            self.0
+                .iter()
+                .rev()
+                .map(|place| place.map(Pole::opposite))
+                .collect(),
+        )
+    }
+
+    /// Where the magnets sit along the face, for a spacing of `pitch` (m): the place in the code,
+    /// s (m) and the pole, counter-clockwise.
+    pub fn places(&self, pitch: f64) -> impl Iterator<Item = (usize, f64, Pole)> + '_ {
+        let middle = (self.len() as f64 - 1.0) / 2.0;
+        self.0
+            .iter()
+            .enumerate()
+            .filter_map(move |(k, place)| place.map(|pole| (k, (k as f64 - middle) * pitch, pole)))
+    }
+}
+
+impl fmt::Display for Barcode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|place| {
+            f.write_str(match place {
+                Some(Pole::North) => "N",
+                Some(Pole::South) => "S",
+                None => ".",
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mate_of_the_paper_s_code_is_the_paper_s() {
+        assert_eq!(Barcode::parse("NNNS").unwrap().mate().to_string(), "NSSS");
+    }
+
+    #[test]
+    fn the_mate_of_a_mate_is_the_code() {
+        for code in ["", "N", "NS.", "..SSNN.N"] {
+            let code = Barcode::parse(code).unwrap();
+            assert_eq!(code.mate().mate(), code);
+        }
+    }
+
+    #[test]
+    fn magnets_are_centred_on_the_face_and_gaps_keep_their_place() {
+        let places: Vec<_> = Barcode::parse("N..S").unwrap().places(0.04).collect();
+        assert_eq!(places, [(0, -0.06, Pole::North), (3, 0.06, Pole::South)]);
+    }
+
+    #[test]
+    fn a_wrong_character_is_named_with_its_place() {
+        let error = Barcode::parse("NnNS").unwrap_err();
+        assert_eq!((error.index, error.character), (1, 'n'));
+    }
+}

@@ -1,0 +1,376 @@
+//! Face profiles: the line that a face's outline follows instead of its straight base line.
+//!
+//! A profile is drawn in the face's frame: s (m) along the face, counter-clockwise, 0 in the
+//! middle; h (m) outwards. It begins and ends on the base line, h = 0; depth > 0 sticks out,
+//! depth < 0 cuts in.
+//!
+//! An outline is a polygon, so a curve (arc, sine) is drawn as chords between points *on* the
+//! curve, close enough that no chord is farther than [`CHORD_ERROR`] from it. This polygon *is*
+//! the outline: contact, areas and clearances are exact for it. The [`complement`] is taken point
+//! by point, so a mate's polygon coincides with its partner's in the bound configuration, whatever
+//! the chords leave of the curve.
+
+use std::f64::consts::PI;
+
+/// Largest distance (m) of a chord from the curve that it stands for: far below what is cut or
+/// printed to, and few enough points for contact to stay cheap.
+pub const CHORD_ERROR: f64 = 2e-5;
+
+/// A polyline in a face's frame: points (s, h), m.
+pub type Polyline = Vec<[f64; 2]>;
+
+/// The waveform of [`Profile::Teeth`], odd in its phase.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waveform {
+    Sine,
+    Triangle,
+    Square,
+}
+
+/// A face's profile. Lengths are in m, angles in rad.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Profile {
+    /// The base line itself.
+    Flat,
+    /// A trapezoid, `width` wide at its base, its sides leaning inwards by `draft` (a dovetail
+    /// where negative), its middle at s = `offset`.
+    Tab {
+        width: f64,
+        depth: f64,
+        draft: f64,
+        offset: f64,
+    },
+    /// `h = depth / 2 * wave(2 pi count s / span)` over `|s| <= span / 2`.
+    Teeth {
+        form: Waveform,
+        count: u32,
+        depth: f64,
+        span: f64,
+    },
+    /// A segment of a circle over a chord of `width`, `depth` high in its middle at s = `offset`;
+    /// more than half a circle where `depth` exceeds `width / 2`.
+    Arc { width: f64, depth: f64, offset: f64 },
+    /// A polyline.
+    Points(Polyline),
+}
+
+/// Why a profile cannot be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ProfileError {
+    /// The sides of a tab meet before they reach `depth`; the steepest possible `draft` is given
+    /// (rad).
+    #[error("the tab's sides meet before they reach its depth")]
+    SidesMeet { largest_draft: f64 },
+    /// A profile begins or ends off the base line, at height h (m).
+    #[error("the profile's {} point lies at h = {h}, off the base line", if *.first { "first" } else { "last" })]
+    OffTheBaseLine { first: bool, h: f64 },
+    /// A profile has fewer than two points.
+    #[error("a profile needs at least two points")]
+    TooFewPoints,
+}
+
+impl Profile {
+    /// The profile's points (s, h), from its beginning to its end, both at h = 0; none for a
+    /// profile that is no more than the base line.
+    ///
+    /// # Errors
+    /// Where the parameters leave no profile to draw.
+    pub fn polyline(&self) -> Result<Polyline, ProfileError> {
+        match self {
+            Self::Flat => Ok(Vec::new()),
+            Self::Tab { depth, .. } | Self::Teeth { depth, .. } | Self::Arc { depth, .. }
+                if *depth == 0.0 =>
+            {
+                Ok(Vec::new())
+            }
+            Self::Tab {
+                width,
+                depth,
+                draft,
+                offset,
+            } => tab(*width, *depth, *draft, *offset),
+            Self::Teeth {
+                form,
+                count,
+                depth,
+                span,
+            } => Ok(teeth(*form, *count, *depth, *span)),
+            Self::Arc {
+                width,
+                depth,
+                offset,
+            } => Ok(arc(*width, *depth, *offset)),
+            Self::Points(points) => checked_points(points),
+        }
+    }
+}
+
+/// The complement `-h(-s)` of a polyline, point by point: the line of the mating face.
+pub fn complement(line: &[[f64; 2]]) -> Polyline {
+    line.iter().rev().map(|[s, h]| [-s, -h]).collect()
+}
+
+fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, ProfileError> {
+    let base = width / 2.0;
+    let top = base - depth.abs() * draft.tan();
+    if top <= 0.0 {
+        let largest_draft = (base / depth.abs()).atan();
+        return Err(ProfileError::SidesMeet { largest_draft });
+    }
+    Ok(vec![
+        [offset - base, 0.0],
+        [offset - top, depth],
+        [offset + top, depth],
+        [offset + base, 0.0],
+    ])
+}
+
+fn teeth(form: Waveform, count: u32, depth: f64, span: f64) -> Polyline {
+    let amplitude = depth / 2.0;
+    let halves = 2 * i64::from(count);
+    // Point k of `pieces`; symmetric about s = 0 to the last bit, as k and pieces - k differ in
+    // sign alone.
+    let s = |k: i64, pieces: i64| span / 2.0 * (2 * k - pieces) as f64 / pieces as f64;
+    match form {
+        Waveform::Sine => {
+            let quarter = chords_per_quarter_wave(amplitude.abs());
+            let pieces = 2 * halves * quarter;
+            let half = pieces / 2;
+            (0..=pieces)
+                .map(|k| {
+                    let phase = ((k - half) % (4 * quarter)) as f64 / quarter as f64;
+                    let on_base_line = (k - half) % (2 * quarter) == 0;
+                    let wave = (PI / 2.0 * phase).sin();
+                    let h = if on_base_line { 0.0 } else { amplitude * wave };
+                    [s(k, pieces), h]
+                })
+                .collect()
+        }
+        Waveform::Triangle => {
+            let mut line = vec![[-span / 2.0, 0.0]];
+            line.extend(
+                (0..halves).map(|k| [s(2 * k + 1, 2 * halves), amplitude * sign(k, count)]),
+            );
+            line.push([span / 2.0, 0.0]);
+            line
+        }
+        Waveform::Square => {
+            let mut line = vec![[-span / 2.0, 0.0]];
+            for k in 0..halves {
+                let h = amplitude * sign(k, count);
+                line.push([s(k, halves), h]);
+                line.push([s(k + 1, halves), h]);
+            }
+            line.push([span / 2.0, 0.0]);
+            line
+        }
+    }
+}
+
+/// Sign of the wave over half wave k of `2 count`, counted from s = -span / 2: an odd wave starts
+/// its half wave at s = 0 upwards.
+fn sign(k: i64, count: u32) -> f64 {
+    if (k - i64::from(count)) % 2 == 0 {
+        1.0
+    } else {
+        -1.0
+    }
+}
+
+/// A chord over the phase step d of `A sin(phase)` leaves the curve by at most `A d^2 / 8`.
+fn chords_per_quarter_wave(amplitude: f64) -> i64 {
+    let step = (8.0 * CHORD_ERROR / amplitude).sqrt();
+    (PI / 2.0 / step).ceil().max(1.0) as i64
+}
+
+fn arc(width: f64, depth: f64, offset: f64) -> Polyline {
+    let sagitta = depth.abs();
+    // Half the angle that the segment spans, and the circle's radius.
+    let half_angle = 2.0 * (2.0 * sagitta / width).atan();
+    let radius = (width * width / 4.0 + sagitta * sagitta) / (2.0 * sagitta);
+    // A chord over the angle 2 a leaves its circle by radius (1 - cos a).
+    let largest = (1.0 - (CHORD_ERROR / radius).min(1.0)).acos();
+    let half = (half_angle / (2.0 * largest)).ceil().max(1.0) as i64;
+    (-half..=half)
+        .map(|k| {
+            if k.abs() == half {
+                return [offset + width / 2.0 * k.signum() as f64, 0.0];
+            }
+            let angle = half_angle * k as f64 / half as f64;
+            let h = radius * (angle.cos() - half_angle.cos());
+            [offset + radius * angle.sin(), h.copysign(depth)]
+        })
+        .collect()
+}
+
+fn checked_points(points: &[[f64; 2]]) -> Result<Polyline, ProfileError> {
+    let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() >= 2) else {
+        return Err(ProfileError::TooFewPoints);
+    };
+    for (first, h) in [(true, first[1]), (false, last[1])] {
+        if h != 0.0 {
+            return Err(ProfileError::OffTheBaseLine { first, h });
+        }
+    }
+    Ok(points.to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> Vec<Profile> {
+        let teeth = |form, count, depth| Profile::Teeth {
+            form,
+            count,
+            depth,
+            span: 0.4,
+        };
+        vec![
+            Profile::Tab {
+                width: 0.2,
+                depth: 0.02,
+                draft: 0.3,
+                offset: 0.01,
+            },
+            Profile::Tab {
+                width: 0.2,
+                depth: -0.02,
+                draft: -0.3,
+                offset: 0.0,
+            },
+            teeth(Waveform::Sine, 3, 0.01),
+            teeth(Waveform::Sine, 4, -0.02),
+            teeth(Waveform::Triangle, 3, 0.01),
+            teeth(Waveform::Square, 2, 0.01),
+            Profile::Arc {
+                width: 0.3,
+                depth: 0.03,
+                offset: 0.0,
+            },
+            Profile::Arc {
+                width: 0.1,
+                depth: -0.08,
+                offset: 0.05,
+            },
+        ]
+    }
+
+    #[test]
+    fn the_complement_of_the_complement_is_the_profile() {
+        for profile in all() {
+            let line = profile.polyline().unwrap();
+            assert_eq!(complement(&complement(&line)), line);
+        }
+    }
+
+    #[test]
+    fn profiles_begin_and_end_on_the_base_line() {
+        for profile in all() {
+            let line = profile.polyline().unwrap();
+            assert_eq!(line[0][1], 0.0);
+            assert_eq!(line[line.len() - 1][1], 0.0);
+            assert!(line[0][0] < line[line.len() - 1][0]);
+        }
+    }
+
+    #[test]
+    fn teeth_are_odd_so_that_they_are_their_own_complement() {
+        for form in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
+            for count in 1..6 {
+                let line = Profile::Teeth {
+                    form,
+                    count,
+                    depth: 0.013,
+                    span: 0.43,
+                }
+                .polyline()
+                .unwrap();
+                for (a, b) in line.iter().zip(complement(&line)) {
+                    assert!((a[0] - b[0]).abs() < 1e-16 && (a[1] - b[1]).abs() < 1e-16);
+                }
+            }
+        }
+    }
+
+    /// Height of a profile that is a function of s, between its points.
+    fn height(line: &[[f64; 2]], s: f64) -> f64 {
+        let k = line.windows(2).position(|w| s <= w[1][0]).unwrap();
+        let ([s0, h0], [s1, h1]) = (line[k], line[k + 1]);
+        h0 + (h1 - h0) * (s - s0) / (s1 - s0)
+    }
+
+    #[test]
+    fn teeth_follow_their_formula() {
+        let (depth, span, count) = (0.012, 0.4, 3);
+        let phase = |s: f64| 2.0 * PI * f64::from(count) * s / span;
+        let wave = |form: Waveform, s: f64| match form {
+            Waveform::Sine => phase(s).sin(),
+            Waveform::Triangle => 2.0 / PI * phase(s).sin().asin(),
+            Waveform::Square => phase(s).sin().signum(),
+        };
+        for (form, tolerance) in [
+            (Waveform::Sine, CHORD_ERROR),
+            (Waveform::Triangle, 1e-15),
+            (Waveform::Square, 1e-15),
+        ] {
+            let line = Profile::Teeth {
+                form,
+                count,
+                depth,
+                span,
+            }
+            .polyline()
+            .unwrap();
+            let mut worst: f64 = 0.0;
+            for i in 1..1000 {
+                let s = span * (i as f64 / 1000.0 - 0.5) + 1e-5;
+                worst = worst.max((height(&line, s) - depth / 2.0 * wave(form, s)).abs());
+            }
+            assert!(worst <= tolerance, "{form:?}: {worst}");
+        }
+    }
+
+    #[test]
+    fn chords_of_an_arc_stay_within_their_error() {
+        for (width, depth) in [(0.3, 0.02), (0.1, 0.05), (0.1, 0.08), (0.3, -0.02)] {
+            let line = Profile::Arc {
+                width,
+                depth,
+                offset: 0.0,
+            }
+            .polyline()
+            .unwrap();
+            let sagitta = f64::abs(depth);
+            let radius = (width * width / 4.0 + sagitta * sagitta) / (2.0 * sagitta);
+            let centre = depth - radius * depth.signum();
+            let to_centre = |p: [f64; 2]| p[0].hypot(p[1] - centre);
+            for pair in line.windows(2) {
+                let middle = [
+                    (pair[0][0] + pair[1][0]) / 2.0,
+                    (pair[0][1] + pair[1][1]) / 2.0,
+                ];
+                assert!((to_centre(pair[0]) - radius).abs() < 1e-12);
+                let error = radius - to_centre(middle);
+                assert!(error > 0.0 && error <= CHORD_ERROR, "{error}");
+            }
+            let top = line.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+            assert!((top - sagitta).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_tab_that_comes_to_a_point_is_refused_with_the_steepest_draft() {
+        let spike = |draft| Profile::Tab {
+            width: 0.02,
+            depth: 0.02,
+            draft,
+            offset: 0.0,
+        };
+        let Err(ProfileError::SidesMeet { largest_draft }) = spike(0.6).polyline() else {
+            panic!("a tab with crossed sides was drawn");
+        };
+        assert!((largest_draft - 0.5_f64.atan()).abs() < 1e-15);
+        assert!(spike(largest_draft - 1e-6).polyline().is_ok());
+    }
+}
