@@ -1,9 +1,11 @@
 //! tilebind: how two magnetic tiles bind.
 
+pub mod analysis;
 pub mod configuration;
 pub mod contact;
 pub mod design;
 pub mod landscape;
+pub mod pipeline;
 pub mod potential;
 pub mod problem;
 pub mod roadmap;

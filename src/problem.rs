@@ -97,11 +97,14 @@ impl Problem {
 
     /// Whether the configuration is on the table and the tiles do not overlap.
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.space.contains(q)
-            && self
-                .contact
-                .as_ref()
-                .is_none_or(|contact| contact.is_free(q))
+        self.space.contains(q) && self.is_clear(q)
+    }
+
+    /// Whether the tiles do not overlap.
+    pub fn is_clear(&self, q: &Configuration) -> bool {
+        self.contact
+            .as_ref()
+            .is_none_or(|contact| contact.is_free(q))
     }
 
     /// Signed clearance (m); infinite where there is no contact to speak of.

@@ -194,6 +194,12 @@ fn vertices_against_edges(
             if beside || corner(j, start) || corner(b.next(j), &end) {
                 continue;
             }
+            // In front of an edge's very end the vertex may pass round the corner, unless its
+            // tile lies squarely against the edge.
+            let at_end = t < COINCIDENT || t > length - COINCIDENT;
+            if at_end && !a.wedge_is_beyond(i, &b.normals[j]) {
+                continue;
+            }
             // Behind the edge's line, but outside: in front of another edge, past a corner.
             if gap < -TOUCH && !b.contains(p) {
                 continue;

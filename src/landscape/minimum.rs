@@ -41,16 +41,26 @@ pub struct Descent {
 /// far apart.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way);
+    let outcome = follow(problem, &mut way, |q| problem.space.is_far(q));
     Descent { way, outcome }
 }
 
-fn follow(problem: &Problem, way: &mut Vec<Point>) -> Outcome {
+/// Overdamped motion from `start`, until a minimum or over the table's rim.
+pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
+    let mut way = vec![Point::new(problem, *start)];
+    follow(problem, &mut way, |q| !problem.space.contains(q))
+}
+
+fn follow(
+    problem: &Problem,
+    way: &mut Vec<Point>,
+    is_free: impl Fn(&Configuration) -> bool,
+) -> Outcome {
     let mut size = LONGEST_STEP;
     let mut newton_below = TRY_NEWTON;
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
-        if problem.space.is_far(&here.q) {
+        if is_free(&here.q) {
             return Outcome::Free;
         }
         match step_downhill(problem, &here, size) {

@@ -1,10 +1,15 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
+pub mod capture;
+pub mod inventory;
+pub mod meeting;
 pub mod minimum;
 pub mod network;
+pub mod pathway;
 pub mod results;
 pub mod slide;
 pub mod stationary;
 pub mod survey;
+pub mod symmetry;
 
 pub use results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};

@@ -2,6 +2,8 @@
 //! the ways between them as links. It holds the roadmap and everything that was found by following
 //! the energy from it.
 
+use std::collections::{HashMap, HashSet};
+
 use petgraph::algo::{astar, min_spanning_tree};
 use petgraph::data::Element;
 use petgraph::graph::{NodeIndex, UnGraph};
@@ -104,6 +106,11 @@ impl Network {
         number
     }
 
+    /// Whether no link leads to a node.
+    pub fn is_isolated(&self, node: usize) -> bool {
+        self.graph.neighbors(NodeIndex::new(node)).next().is_none()
+    }
+
     /// Adds a link along a sequence of points.
     pub fn add_way(
         &mut self,
@@ -185,8 +192,27 @@ impl Network {
         MinimaxTree { tree, ascending }
     }
 
-    /// The cheapest route between two nodes, by Dijkstra's algorithm, and its cost.
-    pub fn cheapest(&self, from: usize, to: usize, cost: Cost) -> Option<(f64, Route)> {
+    /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
+    /// algorithm, paths added up by their maximum.
+    pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
+        let (peak, _) = astar(
+            &self.graph,
+            NodeIndex::new(from),
+            |node| goals.contains(&node.index()),
+            |edge| Highest(edge.weight().0),
+            |_| Highest::default(),
+        )?;
+        Some(peak.0)
+    }
+
+    /// The cheapest route from a node to any of the `goals`, by Dijkstra's algorithm: its end, its
+    /// cost and its links.
+    pub fn cheapest(
+        &self,
+        from: usize,
+        goals: &HashSet<usize>,
+        cost: Cost,
+    ) -> Option<(usize, f64, Route)> {
         let highest = match cost {
             Cost::Below { highest, .. } => highest,
             _ => f64::INFINITY,
@@ -195,7 +221,7 @@ impl Network {
         let (total, nodes) = astar(
             &allowed,
             NodeIndex::new(from),
-            |node| node.index() == to,
+            |node| goals.contains(&node.index()),
             |edge| {
                 let number = edge.weight().1 as usize;
                 self.cost(number, edge.source().index(), cost)
@@ -206,7 +232,7 @@ impl Network {
             .windows(2)
             .filter_map(|pair| self.cheapest_link(pair[0], pair[1], highest, cost))
             .collect();
-        Some((total, route))
+        Some((nodes.last()?.index(), total, route))
     }
 
     fn cheapest_link(
@@ -241,30 +267,24 @@ impl Network {
             }
         }
     }
+}
 
-    /// The configurations along a route.
-    pub fn configurations(&self, route: &Route) -> Vec<Configuration> {
-        let mut all: Vec<Configuration> = Vec::new();
-        for &(number, forwards) in route {
-            let mut way = self.way_configurations(number);
-            if !forwards {
-                way.reverse();
-            }
-            let skip = usize::from(all.last().is_some() && all.last() == way.first());
-            all.extend(way.into_iter().skip(skip));
-        }
-        all
+/// A highest energy (J): "adding" two of them gives the larger one, so that a shortest path is a
+/// minimax path. The neutral element is minus infinity, not 0: energies may be negative.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Highest(f64);
+
+impl Default for Highest {
+    fn default() -> Self {
+        Self(f64::NEG_INFINITY)
     }
+}
 
-    fn way_configurations(&self, number: usize) -> Vec<Configuration> {
-        let link = &self.links[number];
-        match &link.way {
-            Way::Points(points) => points.iter().map(|p| p.q).collect(),
-            Way::Straight | Way::Same => [link.from, link.to]
-                .iter()
-                .filter_map(|&node| self.nodes[node].map(|n| n.0))
-                .collect(),
-        }
+impl std::ops::Add for Highest {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
     }
 }
 
@@ -285,7 +305,7 @@ impl MinimaxTree {
         for &(node, energy) in labelled {
             lowest[node] = Some((energy, node));
         }
-        let ends: std::collections::HashMap<u32, (usize, usize)> = self
+        let ends: HashMap<u32, (usize, usize)> = self
             .tree
             .edge_references()
             .map(|e| (e.weight().1, (e.source().index(), e.target().index())))
@@ -311,21 +331,5 @@ impl MinimaxTree {
             };
         }
         merges
-    }
-
-    /// The highest link on the minimax path between two nodes, by its number.
-    pub fn bottleneck(&self, from: usize, to: usize) -> Option<usize> {
-        let (_, path) = astar(
-            &self.tree,
-            NodeIndex::new(from),
-            |node| node.index() == to,
-            |_| 1u32,
-            |_| 0,
-        )?;
-        path.windows(2)
-            .filter_map(|pair| self.tree.find_edge(pair[0], pair[1]))
-            .map(|edge| self.tree[edge])
-            .max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-            .map(|weight| weight.1 as usize)
     }
 }

@@ -162,5 +162,5 @@ pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configu
         }
         q = q.moved(push);
     }
-    problem.is_free(&q).then_some(q)
+    problem.is_clear(&q).then_some(q)
 }

@@ -7,7 +7,7 @@
 //! 1. Newton's method looks for the transition state there; descents on either side of it tell
 //!    which states it joins.
 //! 2. Where that fails or does not join the two basins, the roadmap is densified around the place,
-//!    with half of the new milestones on the contact surface.
+//!    with new milestones on the contact surface wherever they would overlap.
 //!
 //! until every meeting place is a transition state, or its energy moves by less than a set
 //! fraction of the barrier from round to round.
@@ -135,10 +135,33 @@ impl Survey {
             .collect();
         for ((node, _), descent) in starts.into_iter().zip(descents) {
             let end = self.arrive(problem, &descent);
-            if let (Some(node), Some(end)) = (node, end) {
-                self.network
-                    .add_way(problem, node, end, descent.way, &settings.edge);
+            match (node, end) {
+                (Some(node), Some(end)) => {
+                    self.network
+                        .add_way(problem, node, end, descent.way, &settings.edge);
+                }
+                // A guess is not in the network yet.
+                (None, Some(end)) if self.network.is_isolated(end) => {
+                    self.join(problem, end, settings);
+                }
+                _ => {}
             }
+        }
+    }
+
+    /// Joins a node to the network by milestones around it.
+    fn join(&mut self, problem: &Problem, node: usize, settings: &SurveySettings) {
+        let Some((centre, energy)) = self.network.nodes[node] else {
+            return;
+        };
+        for radius in [1e-3, 1e-2, 3e-2] {
+            let place = Place {
+                centre,
+                radius,
+                highest: energy.abs() + settings.edge.tolerance.absolute,
+                number: node as u64,
+            };
+            self.densify_at(problem, &place, settings);
         }
     }
 
@@ -322,9 +345,18 @@ impl Survey {
         let Some((centre, along)) = self.meeting_place(merge.link) else {
             return;
         };
-        let peak = self.network.links[merge.link].costs.peak;
-        let radius = problem.space.length(along).clamp(2e-3, 0.03);
-        let added = added_milestones(problem, &centre, radius, peak, round, merge.link, settings);
+        let place = Place {
+            centre,
+            radius: problem.space.length(along).clamp(2e-3, 0.03),
+            highest: self.network.links[merge.link].costs.peak,
+            number: (round << 32) + merge.link as u64,
+        };
+        self.densify_at(problem, &place, settings);
+    }
+
+    fn densify_at(&mut self, problem: &Problem, place: &Place, settings: &SurveySettings) {
+        let added = added_milestones(problem, place, settings);
+        let (centre, radius) = (place.centre, place.radius);
         // Old nodes around the place, then the new ones; links among them all that involve a new
         // one.
         let mut around: Vec<(usize, Milestone)> = self
@@ -358,27 +390,30 @@ impl Survey {
     }
 }
 
-/// Free configurations around a centre that lie below `peak`, half of them pushed into contact.
-fn added_milestones(
-    problem: &Problem,
-    centre: &Configuration,
+/// A place around which milestones are added.
+struct Place {
+    centre: Configuration,
+    /// How far around (m, metric of the space).
     radius: f64,
-    peak: f64,
-    round: u64,
-    link: usize,
-    settings: &SurveySettings,
-) -> Vec<Milestone> {
+    /// New milestones lie below this energy (J).
+    highest: f64,
+    /// Tells the random streams of places apart.
+    number: u64,
+}
+
+/// Free configurations around a place, those that would overlap pushed out into contact.
+fn added_milestones(problem: &Problem, place: &Place, settings: &SurveySettings) -> Vec<Milestone> {
     (0..settings.added_milestones)
         .into_par_iter()
         .filter_map(|i| {
-            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ (round << 56) ^ (link as u64));
+            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ place.number.rotate_left(16));
             rng.set_stream((1 << 32) + i as u64);
             let mut draw = || rng.random_range(-1.0..1.0);
-            let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * radius;
-            let aim = centre.moved(step);
-            let q = slide::settle(problem, &aim, radius)?;
+            let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
+            let aim = place.centre.moved(step);
+            let q = slide::settle(problem, &aim, place.radius)?;
             let milestone = Milestone::new(problem, q);
-            (milestone.energy < peak).then_some(milestone)
+            (milestone.energy < place.highest).then_some(milestone)
         })
         .collect()
 }

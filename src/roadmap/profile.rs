@@ -7,7 +7,7 @@ use crate::roadmap::Milestone;
 /// How closely a profile follows the energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfileTolerance {
-    /// Allowed error of the highest energy, relative to the larger energy at the ends of a stretch.
+    /// Allowed error of the highest energy, relative to itself.
     pub relative: f64,
     /// Error allowed in any case (J).
     pub absolute: f64,
@@ -133,8 +133,7 @@ impl Motion<'_> {
 
     fn is_settled(&self, a: &Sample, b: &Sample) -> bool {
         let highest = a.energy.max(b.energy);
-        let scale = a.energy.abs().max(b.energy.abs());
-        let allowed = self.tolerance.absolute + self.tolerance.relative * scale;
+        let allowed = self.tolerance.absolute + self.tolerance.relative * highest.abs();
         let duration = b.t - a.t;
         let middle = self.from.interpolate(&self.to, (a.t + b.t) / 2.0);
         let reach = self.displacement * duration / 2.0;

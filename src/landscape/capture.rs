@@ -1,0 +1,49 @@
+//! Capture: into which states overdamped motion takes tiles that start far apart.
+
+use std::f64::consts::PI;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::minimum::{Outcome, drift};
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+
+/// The distribution of far starts: the reference point uniform in area over the ring from the
+/// distance at which the tiles are free of each other (a fiftieth more) to half the table's shorter
+/// side, any orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FarStarts {
+    pub count: usize,
+    pub seed: u64,
+}
+
+/// Inner and outer radius (m) of the ring of far starts; equal where the table leaves no room.
+pub fn ring(problem: &Problem) -> [f64; 2] {
+    let [x, y] = problem.space.half_size;
+    let inner = 1.02 * problem.space.free_distance;
+    [inner, x.min(y).max(inner)]
+}
+
+/// Where each far start ends by overdamped motion (mass metric, sliding along contact): the
+/// minimum's configuration, or `None` where it leaves the table or comes to rest nowhere.
+pub fn ends(problem: &Problem, starts: &FarStarts) -> Vec<Option<Configuration>> {
+    let [inner, outer] = ring(problem);
+    (0..starts.count)
+        .into_par_iter()
+        .map(|i| {
+            let mut rng = ChaCha8Rng::seed_from_u64(starts.seed);
+            rng.set_stream((1 << 40) + i as u64);
+            let area = rng.random_range(inner * inner..=outer * outer);
+            let direction = rng.random_range(-PI..=PI);
+            let (y, x) = direction.sin_cos();
+            let radius = area.sqrt();
+            let theta = rng.random_range(-PI..=PI);
+            match drift(problem, &Configuration::new(radius * x, radius * y, theta)) {
+                Outcome::Minimum(found) => Some(found.point.q),
+                Outcome::Free | Outcome::Stuck => None,
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,154 @@
+//! Pathways: a route through the network as a fine sequence of configurations.
+
+use super::network::{Network, Route, Way};
+use super::results::{Pathway, PathwayPoint};
+use super::slide;
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+use crate::roadmap::profile::Profile;
+use crate::roadmap::{Milestone, ProfileTolerance};
+
+/// Longest step of a pathway (m, metric of the space).
+const LONGEST_STEP: f64 = 5e-3;
+/// Shortest step that is halved because the energy bends (m).
+const SHORTEST_STEP: f64 = 2e-4;
+
+/// The pathway along a route. Stretches of straight motions are cut short where the direct motion
+/// is free and stays below `highest` (J); steps are halved until the energy between two points is
+/// linear to within `bend` (J).
+pub fn along(
+    problem: &Problem,
+    network: &Network,
+    route: &Route,
+    highest: f64,
+    bend: f64,
+) -> Pathway {
+    let mut all: Vec<Configuration> = Vec::new();
+    for stretch in stretches(network, route) {
+        let points = match stretch {
+            Stretch::Straight(points) => shortened(problem, points, highest),
+            Stretch::Way(points) => points,
+        };
+        let repeated = usize::from(!all.is_empty() && all.last() == points.first());
+        all.extend(points.into_iter().skip(repeated));
+    }
+    of_configurations(problem, &all, bend)
+}
+
+/// The pathway through a sequence of configurations.
+pub fn of_configurations(problem: &Problem, all: &[Configuration], bend: f64) -> Pathway {
+    let mut pathway: Pathway = Vec::new();
+    let Some(first) = all.first() else {
+        return pathway;
+    };
+    let mut energy = problem.energy(first);
+    push(problem, &mut pathway, *first, energy);
+    for pair in all.windows(2) {
+        let next = problem.energy(&pair[1]);
+        refine(
+            problem,
+            &mut pathway,
+            (pair[0], energy),
+            (pair[1], next),
+            bend,
+        );
+        energy = next;
+    }
+    pathway
+}
+
+fn refine(
+    problem: &Problem,
+    pathway: &mut Pathway,
+    a: (Configuration, f64),
+    b: (Configuration, f64),
+    bend: f64,
+) {
+    let length = problem.space.distance(&a.0, &b.0);
+    if length > SHORTEST_STEP {
+        let straight = a.0.interpolate(&b.0, 0.5);
+        if let Some(middle) = slide::settle(problem, &straight, length) {
+            let energy = problem.energy(&middle);
+            let bent = (energy - (a.1 + b.1) / 2.0).abs() > bend;
+            if bent || length > LONGEST_STEP {
+                refine(problem, pathway, a, (middle, energy), bend);
+                refine(problem, pathway, (middle, energy), b, bend);
+                return;
+            }
+        }
+    }
+    push(problem, pathway, b.0, b.1);
+}
+
+fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, energy: f64) {
+    let s = pathway.last().map_or(0.0, |last| {
+        last.s + problem.space.distance(&last.configuration, &configuration)
+    });
+    pathway.push(PathwayPoint {
+        s,
+        configuration,
+        energy,
+        clearance: problem.clearance(&configuration),
+    });
+}
+
+enum Stretch {
+    Straight(Vec<Configuration>),
+    Way(Vec<Configuration>),
+}
+
+/// A route's links, neighbouring straight motions taken together.
+fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for &(number, forwards) in route {
+        let link = &network.links[number];
+        let (from, to) = if forwards {
+            (link.from, link.to)
+        } else {
+            (link.to, link.from)
+        };
+        match &link.way {
+            Way::Same => {}
+            Way::Points(points) => {
+                let mut way: Vec<Configuration> = points.iter().map(|p| p.q).collect();
+                if !forwards {
+                    way.reverse();
+                }
+                all.push(Stretch::Way(way));
+            }
+            Way::Straight => {
+                let ends = [from, to].map(|node| network.nodes[node].map(|n| n.0));
+                let [Some(a), Some(b)] = ends else { continue };
+                match all.last_mut() {
+                    Some(Stretch::Straight(points)) => points.push(b),
+                    _ => all.push(Stretch::Straight(vec![a, b])),
+                }
+            }
+        }
+    }
+    all
+}
+
+/// A polyline with the detours cut out that a direct motion below `highest` can replace.
+fn shortened(problem: &Problem, points: Vec<Configuration>, highest: f64) -> Vec<Configuration> {
+    let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
+    let tolerance = ProfileTolerance {
+        relative: 0.0,
+        absolute: 1e-3 * highest.abs(),
+    };
+    let direct = |a: &Milestone, b: &Milestone| {
+        problem.motion_is_free(&a.configuration, &b.configuration)
+            && Profile::new(problem, a, b, &tolerance).peak().energy <= highest
+    };
+    let mut kept = vec![points[0]];
+    let mut here = 0;
+    while here + 1 < points.len() {
+        let next = (here + 2..points.len())
+            .rev()
+            .find(|&j| direct(&milestones[here], &milestones[j]))
+            .unwrap_or(here + 1);
+        kept.push(points[next]);
+        here = next;
+    }
+    kept
+}

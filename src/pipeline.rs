@@ -1,0 +1,256 @@
+//! The main job in one readable page: from a design to its states, barriers and pathways.
+
+use std::time::Instant;
+
+use crate::analysis::{Analysis, Counts, Settings, Stage};
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::capture::{self, FarStarts};
+use crate::landscape::inventory::{self, Inventory};
+use crate::landscape::survey::{Survey, SurveySettings};
+use crate::landscape::symmetry::Symmetry;
+use crate::potential::DipolePotential;
+use crate::problem::Problem;
+use crate::roadmap::{
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, edge, milestone,
+    neighbour,
+};
+
+/// Is told what the main job is doing.
+pub trait Observer: Sync {
+    /// A stage begins; `share` of the whole time (0 to 1) is behind.
+    fn stage(&self, name: &'static str, share: f64);
+}
+
+/// An observer that looks away.
+pub struct Silent;
+
+impl Observer for Silent {
+    fn stage(&self, _: &'static str, _: f64) {}
+}
+
+/// The problem that a design poses.
+pub fn problem(design: &Design) -> Problem {
+    let potential = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
+    Problem::of_tiles(
+        design.space(),
+        &design.fixed,
+        &design.moving,
+        Box::new(potential),
+    )
+}
+
+/// The main job. The same design and settings give the same result on any number of threads.
+pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
+    let problem = problem(design);
+    let symmetries = Symmetry::all(&design.fixed, &design.moving);
+    let mut clock = Clock::new(&problem, observer);
+
+    let first = survey(
+        design,
+        &problem,
+        &symmetries,
+        settings,
+        settings.seed,
+        &mut clock,
+    );
+    clock.start("states and barriers", 0.6);
+    let mut inventory = inventory::take(design, &problem, &symmetries, &first.survey, settings);
+    clock.start("capture shares", 0.7);
+    let starts = FarStarts {
+        count: settings.far_starts,
+        seed: settings.seed,
+    };
+    let ends = capture::ends(&problem, &starts);
+    let uncaptured = inventory.count_captures(&problem, &ends);
+    for repeat in 1..settings.repeats as u64 {
+        let again = survey(
+            design,
+            &problem,
+            &symmetries,
+            settings,
+            settings.seed + repeat,
+            &mut clock,
+        );
+        let other = inventory::take(design, &problem, &symmetries, &again.survey, settings);
+        inventory.widen_spread(&problem, &other);
+    }
+    let stages = clock.stop();
+    let Inventory {
+        states,
+        escapes,
+        barriers,
+        alternatives,
+        bound_state,
+        shallow,
+    } = inventory;
+    Analysis {
+        settings: settings.clone(),
+        bound: (design.bound, problem.energy(&design.bound)),
+        bound_state,
+        states,
+        escapes,
+        barriers,
+        alternatives,
+        shallow,
+        uncaptured,
+        ring: capture::ring(&problem),
+        counts: Counts {
+            energy_evaluations: problem.evaluations(),
+            ..first.counts
+        },
+        stages,
+    }
+}
+
+struct Surveyed {
+    survey: Survey,
+    counts: Counts,
+}
+
+/// One roadmap and what is found from it.
+fn survey(
+    design: &Design,
+    problem: &Problem,
+    symmetries: &[Symmetry],
+    settings: &Settings,
+    seed: u64,
+    clock: &mut Clock,
+) -> Surveyed {
+    let depth = energy_scale(design, problem);
+    let edge_settings = edge_settings(settings, depth);
+    clock.start("milestones", 0.0);
+    let acceptance = match settings.boltzmann {
+        Some(energy) => Acceptance::Boltzmann { energy },
+        None => Acceptance::Linear {
+            lowest: -depth,
+            highest: 0.1 * depth,
+        },
+    };
+    let milestones = milestone::milestones(
+        problem,
+        &MilestoneSettings {
+            count: settings.milestones,
+            acceptance,
+            seed,
+        },
+    );
+    clock.start("neighbours", 0.05);
+    let k = settings
+        .neighbours
+        .unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones.len()));
+    let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
+    clock.start("edges", 0.06);
+    let edges = edge::edges(problem, &milestones, &pairs, &edge_settings);
+    let mut counts = Counts {
+        milestones: milestones.len(),
+        edges: edges.len(),
+        ..Counts::default()
+    };
+    clock.start("states and transition states", 0.4);
+    let survey = Survey::new(
+        problem,
+        &Roadmap { milestones, edges },
+        &guesses(design, problem),
+        &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
+        &SurveySettings {
+            edge: edge_settings,
+            settled: settings.settled,
+            added_milestones: 100,
+            most_rounds: 8,
+            seed,
+        },
+    );
+    counts.transition_states = survey.transition_states.len();
+    Surveyed { survey, counts }
+}
+
+/// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
+/// of the flush meetings of two faces where the bound one does not attract.
+pub fn energy_scale(design: &Design, problem: &Problem) -> f64 {
+    guesses(design, problem)
+        .iter()
+        .map(|q| problem.energy(q).abs())
+        .fold(f64::MIN_POSITIVE, f64::max)
+}
+
+fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
+    EdgeSettings {
+        tolerance: ProfileTolerance {
+            relative: 0.01,
+            absolute: 1e-5 * depth,
+        },
+        thermal_energy: settings.thermal_energy.unwrap_or(0.01 * depth),
+        probability_step: 5e-3,
+    }
+}
+
+/// Where minima may be expected: the bound configuration, and every pair of faces set flush
+/// against each other, pushed out into contact where their shapes overlap.
+fn guesses(design: &Design, problem: &Problem) -> Vec<Configuration> {
+    let mut all = vec![design.bound];
+    for fixed in &design.fixed.faces {
+        for moving in &design.moving.faces {
+            let flush = milestone::face_to_face(fixed, moving, 0.0, 0.0);
+            let lift = problem
+                .contact
+                .as_ref()
+                .map_or(0.0, |contact| contact.lift(&flush, fixed.normal()));
+            let position = flush.position() + fixed.normal() * lift;
+            let q = Configuration::new(position.x, position.y, flush.theta);
+            if problem.is_free(&q) {
+                all.push(q);
+            }
+        }
+    }
+    all
+}
+
+/// Measures the stages.
+struct Clock<'a> {
+    problem: &'a Problem,
+    observer: &'a dyn Observer,
+    stages: Vec<Stage>,
+    running: Option<(&'static str, Instant, u64)>,
+}
+
+impl<'a> Clock<'a> {
+    fn new(problem: &'a Problem, observer: &'a dyn Observer) -> Self {
+        Self {
+            problem,
+            observer,
+            stages: Vec::new(),
+            running: None,
+        }
+    }
+
+    fn start(&mut self, name: &'static str, share: f64) {
+        self.finish();
+        self.observer.stage(name, share);
+        self.running = Some((name, Instant::now(), self.problem.evaluations()));
+    }
+
+    fn finish(&mut self) {
+        let Some((name, since, evaluations)) = self.running.take() else {
+            return;
+        };
+        let wall_s = since.elapsed().as_secs_f64();
+        let energy_evaluations = self.problem.evaluations() - evaluations;
+        match self.stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => {
+                stage.wall_s += wall_s;
+                stage.energy_evaluations += energy_evaluations;
+            }
+            None => self.stages.push(Stage {
+                name,
+                wall_s,
+                energy_evaluations,
+            }),
+        }
+    }
+
+    fn stop(mut self) -> Vec<Stage> {
+        self.finish();
+        self.stages
+    }
+}
