@@ -14,7 +14,7 @@
 mod bundle;
 mod curvature;
 mod field;
-mod lanes;
+pub(crate) mod lanes;
 mod level;
 mod portable;
 mod sin_cos;

@@ -3,7 +3,8 @@
 use nalgebra::Vector2;
 
 use super::sheet::{ENERGY, GRADIENT, SheetPair};
-use crate::potential::batch::lanes::{Lanes, Level, Task};
+use crate::potential::batch::Level;
+use crate::potential::batch::lanes::{Lanes, Task};
 use crate::tile::Magnet;
 use crate::units::MU0;
 

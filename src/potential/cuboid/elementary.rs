@@ -85,7 +85,8 @@ pub fn angle<L: Lanes>(l: L, x: L::F, y: L::F) -> L::F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potential::batch::lanes::{Level, MAX_WIDTH, Task};
+    use crate::potential::batch::Level;
+    use crate::potential::batch::lanes::{MAX_WIDTH, Task};
 
     struct Both([f64; MAX_WIDTH], [f64; MAX_WIDTH]);
 

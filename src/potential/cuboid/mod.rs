@@ -14,7 +14,7 @@ mod sum;
 use nalgebra::{Complex, Vector3};
 
 use super::Potential;
-use super::batch::lanes::Level;
+use super::batch::Level;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};

@@ -356,7 +356,8 @@ struct ClosedForms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potential::batch::lanes::{Level, Task};
+    use crate::potential::batch::Level;
+    use crate::potential::batch::lanes::Task;
     use rand::{RngExt, SeedableRng};
 
     const FINE: Fineness = Fineness {
