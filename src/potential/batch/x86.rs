@@ -124,6 +124,14 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn least(self, lanes: __m256d) -> f64 {
+        with!(self: {
+            let pair = _mm_min_pd(_mm256_castpd256_pd128(lanes), _mm256_extractf128_pd(lanes, 1));
+            _mm_cvtsd_f64(_mm_min_sd(pair, _mm_unpackhi_pd(pair, pair)))
+        })
+    }
+
+    #[inline(always)]
     fn div(self, a: __m256d, b: __m256d) -> __m256d {
         with!(self: _mm256_div_pd(a, b))
     }
@@ -238,6 +246,11 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn sin_cos(self, angle: __m512d) -> (__m512d, __m512d) {
         sin_cos(self, angle)
+    }
+
+    #[inline(always)]
+    fn least(self, lanes: __m512d) -> f64 {
+        with!(self: _mm512_reduce_min_pd(lanes))
     }
 
     #[inline(always)]

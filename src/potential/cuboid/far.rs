@@ -5,13 +5,12 @@ use nalgebra::{Complex, Vector2};
 use super::multipole::{Coefficients, index};
 use crate::potential::batch::lanes::Lanes;
 
-/// Sums over the pairs of a group of fixed blocks with one moving block, all in units of
-/// `-mu0 / (4 pi)` times the moving block's moment.
+/// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
 #[derive(Clone, Copy)]
 pub struct Sums<F> {
     pub energy: F,
-    pub gradient: [F; 2],
-    pub slope: F,
+    /// dU/dx, dU/dy and dU/dtheta.
+    pub gradient: [F; 3],
 }
 
 impl<F: Copy> Sums<F> {
@@ -20,16 +19,17 @@ impl<F: Copy> Sums<F> {
         let zero = l.splat(0.0);
         Self {
             energy: zero,
-            gradient: [zero; 2],
-            slope: zero,
+            gradient: [zero; 3],
         }
     }
 }
 
-/// Adds the first `terms` terms of the series for fixed blocks of the given moments to the sums.
+/// Adds the first `terms` terms of the series to the sums, for several fixed blocks and a moving
+/// one, given the products of their moments.
 ///
-/// `r` is the way (m) from each fixed block to the moving one, `rr` its square, and `axis` the
-/// square of the fixed blocks' axis as a complex number. With `v = e^(-2 i phi)`, phi from the
+/// `r` is the way (m) from each fixed block to the moving one, `rr` its square, `axis` the square
+/// of the fixed blocks' axis as a complex number, and `arm` the way (m) from the moving tile's
+/// reference point to the block. With `v = e^(-2 i phi)`, phi from the
 /// axis, the terms are polynomials `P_k(v) = sum_l C_kl v^(l/2)` over powers of r.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
@@ -41,6 +41,7 @@ pub fn add<L: Lanes, const SLOPE: bool>(
     moment: L::F,
     r: [L::F; 2],
     rr: L::F,
+    arm: Complex<f64>,
     sums: &mut Sums<L::F>,
 ) {
     let inverse = l.reciprocal_sqrt(rr);
@@ -58,8 +59,9 @@ pub fn add<L: Lanes, const SLOPE: bool>(
     let mut k = terms;
     while k > 0 {
         k -= 1;
-        let values = &coefficients.values[index(k, 0)..index(k + 1, 0)];
-        let p = polynomial(l, values, 0, v);
+        let range = index(k, 0)..index(k + 1, 0);
+        let c = coefficients;
+        let p = polynomial(l, &c.re[range.clone()], &c.im[range.clone()], v);
         energy = l.mul_add(energy, q, p.value);
         if SLOPE {
             radial = l.mul_add(
@@ -68,20 +70,23 @@ pub fn add<L: Lanes, const SLOPE: bool>(
                 l.mul(radial, q),
             );
             angular = l.mul_add(p.angular, l.splat(2.0), l.mul(angular, q));
-            turning = l.mul_add(turning, q, polynomial(l, values, 1, v).value);
+            let turn = polynomial(l, &c.turn_re[range.clone()], &c.turn_im[range], v);
+            turning = l.mul_add(turning, q, turn.value);
         }
     }
     let scale = l.mul(moment, l.mul(q, inverse));
     sums.energy = l.mul_add(scale, energy, sums.energy);
     if SLOPE {
-        sums.slope = l.mul_add(scale, turning, sums.slope);
+        let turn = l.mul(scale, turning);
         let scale = l.mul(scale, q);
         let (radial, angular) = (l.mul(scale, radial), l.mul(scale, angular));
-        let [gx, gy] = sums.gradient;
-        sums.gradient = [
-            l.neg_mul_add(angular, r[1], l.mul_add(radial, r[0], gx)),
-            l.mul_add(angular, r[0], l.mul_add(radial, r[1], gy)),
-        ];
+        let gx = l.neg_mul_add(angular, r[1], l.mul(radial, r[0]));
+        let gy = l.mul_add(angular, r[0], l.mul(radial, r[1]));
+        let turn = l.mul_add(l.splat(arm.re), gy, turn);
+        let turn = l.neg_mul_add(l.splat(arm.im), gx, turn);
+        for (sum, share) in sums.gradient.iter_mut().zip([gx, gy, turn]) {
+            *sum = l.add(*sum, share);
+        }
     }
 }
 
@@ -94,21 +99,21 @@ struct Polynomial<F> {
 #[inline(always)]
 fn polynomial<L: Lanes>(
     l: L,
-    values: &[[Complex<f64>; 2]],
-    which: usize,
+    c_re: &[f64],
+    c_im: &[f64],
     v: [L::F; 2],
 ) -> Polynomial<L::F> {
     let zero = l.splat(0.0);
     let (mut re, mut im) = (zero, zero);
     let (mut slope_re, mut slope_im) = (zero, zero);
-    for c in values.iter().rev() {
+    for (c_re, c_im) in c_re.iter().zip(c_im).rev() {
         (slope_re, slope_im) = (
             l.neg_mul_add(slope_im, v[1], l.mul_add(slope_re, v[0], re)),
             l.mul_add(slope_im, v[0], l.mul_add(slope_re, v[1], im)),
         );
         (re, im) = (
-            l.neg_mul_add(im, v[1], l.mul_add(re, v[0], l.splat(c[which].re))),
-            l.mul_add(im, v[0], l.mul_add(re, v[1], l.splat(c[which].im))),
+            l.neg_mul_add(im, v[1], l.mul_add(re, v[0], l.splat(*c_re))),
+            l.mul_add(im, v[0], l.mul_add(re, v[1], l.splat(*c_im))),
         );
     }
     Polynomial {

@@ -31,6 +31,8 @@
 
 use nalgebra::Complex;
 
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
+
 /// Terms of the series that are summed, the dipole included.
 pub const TERMS: usize = 8;
 
@@ -91,39 +93,45 @@ fn rising_half(n: usize) -> f64 {
     (0..n).map(|i| i as f64 + 0.5).product()
 }
 
-/// The series of two block sizes.
-#[derive(Clone, Debug)]
-pub struct Multipole {
-    /// The terms summed; for each k and l (see [`index`]) the sums and the differences of T_kll'
-    /// and T_kl-l', for l' = 1, 3 .. 2k+1.
-    coefficients: Vec<Vec<[f64; 2]>>,
-    /// A_k (m^(2k)), longer than the coefficients.
-    magnitudes: Vec<f64>,
-}
-
 /// Where the coefficient C_kl stands among those of all terms, given `l / 2`.
 #[inline(always)]
 pub const fn index(k: usize, half: usize) -> usize {
     k * (k + 3) / 2 + half
 }
 
-/// How many C_kl there are.
-pub const COEFFICIENTS: usize = index(TERMS, 0);
+/// Room for all C_kl, in whole vectors.
+const ROOM: usize = index(TERMS, 0).next_multiple_of(MAX_WIDTH);
 
 /// C_kl at one angle beta.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
     /// How many terms k have been worked out.
     pub terms: usize,
-    /// C_kl and its derivative by beta.
-    pub values: [[Complex<f64>; 2]; COEFFICIENTS],
+    pub re: [f64; ROOM],
+    pub im: [f64; ROOM],
+    /// The derivatives by beta.
+    pub turn_re: [f64; ROOM],
+    pub turn_im: [f64; ROOM],
 }
 
 impl Coefficients {
     pub const NONE: Self = Self {
         terms: 0,
-        values: [[Complex::new(0.0, 0.0); 2]; COEFFICIENTS],
+        re: [0.0; ROOM],
+        im: [0.0; ROOM],
+        turn_re: [0.0; ROOM],
+        turn_im: [0.0; ROOM],
     };
+}
+
+/// The series of two block sizes.
+#[derive(Clone, Debug)]
+pub struct Multipole {
+    /// For l' = 1, 3 .. the sums and the differences of T_kll' and T_kl-l', of all C_kl.
+    sums: [[f64; ROOM]; TERMS],
+    differences: [[f64; ROOM]; TERMS],
+    /// A_k (m^(2k)), longer than the coefficients.
+    magnitudes: Vec<f64>,
 }
 
 impl Multipole {
@@ -137,15 +145,18 @@ impl Multipole {
             .iter()
             .map(|rows| rows.iter().flatten().map(|x| x.abs()).sum())
             .collect();
-        let fold = |row: &Vec<f64>| {
+        let (mut sums, mut differences) = ([[0.0; ROOM]; TERMS], [[0.0; ROOM]; TERMS]);
+        for (i, row) in all.iter().take(TERMS).flatten().enumerate() {
             let half = row.len() / 2;
-            (0..half)
-                .map(|j| (row[half + j], row[half - 1 - j]))
-                .map(|(plus, minus)| [plus + minus, plus - minus])
-                .collect()
-        };
+            for j in 0..half {
+                let (plus, minus) = (row[half + j], row[half - 1 - j]);
+                sums[j][i] = plus + minus;
+                differences[j][i] = plus - minus;
+            }
+        }
         Self {
-            coefficients: all.iter().take(TERMS).flatten().map(fold).collect(),
+            sums,
+            differences,
             magnitudes,
         }
     }
@@ -173,26 +184,45 @@ impl Multipole {
         high
     }
 
-    /// Works out the coefficients of the terms below `terms` for `turn` = e^(i beta), beyond
-    /// those that are known.
-    pub fn evaluate(&self, turn: Complex<f64>, terms: usize, known: &mut Coefficients) {
+    /// Works out the coefficients of the terms below `terms` for `turn` = e^(i beta), and their
+    /// derivatives if asked for.
+    #[inline(always)]
+    pub fn evaluate<L: Lanes, const SLOPE: bool>(
+        &self,
+        l: L,
+        turn: Complex<f64>,
+        terms: usize,
+        known: &mut Coefficients,
+    ) {
         let step = turn * turn;
-        let mut phases = [turn; TERMS];
-        for j in 1..terms {
-            phases[j] = phases[j - 1] * step;
-        }
-        for i in index(known.terms, 0)..index(terms, 0) {
-            let (mut value, mut slope) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
-            for (j, ([sum, difference], phase)) in
-                self.coefficients[i].iter().zip(&phases).enumerate()
-            {
-                let order = (2 * j + 1) as f64;
-                value += Complex::new(sum * phase.re, difference * phase.im);
-                slope += Complex::new(-order * sum * phase.im, order * difference * phase.re);
+        let mut i = 0;
+        while i < index(terms, 0) {
+            let zero = l.splat(0.0);
+            let (mut re, mut im) = (zero, zero);
+            let (mut turn_re, mut turn_im) = (zero, zero);
+            let mut phase = turn;
+            for j in 0..terms {
+                let (cos, sin) = (l.splat(phase.re), l.splat(phase.im));
+                let sum = l.load(&self.sums[j][i..]);
+                let difference = l.load(&self.differences[j][i..]);
+                re = l.mul_add(sum, cos, re);
+                im = l.mul_add(difference, sin, im);
+                if SLOPE {
+                    let order = l.splat((2 * j + 1) as f64);
+                    turn_re = l.neg_mul_add(l.mul(sum, order), sin, turn_re);
+                    turn_im = l.mul_add(l.mul(difference, order), cos, turn_im);
+                }
+                phase *= step;
             }
-            known.values[i] = [value, slope];
+            l.store(re, &mut known.re[i..]);
+            l.store(im, &mut known.im[i..]);
+            if SLOPE {
+                l.store(turn_re, &mut known.turn_re[i..]);
+                l.store(turn_im, &mut known.turn_im[i..]);
+            }
+            i += L::WIDTH;
         }
-        known.terms = known.terms.max(terms);
+        known.terms = terms;
     }
 }
 

@@ -34,11 +34,28 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
             gradient: Vector3::zeros(),
             near: Vec::new(),
         };
-        let groups = &self.potential.moving_groups;
-        for moving in groups {
+        let rotation = Complex::new(cos, sin);
+        let mut sums = Sums::zero(l);
+        let mut coefficients = Coefficients::NONE;
+        for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                self.add_groups(l, fixed, moving, Complex::new(cos, sin), &mut total);
+                coefficients.terms = 0;
+                self.add_groups(
+                    l,
+                    fixed,
+                    moving,
+                    rotation,
+                    &mut coefficients,
+                    &mut sums,
+                    &mut total.near,
+                );
             }
+        }
+        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        total.energy = scale * l.sum(sums.energy);
+        if SLOPE {
+            let [x, y, turn] = sums.gradient;
+            total.gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         }
         for &(first, second) in &total.near {
             let first = &self.potential.fixed[first];
@@ -60,23 +77,24 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
 impl<const SLOPE: bool> Sum<'_, SLOPE> {
     /// Adds the pairs of two groups that are far enough apart, and lists the others.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     fn add_groups<L: Lanes>(
         &self,
         l: L,
         fixed: &Group,
         moving: &Group,
         rotation: Complex<f64>,
-        total: &mut Total,
+        coefficients: &mut Coefficients,
+        sums: &mut Sums<L::F>,
+        near_pairs: &mut Vec<(usize, usize)>,
     ) {
         let far = &self.potential.far[fixed.size][moving.size];
         let turn = moving.axis * rotation * fixed.axis.conj();
         let axis = fixed.axis * fixed.axis;
         let near = l.splat(far.near());
-        let mut coefficients = Coefficients::NONE;
         for (j, &second) in moving.members.iter().enumerate() {
             let arm = rotation * Complex::new(moving.x[j], moving.y[j]);
             let place = Vector2::new(self.q.x + arm.re, self.q.y + arm.im);
-            let mut sums = Sums::zero(l);
             let mut from = 0;
             while from < fixed.x.len() {
                 let r = [
@@ -84,7 +102,8 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     l.sub(l.splat(place.y), l.load(&fixed.y[from..])),
                 ];
                 let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
-                let mut moment = l.load(&fixed.moment[from..]);
+                let mut moment =
+                    l.mul(l.load(&fixed.moment[from..]), l.splat(moving.moment[j]));
                 let mut apart = rr;
                 let least = l.least(rr);
                 if least < far.near() {
@@ -92,7 +111,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     l.store(rr, &mut squares);
                     for (lane, square) in squares[..L::WIDTH].iter().enumerate() {
                         if *square < far.near() {
-                            total.near.push((fixed.members[from + lane], second));
+                            near_pairs.push((fixed.members[from + lane], second));
                         }
                     }
                     let outside = l.sub(rr, near);
@@ -101,27 +120,20 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                 }
                 let terms = far.terms(least);
                 if terms > coefficients.terms {
-                    far.series.evaluate(turn, terms, &mut coefficients);
+                    far.series.evaluate::<L, SLOPE>(l, turn, terms, coefficients);
                 }
                 far::add::<L, SLOPE>(
                     l,
-                    &coefficients,
+                    coefficients,
                     terms,
                     axis,
                     moment,
                     r,
                     apart,
-                    &mut sums,
+                    arm,
+                    sums,
                 );
                 from += L::WIDTH;
-            }
-            let scale = -MU0 / (4.0 * std::f64::consts::PI) * moving.moment[j];
-            total.energy += scale * l.sum(sums.energy);
-            if SLOPE {
-                let gx = scale * l.sum(sums.gradient[0]);
-                let gy = scale * l.sum(sums.gradient[1]);
-                let turn = scale * l.sum(sums.slope) + arm.re * gy - arm.im * gx;
-                total.gradient += Vector3::new(gx, gy, turn);
             }
         }
     }
