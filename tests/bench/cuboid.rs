@@ -26,7 +26,8 @@ fn main() {
             let one = &magnets("N")[..1];
             let mut other = magnets("S");
             let far = other[0].clone();
-            other = vec![other[2].clone()]; other[0].position.y = one[0].position.y; 
+            other = vec![other[2].clone()];
+            other[0].position.y = one[0].position.y;
             for n in [1, 16] {
                 let moving: Vec<Magnet> = std::iter::repeat_n(other[0].clone(), n).collect();
                 let cuboid = CuboidPotential::with_level(one, &moving, level);
@@ -35,13 +36,21 @@ fn main() {
                     let mut best = [f64::INFINITY; 2];
                     for _ in 0..50 {
                         let start = Instant::now();
-                        for _ in 0..200 { black_box(cuboid.energy(black_box(&q))); }
+                        for _ in 0..200 {
+                            black_box(cuboid.energy(black_box(&q)));
+                        }
                         best[0] = best[0].min(start.elapsed().as_nanos() as f64 / 200.0);
                         let start = Instant::now();
-                        for _ in 0..200 { black_box(cuboid.energy_and_gradient(black_box(&q))); }
+                        for _ in 0..200 {
+                            black_box(cuboid.energy_and_gradient(black_box(&q)));
+                        }
                         best[1] = best[1].min(start.elapsed().as_nanos() as f64 / 200.0);
                     }
-                    println!("{level} n {n} gap {gap}: {:.0} {:.0} ns each", best[0] / n as f64, best[1] / n as f64);
+                    println!(
+                        "{level} n {n} gap {gap}: {:.0} {:.0} ns each",
+                        best[0] / n as f64,
+                        best[1] / n as f64
+                    );
                 }
             }
             let _ = far;
@@ -96,26 +105,46 @@ fn poses() -> Vec<(&'static str, Vec<Configuration>)> {
             .collect::<Vec<_>>()
     };
     vec![
-        ("touching, aligned", family(&|_, _| Configuration::new(0.43, 0.0, 0.0))),
-        ("touching, sliding", family(&|a, _| Configuration::new(0.43, 0.1 * a, 0.0))),
-        ("gap 1 mm, aligned", family(&|_, _| Configuration::new(0.431, 0.0, 0.0))),
-        ("gap 1 to 3 mm, sliding", family(&|a, b| {
-            Configuration::new(0.432 + 0.001 * a, 0.1 * b, 0.0)
-        })),
-        ("tilted to an edge", family(&|a, b| {
-            let tilt: f64 = 0.05 * a;
-            let reach = 0.215 * (1.0 + tilt.cos() + tilt.sin().abs());
-            Configuration::new(reach, 0.1 * b, tilt)
-        })),
-        ("any angle, touching", family(&|a, b| {
-            let turn = PI * a;
-            let reach = 0.215 * (1.0 + turn.cos().abs() + turn.sin().abs());
-            Configuration::new(reach, 0.2 * b, turn)
-        })),
-        ("gap 20 mm", family(&|a, b| Configuration::new(0.45, 0.1 * b, 0.05 * a))),
-        ("0.6 to 1 m away", family(&|a, b| {
-            Configuration::new(0.8 + 0.2 * a, 0.3 * b, PI * b)
-        })),
+        (
+            "touching, aligned",
+            family(&|_, _| Configuration::new(0.43, 0.0, 0.0)),
+        ),
+        (
+            "touching, sliding",
+            family(&|a, _| Configuration::new(0.43, 0.1 * a, 0.0)),
+        ),
+        (
+            "gap 1 mm, aligned",
+            family(&|_, _| Configuration::new(0.431, 0.0, 0.0)),
+        ),
+        (
+            "gap 1 to 3 mm, sliding",
+            family(&|a, b| Configuration::new(0.432 + 0.001 * a, 0.1 * b, 0.0)),
+        ),
+        (
+            "tilted to an edge",
+            family(&|a, b| {
+                let tilt: f64 = 0.05 * a;
+                let reach = 0.215 * (1.0 + tilt.cos() + tilt.sin().abs());
+                Configuration::new(reach, 0.1 * b, tilt)
+            }),
+        ),
+        (
+            "any angle, touching",
+            family(&|a, b| {
+                let turn = PI * a;
+                let reach = 0.215 * (1.0 + turn.cos().abs() + turn.sin().abs());
+                Configuration::new(reach, 0.2 * b, turn)
+            }),
+        ),
+        (
+            "gap 20 mm",
+            family(&|a, b| Configuration::new(0.45, 0.1 * b, 0.05 * a)),
+        ),
+        (
+            "0.6 to 1 m away",
+            family(&|a, b| Configuration::new(0.8 + 0.2 * a, 0.3 * b, PI * b)),
+        ),
     ]
 }
 

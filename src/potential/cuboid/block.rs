@@ -1,10 +1,12 @@
 //! A pair of uniformly magnetised blocks: four pairs of charge sheets.
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-use super::sheet::{ENERGY, GRADIENT, SheetPair};
+use super::panel::Panels;
+use super::quadrature::Corner;
+use super::sheet::{first_moment, potential};
 use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 use crate::tile::Magnet;
 use crate::units::MU0;
 
@@ -59,83 +61,247 @@ pub struct PairEnergy {
     pub slope: f64,
 }
 
-/// The four pairs of pole faces: the product of the two poles' signs, the position of the second
-/// block's pole face relative to its centre, and the sheets.
-#[inline(always)]
-fn sheet_pairs(first: &Block, second: &Block) -> [(f64, Vector2<f64>, SheetPair); 4] {
-    let across = first.across();
-    let r = second.position - first.position;
-    let cos = first.axis.dot(&second.axis);
-    let sin = first.axis.perp(&second.axis);
-    [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(sign1, sign2)| {
-            let offset = second.axis * (sign2 * second.size[0] / 2.0);
-            let from = first.axis * (sign1 * first.size[0] / 2.0);
-            let centre = r + offset - from;
-            let side = if (r - from).dot(&first.axis) < 0.0 {
+/// Two blocks as four pairs of pole faces, all at the same angle. Coordinates are those of the
+/// first block's pole faces: x along them, h against the axis (see [`super::sheet`]).
+#[derive(Clone, Copy, Debug)]
+pub struct BlockPair {
+    /// Widths of the pole faces (m).
+    pub widths: [f64; 2],
+    /// Half the sum and half the difference of the thicknesses (m).
+    pub heights: [f64; 2],
+    /// `mu0 / (4 pi)` times the product of the charge densities (J/m^3).
+    pub strength: f64,
+    /// The first block's axis.
+    pub axis: Vector2<f64>,
+    /// The direction of the second block's pole faces, in the plane and in coordinates.
+    pub direction: Vector2<f64>,
+    pub cos: f64,
+    pub sin: f64,
+    /// The second block's centre, seen from the point about which it turns (m).
+    pub arm: Vector2<f64>,
+    /// Way from the first block's centre to the second one's (m).
+    way: Vector2<f64>,
+    /// Half the blocks' lengths along their axes (m).
+    half_lengths: [f64; 2],
+    second_axis: Vector2<f64>,
+}
+
+/// A pole face of the first block and one of the second.
+#[derive(Clone, Copy, Debug)]
+pub struct Faces {
+    /// The product of the two poles' signs.
+    pub sign: f64,
+    /// The second face's middle, seen from its block's centre (m).
+    pub offset: Vector2<f64>,
+    /// The second face's middle in the first one's coordinates (m).
+    pub x: f64,
+    pub h: f64,
+    /// The sign of h where the second block's body lies.
+    pub side: f64,
+}
+
+impl Faces {
+    /// Where the first face's edge at `sign w_1 / 2` projects onto the second face's line, and its
+    /// distance from that line.
+    #[inline(always)]
+    pub fn corner(&self, pair: &BlockPair, sign: f64) -> Corner {
+        let (dx, dh) = (sign * pair.widths[0] / 2.0 - self.x, -self.h);
+        (
+            dx * pair.cos + dh * pair.sin,
+            (dh * pair.cos - dx * pair.sin).abs(),
+        )
+    }
+}
+
+impl BlockPair {
+    /// Of two blocks, the second of which turns about the point `centre`.
+    #[inline(always)]
+    pub fn new(first: &Block, second: &Block, centre: Vector2<f64>) -> Self {
+        let density =
+            |block: &Block| block.moment / (block.size[0] * block.size[1] * block.size[2]);
+        Self {
+            widths: [first.size[1], second.size[1]],
+            heights: [
+                (first.size[2] + second.size[2]) / 2.0,
+                (first.size[2] - second.size[2]).abs() / 2.0,
+            ],
+            strength: MU0 / (4.0 * std::f64::consts::PI) * density(first) * density(second),
+            axis: first.axis,
+            direction: second.across(),
+            cos: first.axis.dot(&second.axis),
+            sin: first.axis.perp(&second.axis),
+            arm: second.position - centre,
+            way: second.position - first.position,
+            half_lengths: [first.size[0] / 2.0, second.size[0] / 2.0],
+            second_axis: second.axis,
+        }
+    }
+
+    /// The pair of pole faces number 0 to 3.
+    #[inline(always)]
+    pub fn faces(&self, number: usize) -> Faces {
+        let sign1 = if number < 2 { 1.0 } else { -1.0 };
+        let sign2 = if number % 2 == 0 { 1.0 } else { -1.0 };
+        let offset = self.second_axis * (sign2 * self.half_lengths[1]);
+        let from = self.way - self.axis * (sign1 * self.half_lengths[0]);
+        let middle = from + offset;
+        Faces {
+            sign: sign1 * sign2,
+            offset,
+            x: self.axis.perp(&middle),
+            h: -self.axis.dot(&middle),
+            side: if self.axis.dot(&from) < 0.0 {
                 1.0
             } else {
                 -1.0
-            };
-            let pair = SheetPair {
-                widths: [first.size[1], second.size[1]],
-                heights: [
-                    (first.size[2] + second.size[2]) / 2.0,
-                    (first.size[2] - second.size[2]).abs() / 2.0,
-                ],
-                x: centre.dot(&across),
-                h: -centre.dot(&first.axis),
-                cos,
-                sin,
-                side,
-            };
-            (sign1 * sign2, offset, pair)
-        })
-}
-
-/// `mu0 / (4 pi)` times the two charge densities (J/m^3).
-fn strength(first: &Block, second: &Block) -> f64 {
-    let density = |block: &Block| block.moment / block.size.iter().product::<f64>();
-    MU0 / (4.0 * std::f64::consts::PI) * density(first) * density(second)
-}
-
-/// The energy (J) of two blocks by their pole faces.
-#[inline(always)]
-pub fn energy<L: Lanes>(l: L, first: &Block, second: &Block) -> f64 {
-    let mut sum = 0.0;
-    for (sign, _, pair) in sheet_pairs(first, second) {
-        sum += sign * pair.energy(l, ENERGY);
+            },
+        }
     }
-    strength(first, second) * sum
+
+    /// Whether the faces are nearer to a right angle than to parallel.
+    #[inline(always)]
+    pub fn is_steep(&self) -> bool {
+        self.sin.abs() > std::f64::consts::FRAC_1_SQRT_2
+    }
+
+    /// The part of the gradient, by the second block's place and by its angle about the turning
+    /// point, that needs no quadrature: the forces along x and, where the faces are steep, those
+    /// along h less `by_energy` times the energy.
+    #[inline(always)]
+    pub fn closed_gradient<L: Lanes>(&self, l: L) -> Vector3<f64> {
+        let halves = [self.widths[0] / 2.0, self.widths[1] / 2.0];
+        let faces: [Faces; 4] = std::array::from_fn(|number| self.faces(number));
+        let corners: [[Corner; 2]; 4] =
+            std::array::from_fn(|number| [-1.0, 1.0].map(|sign| faces[number].corner(self, sign)));
+        // The second face's potential at the first one's edges, and the moments of g between the
+        // first one's edges and the second one's ends.
+        let mut edges = Points::NONE;
+        let mut squares = [1.0; 16];
+        for (i, (foot, height)) in corners.as_flattened().iter().enumerate() {
+            edges.put(i, *foot, *height, halves[1]);
+            squares[2 * i] = (foot + halves[1]).powi(2) + height * height;
+            squares[2 * i + 1] = (foot - halves[1]).powi(2) + height * height;
+        }
+        let psi = edges.potentials(l, self.heights);
+        let mut moments = [0.0; 16];
+        for from in (0..16).step_by(L::WIDTH) {
+            let n = first_moment(l, l.load(&squares[from..]), self.heights);
+            l.store(n, &mut moments[from..]);
+        }
+        let phi = if self.is_steep() {
+            // The first face's potential at the second one's ends.
+            let mut ends = Points::NONE;
+            for (i, face) in faces.iter().enumerate() {
+                for (k, t) in [-halves[1], halves[1]].into_iter().enumerate() {
+                    let (x, h) = (face.x + t * self.cos, face.h + t * self.sin);
+                    ends.put(2 * i + k, x, h, halves[0]);
+                }
+            }
+            ends.potentials(l, self.heights)
+        } else {
+            [0.0; MAX_WIDTH]
+        };
+
+        let along = Vector2::new(-self.axis.y, self.axis.x);
+        let mut gradient = Vector3::zeros();
+        for (i, face) in faces.iter().enumerate() {
+            let arm = self.arm + face.offset;
+            let strength = 2.0 * face.sign * self.strength;
+            let [start, end] = [0, 1].map(|k| {
+                let (foot, at) = (corners[i][k].0, 2 * i + k);
+                let zeroth = psi[at];
+                [
+                    zeroth,
+                    foot * zeroth + moments[2 * at + 1] - moments[2 * at],
+                ]
+            });
+            let x = [start[0] - end[0], start[1] - end[1]];
+            gradient += force(along, x, arm, -self.sin) * strength;
+            if self.is_steep() {
+                let [start, end] = [phi[2 * i], phi[2 * i + 1]];
+                let h = [
+                    ((end - start) - self.cos * x[0]) / self.sin,
+                    (halves[1] * (end + start) - self.cos * x[1]) / self.sin,
+                ];
+                gradient += force(-self.axis, h, arm, self.cos) * strength;
+            }
+        }
+        gradient
+    }
+
+    /// What the energy adds to the derivative by the angle, where the faces are steep.
+    #[inline(always)]
+    pub fn by_energy(&self) -> f64 {
+        if self.is_steep() {
+            -self.cos / self.sin
+        } else {
+            0.0
+        }
+    }
 }
 
-/// The energy of two blocks and its derivatives, by their pole faces.
+/// The gradient that derivatives along `direction` add up to, given their moments 0 and 1 along a
+/// face whose middle is at `arm` from the turning point; `turn` is the vector product of the
+/// face's direction with `direction`.
 #[inline(always)]
-pub fn energy_and_gradient<L: Lanes>(l: L, first: &Block, second: &Block) -> PairEnergy {
-    let across = first.across();
-    let mut total = PairEnergy::default();
-    let strength = strength(first, second);
-    for (sign, offset, pair) in sheet_pairs(first, second) {
-        let sheet = pair.energy_and_gradient(l, ENERGY, GRADIENT);
-        let gradient = (across * sheet.by_x - first.axis * sheet.by_h) * (sign * strength);
-        total.energy += sign * strength * sheet.energy;
-        total.gradient += gradient;
-        total.slope += sign * strength * sheet.by_angle + offset.perp(&gradient);
+fn force(direction: Vector2<f64>, moments: [f64; 2], arm: Vector2<f64>, turn: f64) -> Vector3<f64> {
+    let place = direction * moments[0];
+    Vector3::new(place.x, place.y, arm.perp(&place) + turn * moments[1])
+}
+
+/// Points at which potentials of faces are wanted.
+struct Points {
+    s: [[f64; MAX_WIDTH]; 2],
+    h: [f64; MAX_WIDTH],
+}
+
+impl Points {
+    const NONE: Self = Self {
+        s: [[-1.0; MAX_WIDTH], [1.0; MAX_WIDTH]],
+        h: [1.0; MAX_WIDTH],
+    };
+
+    /// The point (x, h) in the coordinates of a face of the given half width.
+    #[inline(always)]
+    fn put(&mut self, at: usize, x: f64, h: f64, half: f64) {
+        self.s[0][at] = x - half;
+        self.s[1][at] = x + half;
+        self.h[at] = h;
     }
-    total
+
+    /// Half the potentials.
+    #[inline(always)]
+    fn potentials<L: Lanes>(&self, l: L, heights: [f64; 2]) -> [f64; MAX_WIDTH] {
+        let mut out = [0.0; MAX_WIDTH];
+        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
+            let s = [l.load(&self.s[0][from..]), l.load(&self.s[1][from..])];
+            let (phi, _) = potential(l, s, l.load(&self.h[from..]), heights);
+            l.store(phi, &mut out[from..]);
+        }
+        out
+    }
 }
 
 /// Two blocks' energy and its derivatives by their pole faces, however far apart they are.
 pub fn exact(first: &Block, second: &Block) -> PairEnergy {
-    struct Exact<'a>(&'a Block, &'a Block);
-    impl Task for Exact<'_> {
-        type Output = PairEnergy;
+    struct Exact(BlockPair);
+    impl Task for Exact {
+        type Output = (f64, Vector3<f64>);
 
         #[inline(always)]
-        fn run<L: Lanes>(self, l: L) -> PairEnergy {
-            energy_and_gradient(l, self.0, self.1)
+        fn run<L: Lanes>(self, l: L) -> Self::Output {
+            let mut panels = Panels::default();
+            panels.append::<L, true>(l, &self.0);
+            panels.sum::<L, true>(l)
         }
     }
-    Level::best().run(Exact(first, second))
+    let pair = BlockPair::new(first, second, second.position);
+    let (energy, gradient) = Level::best().run(Exact(pair));
+    PairEnergy {
+        energy,
+        gradient: gradient.xy(),
+        slope: gradient.z,
+    }
 }
 
 #[cfg(test)]

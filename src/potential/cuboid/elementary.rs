@@ -36,6 +36,9 @@ const ATAN: [f64; 12] = [
     -0.017805397205419446,
 ];
 
+/// Keeps the angle of the zero vector from being 0 / 0.
+const SMALLEST: f64 = 1e-300;
+
 /// `c[0] + c[1] x + ...`, even and odd powers apart: two chains half as long.
 #[inline(always)]
 fn polynomial<L: Lanes, const N: usize>(l: L, x: L::F, c: &[f64; N]) -> L::F {
@@ -70,7 +73,7 @@ pub fn angle<L: Lanes>(l: L, x: L::F, y: L::F) -> L::F {
     let size = l.select(x, x, l.sub(zero, x));
     let steep = l.sub(size, y);
     let small = l.select(steep, y, size);
-    let large = l.add(l.select(steep, size, y), l.splat(f64::MIN_POSITIVE));
+    let large = l.add(l.select(steep, size, y), l.splat(SMALLEST));
     let low = l.sub(l.mul(large, l.splat(SQRT_2 - 1.0)), small);
     let t = l.div(
         l.select(low, small, l.sub(small, large)),
@@ -116,9 +119,16 @@ mod tests {
                 let [ln, angle] = level.run(Both(a, b));
                 for k in 0..MAX_WIDTH {
                     let exact = (a[k] / b[k]).ln();
-                    assert!((ln[k] - exact).abs() < 3e-16 * exact.abs().max(1.0), "{level}");
+                    assert!(
+                        (ln[k] - exact).abs() < 3e-16 * exact.abs().max(1.0),
+                        "{level}"
+                    );
                     let exact = b[k].atan2(a[k] - 1.0);
-                    assert!((angle[k] - exact).abs() < 9e-16, "{level} {} {exact}", angle[k]);
+                    assert!(
+                        (angle[k] - exact).abs() < 9e-16,
+                        "{level} {} {exact}",
+                        angle[k]
+                    );
                 }
             }
             let zero = level.run(Both([1.0; MAX_WIDTH], [1e-300; MAX_WIDTH]));

@@ -64,11 +64,7 @@ pub fn add<L: Lanes, const SLOPE: bool>(
         let p = polynomial(l, &c.re[range.clone()], &c.im[range.clone()], v);
         energy = l.mul_add(energy, q, p.value);
         if SLOPE {
-            radial = l.mul_add(
-                p.value,
-                l.splat(-((3 + 2 * k) as f64)),
-                l.mul(radial, q),
-            );
+            radial = l.mul_add(p.value, l.splat(-((3 + 2 * k) as f64)), l.mul(radial, q));
             angular = l.mul_add(p.angular, l.splat(2.0), l.mul(angular, q));
             let turn = polynomial(l, &c.turn_re[range.clone()], &c.turn_im[range], v);
             turning = l.mul_add(turning, q, turn.value);
@@ -97,12 +93,7 @@ struct Polynomial<F> {
 }
 
 #[inline(always)]
-fn polynomial<L: Lanes>(
-    l: L,
-    c_re: &[f64],
-    c_im: &[f64],
-    v: [L::F; 2],
-) -> Polynomial<L::F> {
+fn polynomial<L: Lanes>(l: L, c_re: &[f64], c_im: &[f64], v: [L::F; 2]) -> Polynomial<L::F> {
     let zero = l.splat(0.0);
     let (mut re, mut im) = (zero, zero);
     let (mut slope_re, mut slope_im) = (zero, zero);

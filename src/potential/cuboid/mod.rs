@@ -6,6 +6,7 @@ mod cloud;
 mod elementary;
 mod far;
 mod multipole;
+mod panel;
 mod quadrature;
 mod sheet;
 

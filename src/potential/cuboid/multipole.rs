@@ -246,4 +246,3 @@ fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Vec<f64>> {
     }
     rows
 }
-

@@ -57,38 +57,22 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// How small panels may get, as a share of the interval, before they are taken as they are.
+/// How fine panels may get.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
+    /// Panels shorter than this share of the interval are taken as they are.
     pub finest: f64,
-    /// Long axes (see [`axis`]) from which on eight and sixteen nodes are enough.
-    pub eight: f64,
-    pub sixteen: f64,
 }
+
+/// The long axes (see [`axis`]) from which on eight and sixteen nodes are enough:
+/// cosh(6 / (n - 1.5)) for n nodes, so that rho^(-2n) is exp(-12) / rho^3, which the weakness of
+/// the singularities (of the kind s^2 ln s) brings to some 1e-8.
+pub const EIGHT: f64 = 1.457_0;
+pub const SIXTEEN: f64 = 1.086_9;
 
 /// A point off the interval at which the integrand is not analytic: its foot on the interval's
 /// line, and its distance from that line.
 pub type Corner = (f64, f64);
-
-/// The panels of an interval, in no particular order: start, end, and whether eight nodes will do
-/// (else it takes sixteen).
-///
-/// An n-point rule applied to a function that is analytic within the ellipse with the interval's
-/// ends as foci converges like `rho^(-2n)`, where the ellipse's long axis is
-/// `(rho + 1 / rho) / 2` interval lengths (Trefethen, *Is Gauss quadrature better than
-/// Clenshaw-Curtis?*, theorem 4.5, doi:10.1137/060659831). Each panel's ellipse is the largest
-/// that stays clear of the two corners; where it is too small the panel is cut at the corner's
-/// foot or, where that is at or beyond an end, near that end.
-#[derive(Clone, Debug)]
-pub struct Panels {
-    corners: [Corner; 2],
-    fineness: Fineness,
-    shortest: f64,
-    stack: [(f64, f64); DEPTH],
-    waiting: usize,
-}
-
-const DEPTH: usize = 32;
 
 /// The share of a panel that is cut off at the end next to a corner.
 const GRADING: f64 = 0.2;
@@ -96,66 +80,83 @@ const GRADING: f64 = 0.2;
 /// Cuts nearer to an end than this share of the panel are not made at the foot.
 const MARGIN: f64 = 0.01;
 
-impl Panels {
-    #[inline(always)]
-    pub fn new(half: f64, corners: [Corner; 2], fineness: Fineness) -> Self {
-        let mut stack = [(0.0, 0.0); DEPTH];
-        stack[0] = (-half, half);
-        Self {
-            corners,
-            fineness,
-            shortest: 2.0 * half * fineness.finest,
-            stack,
-            waiting: 1,
-        }
-    }
-
-    #[inline(always)]
-    fn cut(&mut self, start: f64, at: f64, end: f64) {
-        self.stack[self.waiting] = (start, at);
-        self.stack[self.waiting + 1] = (at, end);
-        self.waiting += 2;
-    }
-}
-
-/// The long axis, in lengths of the interval, of the ellipse around it that goes through a corner.
+/// Cuts the interval from `-half` to `half` into panels and calls `visit(start, end, eight)` for
+/// each, `eight` saying whether eight nodes are enough (else it takes sixteen). Returns whether
+/// some panels had to be taken although they are too long for the corners next to them.
+///
+/// An n-point rule applied to a function that is analytic within the ellipse with the interval's
+/// ends as foci converges like `rho^(-2n)`, where the ellipse's long axis is
+/// `(rho + 1 / rho) / 2` interval lengths (Trefethen, *Is Gauss quadrature better than
+/// Clenshaw-Curtis?*, theorem 4.5, doi:10.1137/060659831). Each panel's ellipse is the largest
+/// that stays clear of the two corners; where it is too small the panel is cut at the corner's
+/// foot or, where that is at or beyond an end, near that end.
 #[inline(always)]
-fn axis((foot, height): Corner, start: f64, end: f64) -> f64 {
-    let squared = height * height;
-    let distance = |from: f64| ((foot - from) * (foot - from) + squared).sqrt();
-    (distance(start) + distance(end)) / (end - start)
+pub fn panels(
+    half: f64,
+    corners: [Corner; 2],
+    fineness: Fineness,
+    visit: &mut impl FnMut(f64, f64, bool),
+) -> bool {
+    let axis = axes(&corners, -half, half);
+    if axis.0 >= SIXTEEN {
+        visit(-half, half, axis.0 >= EIGHT);
+        return false;
+    }
+    cut(half, corners, fineness, visit)
 }
 
-impl Iterator for Panels {
-    type Item = (f64, f64, bool);
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            self.waiting = self.waiting.checked_sub(1)?;
-            let (start, end) = self.stack[self.waiting];
-            let axes = self.corners.map(|corner| axis(corner, start, end));
-            let (nearest, foot) = if axes[0] < axes[1] {
-                (axes[0], self.corners[0].0)
-            } else {
-                (axes[1], self.corners[1].0)
-            };
-            if nearest >= self.fineness.sixteen {
-                return Some((start, end, nearest >= self.fineness.eight));
-            }
-            let length = end - start;
-            if length < self.shortest || self.waiting + 2 > DEPTH {
-                return Some((start, end, true));
-            }
-            if foot < start + MARGIN * length {
-                self.cut(start, start + GRADING * length, end);
+fn cut(
+    half: f64,
+    corners: [Corner; 2],
+    fineness: Fineness,
+    visit: &mut impl FnMut(f64, f64, bool),
+) -> bool {
+    const DEPTH: usize = 32;
+    let shortest = 2.0 * half * fineness.finest;
+    let mut stack = [(-half, half); DEPTH];
+    let mut waiting = 1;
+    let mut coarse = false;
+    while waiting > 0 {
+        waiting -= 1;
+        let (start, end) = stack[waiting];
+        let (axis, foot) = axes(&corners, start, end);
+        let length = end - start;
+        if axis >= SIXTEEN {
+            visit(start, end, axis >= EIGHT);
+        } else if length < shortest || waiting + 2 > DEPTH {
+            coarse = true;
+            visit(start, end, true);
+        } else {
+            let at = if foot < start + MARGIN * length {
+                start + GRADING * length
             } else if foot > end - MARGIN * length {
-                self.cut(start, end - GRADING * length, end);
+                end - GRADING * length
             } else {
-                self.cut(start, foot, end);
-            }
+                foot
+            };
+            stack[waiting] = (start, at);
+            stack[waiting + 1] = (at, end);
+            waiting += 2;
         }
     }
+    coarse
+}
+
+/// The long axis, in lengths of the interval, of the largest ellipse around it that is clear of
+/// the corners, and the foot of the corner it touches.
+#[inline(always)]
+fn axes(corners: &[Corner; 2], start: f64, end: f64) -> (f64, f64) {
+    let sums = corners.map(|(foot, height)| {
+        let squared = height * height;
+        let (a, b) = (foot - start, foot - end);
+        (a * a + squared).sqrt() + (b * b + squared).sqrt()
+    });
+    let (sum, foot) = if sums[0] < sums[1] {
+        (sums[0], corners[0].0)
+    } else {
+        (sums[1], corners[1].0)
+    };
+    (sum / (end - start), foot)
 }
 
 #[cfg(test)]
@@ -187,16 +188,20 @@ mod tests {
     #[test]
     fn the_panels_cover_the_interval_once() {
         for corner in [(0.3, 0.0), (-1.0, 1e-4), (1.5, 0.0), (0.999, 1e-9)] {
-            let fineness = Fineness {
-                finest: 0.01,
-                eight: 1.4,
-                sixteen: 1.1,
-            };
-            let mut panels: Vec<_> = Panels::new(1.0, [corner, (-0.2, 0.3)], fineness).collect();
-            panels.sort_by(|a, b| a.0.total_cmp(&b.0));
-            assert_eq!(panels[0].0, -1.0);
-            assert_eq!(panels[panels.len() - 1].1, 1.0);
-            assert!(panels.windows(2).all(|pair| pair[0].1 == pair[1].0));
+            let fineness = Fineness { finest: 0.01 };
+            let mut list = Vec::new();
+            panels(
+                1.0,
+                [corner, (-0.2, 0.3)],
+                fineness,
+                &mut |start, end, _| {
+                    list.push((start, end));
+                },
+            );
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            assert_eq!(list[0].0, -1.0);
+            assert_eq!(list[list.len() - 1].1, 1.0);
+            assert!(list.windows(2).all(|pair| pair[0].1 == pair[1].0));
         }
     }
 }

@@ -2,9 +2,11 @@
 
 use nalgebra::{Complex, Vector2, Vector3};
 
+use super::CuboidPotential;
+use super::block::BlockPair;
 use super::far::{self, Group, Sums};
 use super::multipole::Coefficients;
-use super::{CuboidPotential, block};
+use super::panel::Panels;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 use crate::units::MU0;
@@ -57,18 +59,17 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
             let [x, y, turn] = sums.gradient;
             total.gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         }
-        for &(first, second) in &total.near {
-            let first = &self.potential.fixed[first];
-            let second = self.potential.moving[second].moved(cos, sin, self.q.position());
-            if SLOPE {
-                let pair = block::energy_and_gradient(l, first, &second);
-                let arm = second.position - self.q.position();
-                let turn = pair.slope + arm.perp(&pair.gradient);
-                total.energy += pair.energy;
-                total.gradient += Vector3::new(pair.gradient.x, pair.gradient.y, turn);
-            } else {
-                total.energy += block::energy(l, first, &second);
+        if !total.near.is_empty() {
+            let mut panels = Panels::default();
+            for &(first, second) in &total.near {
+                let first = &self.potential.fixed[first];
+                let second = self.potential.moving[second].moved(cos, sin, self.q.position());
+                let pair = BlockPair::new(first, &second, self.q.position());
+                panels.append::<L, SLOPE>(l, &pair);
             }
+            let (energy, gradient) = panels.sum::<L, SLOPE>(l);
+            total.energy += energy;
+            total.gradient += gradient;
         }
         (total.energy, total.gradient)
     }
@@ -102,8 +103,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     l.sub(l.splat(place.y), l.load(&fixed.y[from..])),
                 ];
                 let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
-                let mut moment =
-                    l.mul(l.load(&fixed.moment[from..]), l.splat(moving.moment[j]));
+                let mut moment = l.mul(l.load(&fixed.moment[from..]), l.splat(moving.moment[j]));
                 let mut apart = rr;
                 let least = l.least(rr);
                 if least < far.near() {
@@ -120,19 +120,10 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                 }
                 let terms = far.terms(least);
                 if terms > coefficients.terms {
-                    far.series.evaluate::<L, SLOPE>(l, turn, terms, coefficients);
+                    far.series
+                        .evaluate::<L, SLOPE>(l, turn, terms, coefficients);
                 }
-                far::add::<L, SLOPE>(
-                    l,
-                    coefficients,
-                    terms,
-                    axis,
-                    moment,
-                    r,
-                    apart,
-                    arm,
-                    sums,
-                );
+                far::add::<L, SLOPE>(l, coefficients, terms, axis, moment, r, apart, arm, sums);
                 from += L::WIDTH;
             }
         }
