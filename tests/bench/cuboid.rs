@@ -31,10 +31,10 @@ fn main() {
             for n in [1, 16] {
                 let moving: Vec<Magnet> = std::iter::repeat_n(other[0].clone(), n).collect();
                 let cuboid = CuboidPotential::with_level(one, &moving, level);
-                for gap in [0.0, 0.001, 0.005, 0.015, 0.04, 0.1, 1.0] {
+                for gap in std::env::var("MICRO").unwrap().split(",").map(|x| x.parse::<f64>().unwrap()) {
                     let q = Configuration::new(0.43 + gap, 0.0, 0.0);
                     let mut best = [f64::INFINITY; 2];
-                    for _ in 0..50 {
+                    for _ in 0..500 {
                         let start = Instant::now();
                         for _ in 0..200 {
                             black_box(cuboid.energy(black_box(&q)));

@@ -100,13 +100,11 @@ pub const fn index(k: usize, half: usize) -> usize {
 }
 
 /// Room for all C_kl, in whole vectors.
-const ROOM: usize = index(TERMS, 0).next_multiple_of(MAX_WIDTH);
+pub const ROOM: usize = index(TERMS, 0).next_multiple_of(MAX_WIDTH);
 
 /// C_kl at one angle beta.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
-    /// How many terms k have been worked out.
-    pub terms: usize,
     pub re: [f64; ROOM],
     pub im: [f64; ROOM],
     /// The derivatives by beta.
@@ -116,7 +114,6 @@ pub struct Coefficients {
 
 impl Coefficients {
     pub const NONE: Self = Self {
-        terms: 0,
         re: [0.0; ROOM],
         im: [0.0; ROOM],
         turn_re: [0.0; ROOM],
@@ -222,7 +219,6 @@ impl Multipole {
             }
             i += L::WIDTH;
         }
-        known.terms = terms;
     }
 }
 

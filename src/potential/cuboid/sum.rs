@@ -4,8 +4,8 @@ use nalgebra::{Complex, Vector2, Vector3};
 
 use super::CuboidPotential;
 use super::block::BlockPair;
-use super::far::{self, Group, Sums};
-use super::multipole::Coefficients;
+use super::far::{self, Group, Pairs, Sums};
+use super::multipole::{Coefficients, TERMS};
 use super::panel::Panels;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
@@ -16,6 +16,10 @@ pub struct Sum<'a, const SLOPE: bool> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
 }
+
+/// How many terms are summed for pairs far apart and at middle distances.
+const FEW: usize = 3;
+const SOME: usize = 5;
 
 /// What is summed up.
 struct Total {
@@ -41,7 +45,6 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                coefficients.terms = 0;
                 self.add_groups(
                     l,
                     fixed,
@@ -86,46 +89,62 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         moving: &Group,
         rotation: Complex<f64>,
         coefficients: &mut Coefficients,
-        sums: &mut Sums<L::F>,
+        total: &mut Sums<L::F>,
         near_pairs: &mut Vec<(usize, usize)>,
     ) {
         let far = &self.potential.far[fixed.size][moving.size];
-        let turn = moving.axis * rotation * fixed.axis.conj();
-        let axis = fixed.axis * fixed.axis;
-        let near = l.splat(far.near());
+        // Everything is in the frame whose x axis is the fixed blocks' axis.
+        let into = fixed.axis.conj();
+        let turn = moving.axis * rotation * into;
+        let centre = Complex::new(self.q.x, self.q.y) * into;
+        let mut sums = Sums::zero(l);
+        far.series.evaluate::<L, SLOPE>(l, turn, FEW, coefficients);
+        let mut known = FEW;
         for (j, &second) in moving.members.iter().enumerate() {
-            let arm = rotation * Complex::new(moving.x[j], moving.y[j]);
-            let place = Vector2::new(self.q.x + arm.re, self.q.y + arm.im);
-            let mut from = 0;
-            while from < fixed.x.len() {
+            let arm = turn * Complex::new(moving.x[j], moving.y[j]);
+            let place = centre + arm;
+            let own = l.splat(moving.moment[j]);
+            for from in (0..fixed.x.len()).step_by(L::WIDTH) {
                 let r = [
-                    l.sub(l.splat(place.x), l.load(&fixed.x[from..])),
-                    l.sub(l.splat(place.y), l.load(&fixed.y[from..])),
+                    l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
+                    l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
                 ];
-                let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
-                let mut moment = l.mul(l.load(&fixed.moment[from..]), l.splat(moving.moment[j]));
-                let mut apart = rr;
-                let least = l.least(rr);
+                let mut pairs = Pairs {
+                    moments: l.mul(own, l.load(&fixed.moment[from..])),
+                    r,
+                    rr: l.mul_add(r[0], r[0], l.mul(r[1], r[1])),
+                    arm,
+                };
+                let least = l.least(pairs.rr);
+                if least >= far.squares[FEW] {
+                    far::add::<L, FEW, SLOPE>(l, coefficients, &pairs, &mut sums);
+                    continue;
+                }
+                let terms = if least >= far.squares[SOME] { SOME } else { TERMS };
+                if known < terms {
+                    far.series.evaluate::<L, SLOPE>(l, turn, terms, coefficients);
+                    known = terms;
+                }
+                if terms == SOME {
+                    far::add::<L, SOME, SLOPE>(l, coefficients, &pairs, &mut sums);
+                    continue;
+                }
                 if least < far.near() {
+                    let near = l.splat(far.near());
                     let mut squares = [0.0; MAX_WIDTH];
-                    l.store(rr, &mut squares);
+                    l.store(pairs.rr, &mut squares);
                     for (lane, square) in squares[..L::WIDTH].iter().enumerate() {
                         if *square < far.near() {
                             near_pairs.push((fixed.members[from + lane], second));
                         }
                     }
-                    let outside = l.sub(rr, near);
-                    moment = l.select(outside, moment, l.splat(0.0));
-                    apart = l.select(outside, rr, near);
+                    let outside = l.sub(pairs.rr, near);
+                    pairs.moments = l.select(outside, pairs.moments, l.splat(0.0));
+                    pairs.rr = l.select(outside, pairs.rr, near);
                 }
-                let terms = far.terms(least);
-                if terms > coefficients.terms {
-                    far.series
-                        .evaluate::<L, SLOPE>(l, turn, terms, coefficients);
-                }
-                far::add::<L, SLOPE>(l, coefficients, terms, axis, moment, r, apart, arm, sums);
-                from += L::WIDTH;
+                far::add::<L, TERMS, SLOPE>(l, coefficients, &pairs, &mut sums);
             }
         }
+        total.add::<L, SLOPE>(l, &sums, fixed.axis);
     }
 }
