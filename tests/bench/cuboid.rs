@@ -31,7 +31,11 @@ fn main() {
             for n in [1, 16] {
                 let moving: Vec<Magnet> = std::iter::repeat_n(other[0].clone(), n).collect();
                 let cuboid = CuboidPotential::with_level(one, &moving, level);
-                for gap in std::env::var("MICRO").unwrap().split(",").map(|x| x.parse::<f64>().unwrap()) {
+                for gap in std::env::var("MICRO")
+                    .unwrap()
+                    .split(",")
+                    .map(|x| x.parse::<f64>().unwrap())
+                {
                     let q = Configuration::new(0.43 + gap, 0.0, 0.0);
                     let mut best = [f64::INFINITY; 2];
                     for _ in 0..500 {

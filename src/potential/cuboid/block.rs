@@ -35,6 +35,16 @@ impl From<&Magnet> for Block {
 }
 
 impl Block {
+    /// A block at the origin with its axis along x, of a moment (A m^2) and a size (m).
+    pub fn new(moment: f64, size: [f64; 3]) -> Self {
+        Self {
+            position: Vector2::zeros(),
+            axis: Vector2::x(),
+            moment,
+            size,
+        }
+    }
+
     /// The block moved by a rotation (cos, sin) and a shift.
     pub fn moved(&self, cos: f64, sin: f64, shift: Vector2<f64>) -> Self {
         let turn = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);

@@ -7,6 +7,18 @@ use std::sync::LazyLock;
 pub struct Rules {
     pub eight: [[f64; 8]; 2],
     pub sixteen: [[f64; 16]; 2],
+    /// Nodes that crowd towards both ends.
+    pub crowded_eight: [[f64; 8]; 2],
+    pub crowded_sixteen: [[f64; 16]; 2],
+}
+
+/// The rule after the substitution `x = (3 v - v^3) / 2`, whose derivative is 0 at both ends: it
+/// takes the singularities there from `s^2 ln s` to `v^5 ln v`.
+fn crowded<const N: usize>(rule: [[f64; N]; 2]) -> [[f64; N]; 2] {
+    [
+        rule[0].map(|v| (3.0 * v - v * v * v) / 2.0),
+        std::array::from_fn(|i| rule[1][i] * 1.5 * (1.0 - rule[0][i] * rule[0][i])),
+    ]
 }
 
 impl Rules {
@@ -15,6 +27,8 @@ impl Rules {
         static RULES: LazyLock<Rules> = LazyLock::new(|| Rules {
             eight: gauss_legendre(),
             sixteen: gauss_legendre(),
+            crowded_eight: crowded(gauss_legendre()),
+            crowded_sixteen: crowded(gauss_legendre()),
         });
         &RULES
     }
@@ -57,18 +71,46 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// How fine panels may get.
+/// How fine panels get.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
-    /// Panels shorter than this share of the interval are taken as they are.
+    /// Panels shorter than this share of the interval are not graded further.
     pub finest: f64,
+    /// The long axes (see [`panels`]) from which on eight and sixteen nodes are enough.
+    pub eight: f64,
+    pub sixteen: f64,
 }
 
-/// The long axes (see [`axis`]) from which on eight and sixteen nodes are enough:
-/// cosh(6 / (n - 1.5)) for n nodes, so that rho^(-2n) is exp(-12) / rho^3, which the weakness of
-/// the singularities (of the kind s^2 ln s) brings to some 1e-8.
-pub const EIGHT: f64 = 1.457_0;
-pub const SIXTEEN: f64 = 1.086_9;
+/// Which rule a panel takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    Eight,
+    Sixteen,
+    CrowdedEight,
+    CrowdedSixteen,
+}
+
+impl Fineness {
+    #[inline(always)]
+    fn rule(&self, axis: f64) -> Rule {
+        if axis >= self.eight {
+            Rule::Eight
+        } else {
+            Rule::Sixteen
+        }
+    }
+
+    /// By the length of panels alone: the axes are cosh(6 / (n - 1.5)) for n nodes, so that
+    /// rho^(-2n) is exp(-12) / rho^3, which the weakness of the singularities (of the kind
+    /// s^2 ln s) brings to some 1e-8.
+    pub const fn new(finest: f64) -> Self {
+        Self {
+            finest,
+            eight: 1.457_0,
+            sixteen: 1.086_9,
+        }
+    }
+}
 
 /// A point off the interval at which the integrand is not analytic: its foot on the interval's
 /// line, and its distance from that line.
@@ -77,8 +119,12 @@ pub type Corner = (f64, f64);
 /// The share of a panel that is cut off at the end next to a corner.
 const GRADING: f64 = 0.2;
 
+/// Panels that are taken although they are too long get eight nodes below this share of half the
+/// interval.
+const SHORT: f64 = 0.5;
+
 /// Cuts nearer to an end than this share of the panel are not made at the foot.
-const MARGIN: f64 = 0.01;
+const MARGIN: f64 = 0.001;
 
 /// Cuts the interval from `-half` to `half` into panels and calls `visit(start, end, eight)` for
 /// each, `eight` saying whether eight nodes are enough (else it takes sixteen). Returns whether
@@ -95,11 +141,11 @@ pub fn panels(
     half: f64,
     corners: [Corner; 2],
     fineness: Fineness,
-    visit: &mut impl FnMut(f64, f64, bool),
+    visit: &mut impl FnMut(f64, f64, Rule),
 ) -> bool {
     let axis = axes(&corners, -half, half);
-    if axis.0 >= SIXTEEN {
-        visit(-half, half, axis.0 >= EIGHT);
+    if axis.0 >= fineness.sixteen {
+        visit(-half, half, fineness.rule(axis.0));
         return false;
     }
     cut(half, corners, fineness, visit)
@@ -109,10 +155,10 @@ fn cut(
     half: f64,
     corners: [Corner; 2],
     fineness: Fineness,
-    visit: &mut impl FnMut(f64, f64, bool),
+    visit: &mut impl FnMut(f64, f64, Rule),
 ) -> bool {
     const DEPTH: usize = 32;
-    let shortest = 2.0 * half * fineness.finest;
+    let longest = 2.0 * half * fineness.finest;
     let mut stack = [(-half, half); DEPTH];
     let mut waiting = 1;
     let mut coarse = false;
@@ -121,19 +167,28 @@ fn cut(
         let (start, end) = stack[waiting];
         let (axis, foot) = axes(&corners, start, end);
         let length = end - start;
-        if axis >= SIXTEEN {
-            visit(start, end, axis >= EIGHT);
-        } else if length < shortest || waiting + 2 > DEPTH {
-            coarse = true;
-            visit(start, end, true);
+        let margin = MARGIN * length;
+        let at = if foot > start + margin && foot < end - margin {
+            foot
+        } else if foot < (start + end) / 2.0 {
+            start + GRADING * length
         } else {
-            let at = if foot < start + MARGIN * length {
-                start + GRADING * length
-            } else if foot > end - MARGIN * length {
-                end - GRADING * length
-            } else {
-                foot
-            };
+            end - GRADING * length
+        };
+        if axis >= fineness.sixteen {
+            visit(start, end, fineness.rule(axis));
+        } else if (at != foot && length <= longest) || waiting + 2 > DEPTH {
+            coarse = true;
+            visit(
+                start,
+                end,
+                if length < SHORT * half {
+                    Rule::CrowdedEight
+                } else {
+                    Rule::CrowdedSixteen
+                },
+            );
+        } else {
             stack[waiting] = (start, at);
             stack[waiting + 1] = (at, end);
             waiting += 2;
@@ -188,7 +243,7 @@ mod tests {
     #[test]
     fn the_panels_cover_the_interval_once() {
         for corner in [(0.3, 0.0), (-1.0, 1e-4), (1.5, 0.0), (0.999, 1e-9)] {
-            let fineness = Fineness { finest: 0.01 };
+            let fineness = Fineness::new(0.01);
             let mut list = Vec::new();
             panels(
                 1.0,

@@ -120,9 +120,14 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     far::add::<L, FEW, SLOPE>(l, coefficients, &pairs, &mut sums);
                     continue;
                 }
-                let terms = if least >= far.squares[SOME] { SOME } else { TERMS };
+                let terms = if least >= far.squares[SOME] {
+                    SOME
+                } else {
+                    TERMS
+                };
                 if known < terms {
-                    far.series.evaluate::<L, SLOPE>(l, turn, terms, coefficients);
+                    far.series
+                        .evaluate::<L, SLOPE>(l, turn, terms, coefficients);
                     known = terms;
                 }
                 if terms == SOME {
