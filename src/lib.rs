@@ -1,6 +1,7 @@
 //! tilebind: how two magnetic tiles bind.
 
 pub mod analysis;
+pub mod cell;
 pub mod configuration;
 pub mod contact;
 pub mod design;
@@ -8,6 +9,7 @@ pub mod landscape;
 pub mod pipeline;
 pub mod potential;
 pub mod problem;
+pub mod report;
 pub mod roadmap;
 pub mod tile;
 pub mod units;

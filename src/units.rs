@@ -18,7 +18,8 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
     format!("{scaled:.decimals$} {prefix}{unit}")
 }
 
-fn prefix_of(size: f64) -> (f64, &'static str) {
+/// The SI prefix for a quantity of this size, and what it stands for.
+pub fn prefix_of(size: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 6] = [
         (1e3, "k"),
         (1.0, ""),

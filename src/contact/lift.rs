@@ -13,13 +13,27 @@ impl Contact {
     /// Each pair of convex parts overlaps on one open interval of t, found exactly from its
     /// separating axes; the answer is the first point outside their union.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
+        let across = Vector2::new(-direction.y, direction.x);
+        let rotation = q.rotation();
         let mut blocked: Vec<(f64, f64)> = Vec::new();
-        for part in self.moving().parts() {
-            let placed = part.placed(q);
-            for other in self.fixed().parts() {
-                blocked.extend(overlap_interval(other, &placed, direction));
-            }
-        }
+        let mut placed: Option<(usize, ConvexPart)> = None;
+        self.fixed_tree.pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            &|between, radii| between.dot(&across).abs() > radii,
+            &mut |i, j| {
+                let (_, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => other.insert((j, self.moving().parts()[j].placed(q))),
+                };
+                let fixed = &self.fixed().parts()[i];
+                let (lane, own) = (extent(fixed, &across), extent(part, &across));
+                if own.0 < lane.1 && lane.0 < own.1 {
+                    blocked.extend(overlap_interval(fixed, part, direction));
+                }
+                true
+            },
+        );
         blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut lifted = 0.0;
         for (start, end) in blocked {
@@ -29,6 +43,11 @@ impl Contact {
         }
         lifted
     }
+}
+
+/// Least and largest coordinate of a polygon along a direction.
+fn extent(part: &ConvexPart, direction: &Vector2<f64>) -> (f64, f64) {
+    (support(part, direction), -support(part, &-direction))
 }
 
 /// The open interval of translations of `moving` along `direction` at which it overlaps `fixed`.

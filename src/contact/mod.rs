@@ -5,9 +5,12 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
+pub(crate) mod sweep;
+mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 
@@ -16,9 +19,10 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
 
+use self::tree::CircleTree;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
-use crate::tile::outline::ConvexPart;
+use crate::tile::outline::{Bounds, ConvexPart};
 
 /// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
@@ -31,6 +35,9 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_tree: CircleTree,
+    moving_tree: CircleTree,
+    fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
 }
@@ -40,6 +47,9 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_tree: sweep::tree(fixed),
+            moving_tree: sweep::tree(moving),
+            fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
             fixed: fixed.clone(),
@@ -102,20 +112,26 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        for part in self.moving.parts() {
-            let placed = part.placed(q);
-            let (low, high) = placed.bounding_box();
-            for other in self.fixed.parts() {
-                let (other_low, other_high) = other.bounding_box();
-                let apart = low.x >= other_high.x
-                    || other_low.x >= high.x
-                    || low.y >= other_high.y
-                    || other_low.y >= high.y;
-                if !apart {
-                    deepest = deepest.max(-separation(other, &placed));
+        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
+        let rotation = q.rotation();
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            0.0,
+            &mut |i, j| {
+                let (_, bounds, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => {
+                        let part = self.moving.parts()[j].placed(q);
+                        other.insert((j, part.bounds(), part))
+                    }
+                };
+                if !bounds.apart(&self.fixed_bounds[i]) {
+                    deepest = deepest.max(-separation(&self.fixed.parts()[i], part));
                 }
-            }
-        }
+                true
+            },
+        );
         deepest
     }
 }

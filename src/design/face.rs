@@ -2,10 +2,11 @@
 
 use super::error::Span;
 use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
+use super::profile::read_profile;
 use super::quantity;
 use super::reader::{Entry, Result, Section, nearest_help};
 use crate::tile::barcode::{Barcode, BarcodeError};
-use crate::tile::profile::{Polyline, Profile, ProfileError, Waveform, complement};
+use crate::tile::profile::{Polyline, complement};
 
 /// The magnets of a face, before their sizes and spacing are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,14 +18,17 @@ pub(super) enum Pattern {
 }
 
 impl Pattern {
-    fn mate(&self) -> Self {
+    /// The magnets of the mating face, which `span` asks for.
+    fn mate(&self, span: Span) -> Self {
         match self {
-            Self::Code(code, spans) => {
-                Self::Code(code.mate(), spans.iter().rev().copied().collect())
-            }
-            Self::List(magnets) => {
-                Self::List(magnets.iter().rev().map(|magnet| magnet.mate()).collect())
-            }
+            Self::Code(code, _) => Self::Code(code.mate(), vec![span; code.len()]),
+            Self::List(magnets) => Self::List(
+                magnets
+                    .iter()
+                    .rev()
+                    .map(|magnet| magnet.mate(span))
+                    .collect(),
+            ),
         }
     }
 }
@@ -37,8 +41,9 @@ pub(super) struct FaceContent {
     pub fit: f64,
     pub pattern: Pattern,
     pub keys: MagnetKeys,
-    /// Where the file draws the line, and where it places the magnets.
+    /// Where the file draws the line, draws it back and places the magnets.
     pub line_span: Span,
+    pub fit_span: Span,
     pub pattern_span: Span,
 }
 
@@ -48,9 +53,10 @@ impl FaceContent {
         Self {
             polyline: complement(&self.polyline),
             fit: 0.0,
-            pattern: self.pattern.mate(),
+            pattern: self.pattern.mate(at),
             keys: self.keys.mate(),
             line_span: at,
+            fit_span: at,
             pattern_span: at,
         }
     }
@@ -138,21 +144,23 @@ impl<'a> FaceEntry<'a> {
             },
             keys: self.magnet_keys()?.over(keys),
             line_span: profile.map_or(span, |entry| entry.span()),
+            fit_span: span,
             pattern_span: pattern.map_or(span, |entry| entry.span()),
         })
     }
 
     /// The content of a face that mates with `partner`.
     pub fn mate_of(&self, partner: &FaceContent, mates: &Entry) -> Result<FaceContent> {
-        let fit = match self.get("fit") {
-            Some(entry) => entry.number(quantity::FIT)?,
-            None => 0.0,
-        };
         let complement = partner.mate(mates.span());
-        Ok(FaceContent {
-            fit,
-            keys: self.magnet_keys()?.over(complement.keys),
-            ..complement
+        let keys = self.magnet_keys()?.over(complement.keys);
+        Ok(match self.get("fit") {
+            Some(fit) => FaceContent {
+                fit: fit.number(quantity::FIT)?,
+                fit_span: fit.span(),
+                keys,
+                ..complement
+            },
+            None => FaceContent { keys, ..complement },
         })
     }
 
@@ -195,183 +203,6 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     })?;
     let spans = (0..code.len()).map(|k| entry.character_span(k)).collect();
     Ok(Pattern::Code(code, spans))
-}
-
-#[derive(Clone, Copy)]
-enum Shape {
-    Flat,
-    Tab,
-    Teeth,
-    Arc,
-    Points,
-    Svg,
-}
-
-const SHAPES: [(&str, Shape); 6] = [
-    ("flat", Shape::Flat),
-    ("tab", Shape::Tab),
-    ("teeth", Shape::Teeth),
-    ("arc", Shape::Arc),
-    ("points", Shape::Points),
-    ("svg", Shape::Svg),
-];
-
-/// Most teeth on a face.
-const MOST_TEETH: u32 = 200;
-
-fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
-    let section = entry.section("`profile`")?;
-    let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
-    let shape = section.require("shape", example)?.word(&SHAPES)?;
-    let profile = match shape {
-        Shape::Flat => flat(&section),
-        Shape::Tab => tab(&section),
-        Shape::Teeth => teeth(&section, length),
-        Shape::Arc => arc(&section),
-        Shape::Points => points(&section),
-        Shape::Svg => return Err(super::svg::refused(&section)),
-    }?;
-    let line = profile.polyline().map_err(|error| mend(&section, error))?;
-    within_face(&section, &line, length)?;
-    Ok(line)
-}
-
-fn flat(section: &Section) -> Result<Profile> {
-    section.allow(&["shape"])?;
-    Ok(Profile::Flat)
-}
-
-fn tab(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "width", "depth", "draft", "offset"])?;
-    Ok(Profile::Tab {
-        width: width(section)?,
-        depth: depth(section)?,
-        draft: section.number("draft", quantity::DRAFT)?.unwrap_or(0.0),
-        offset: section
-            .number("offset", quantity::ALONG_FACE)?
-            .unwrap_or(0.0),
-    })
-}
-
-fn teeth(section: &Section, length: f64) -> Result<Profile> {
-    section.allow(&["shape", "form", "count", "depth", "span"])?;
-    let forms = [
-        ("sine", Waveform::Sine),
-        ("triangle", Waveform::Triangle),
-        ("square", Waveform::Square),
-    ];
-    let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
-    let count = section.require("count", "say how many teeth: count = 4")?;
-    Ok(Profile::Teeth {
-        form: form.word(&forms)?,
-        count: count.count(MOST_TEETH)?,
-        depth: depth(section)?,
-        span: section
-            .number("span", quantity::PROFILE_WIDTH)?
-            .unwrap_or(length),
-    })
-}
-
-fn arc(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "width", "depth", "offset"])?;
-    Ok(Profile::Arc {
-        width: width(section)?,
-        depth: depth(section)?,
-        offset: section
-            .number("offset", quantity::ALONG_FACE)?
-            .unwrap_or(0.0),
-    })
-}
-
-fn points(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "points"])?;
-    let points = section.require("points", "give the line: points = [[s, h], ...] (m)")?;
-    let points = points
-        .array()?
-        .iter()
-        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, "s along the face and h outwards"))
-        .collect::<Result<_>>()?;
-    Ok(Profile::Points(points))
-}
-
-fn width(section: &Section) -> Result<f64> {
-    section
-        .require("width", "say how wide it is at its base: width = 0.20 (m)")?
-        .number(quantity::PROFILE_WIDTH)
-}
-
-fn depth(section: &Section) -> Result<f64> {
-    section
-        .require(
-            "depth",
-            "say how far it sticks out: depth = 0.02 (m; negative cuts in)",
-        )?
-        .number(quantity::PROFILE_DEPTH)
-}
-
-/// A profile that cannot be drawn, as a fault of the key that is to be changed.
-fn mend(section: &Section, error: ProfileError) -> super::DesignError {
-    match error {
-        ProfileError::SidesMeet { largest_draft } => {
-            let key = if section.get("draft").is_some() {
-                "draft"
-            } else {
-                "depth"
-            };
-            let help = format!(
-                "keep draft below {} rad, or make the tab wider or less deep",
-                quantity::four_digits(largest_draft)
-            );
-            match section.get(key) {
-                Some(entry) => entry.error(error.to_string(), help),
-                None => section.error(error.to_string(), help),
-            }
-        }
-        ProfileError::OffTheBaseLine { first, .. } => {
-            let points = section.get("points");
-            let items = points
-                .and_then(|entry| entry.array().ok())
-                .unwrap_or_default();
-            let item = if first { items.first() } else { items.last() };
-            let help = "begin and end the profile at h = 0";
-            match item {
-                Some(item) => item.error(error.to_string(), help),
-                None => section.error(error.to_string(), help),
-            }
-        }
-        ProfileError::TooFewPoints => {
-            section.error(error.to_string(), "give more points, or shape = \"flat\"")
-        }
-    }
-}
-
-/// Refuses a profile that leaves its face to the left or to the right.
-fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> {
-    let half = length / 2.0;
-    let farthest = line
-        .iter()
-        .enumerate()
-        .max_by(|(_, a), (_, b)| a[0].abs().total_cmp(&b[0].abs()));
-    let Some((index, &[s, _])) = farthest.filter(|(_, p)| p[0].abs() > half * (1.0 + 1e-12)) else {
-        return Ok(());
-    };
-    let message = format!(
-        "the profile leaves its face: it reaches s = {}, the face ends at {}",
-        quantity::four_digits(s),
-        quantity::four_digits(half.copysign(s))
-    );
-    let help = format!(
-        "the face is {} m long; make the profile narrower or move it inwards",
-        quantity::four_digits(length)
-    );
-    let point = section
-        .get("points")
-        .and_then(|entry| entry.array().ok()?.get(index).copied());
-    let culprit = point.or_else(|| ["width", "span"].iter().find_map(|key| section.get(key)));
-    Err(match culprit {
-        Some(entry) => entry.error(message, help),
-        None => section.error(message, help),
-    })
 }
 
 /// Which face a word or number means, among the names of a tile's faces.

@@ -195,27 +195,27 @@ impl ListedMagnet {
         })
     }
 
-    /// The magnet that binds it on the mating face.
-    pub fn mate(self) -> Self {
+    /// The magnet that binds it on the mating face, which `span` asks for.
+    pub fn mate(self, span: Span) -> Self {
         Self {
             at: -self.at,
             pole: self.pole.opposite(),
             keys: self.keys.mate(),
-            ..self
+            span,
         }
     }
 }
 
-/// A fault for a magnet that lacks its size or its strength.
+/// A fault for a magnet that lacks `key`.
 pub(super) fn missing_key(key: &str, error: impl Fn(String, String) -> DesignError) -> DesignError {
     let (what, example) = match key {
         "pitch" => ("spacing", "pitch = 0.040"),
         "size" => ("size", "size = [0.010, 0.010, 0.003]"),
-        _ => ("strength", "remanence = 1.2 (or moment, or surface_field)"),
+        _ => ("strength", "remanence = 1.2"),
     };
     error(
         format!("the {what} of this magnet is not given"),
-        format!("write `{example}` under [magnet], or in this face's `magnet = {{ ... }}`"),
+        format!("write `{example}` under [magnet] or in this face's `magnet = {{ ... }}`"),
     )
 }
 

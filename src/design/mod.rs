@@ -20,11 +20,14 @@
 //!   opposite (`S`).
 
 mod base;
+mod build;
 mod error;
 mod face;
 mod magnet;
 mod overlap;
+mod placement;
 mod potential;
+mod profile;
 mod quantity;
 mod reader;
 mod shield;
@@ -49,10 +52,20 @@ use reader::{Result, Section};
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
+///
+/// ```
+/// use tilebind::design::Design;
+///
+/// let design = Design::load("shapes/paper-tile.toml".as_ref())?;
+/// assert_eq!(design.bound.to_array(), [0.43, 0.0, 0.0]);
+/// assert_eq!(design.fixed.magnets.len(), 16);
+/// # Ok::<(), tilebind::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Design {
     /// The design's name; the file's where it gives none.
     pub name: String,
+    /// What the file says of it; empty where it says nothing.
     pub description: String,
     /// SHA-256 of the file's bytes, in hexadecimal.
     pub sha256: String,
@@ -138,34 +151,15 @@ impl Design {
             return Err(shield::refused(&shield));
         }
         let table = table(&root)?;
-        let magnet = root.section("magnet", "[magnet]")?;
-        let keys = match &magnet {
-            Some(magnet) => {
-                magnet.allow(&MAGNET_KEYS)?;
-                MagnetKeys::read(magnet)?
-            }
-            None => MagnetKeys::default(),
-        };
-        let sections = ["[fixed]", "[moving]"];
-        let faces = ["[fixed.faces]", "[moving.faces]"];
-        let tile_entry = |i: usize| {
-            let help = format!(
-                "describe it under [{}]: side, thickness, mass, faces",
-                TILES[i]
-            );
-            let section = root.require(TILES[i], &help)?.section(sections[i])?;
-            TileEntry::read(section, faces[i])
-        };
-        let entries = [tile_entry(0)?, tile_entry(1)?];
+        let keys = magnet_keys(&root)?;
+        let entries = tile_entries(&root)?;
         let target = target::read(&root, &entries)?;
         let model = potential::read(&root)?;
         let contents = tile::resolve(&entries, keys)?;
-        let fixed = tile::build(&entries[0], &contents[0])?;
-        let moving = tile::build(&entries[1], &contents[1])?;
-        let mut warnings = Vec::new();
-        for (entry, built) in entries.iter().zip([&fixed, &moving]) {
-            warnings.extend(overlap::check_magnets(&entry.section, built)?);
-        }
+        let fixed = build::build(&entries[0], &contents[0])?;
+        let moving = build::build(&entries[1], &contents[1])?;
+        let mut warnings = overlap::check_magnets(&entries[0], &fixed)?;
+        warnings.extend(overlap::check_magnets(&entries[1], &moving)?);
         let (fixed, moving) = (fixed.tile, moving.tile);
         let bound = target.configuration(&fixed, &moving)?;
         let design = Self {
@@ -231,6 +225,26 @@ fn table(root: &Section) -> Result<[f64; 2]> {
     section
         .require("size", TABLE_HELP)?
         .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")
+}
+
+fn magnet_keys(root: &Section) -> Result<MagnetKeys> {
+    let Some(section) = root.section("magnet", "[magnet]")? else {
+        return Ok(MagnetKeys::default());
+    };
+    section.allow(&MAGNET_KEYS)?;
+    MagnetKeys::read(&section)
+}
+
+fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
+    let entry = |i: usize, name, faces_name| {
+        let help = format!("describe it under {name}: side, thickness, mass, faces");
+        let section = root.require(TILES[i], &help)?.section(name)?;
+        TileEntry::read(TILES[i], section, faces_name)
+    };
+    Ok([
+        entry(0, "[fixed]", "[fixed.faces]")?,
+        entry(1, "[moving]", "[moving.faces]")?,
+    ])
 }
 
 fn stem(file: &str) -> String {

@@ -134,16 +134,16 @@ impl Quantity {
         let limits = if low > 0.0 {
             format!("from {low} to {high} {unit}")
         } else {
-            format!("of at most {high} {unit}")
+            format!("up to {high} {unit}")
         };
         let message = match self.proposals(value).as_slice() {
-            [] => format!("{what} = {value} {unit} is out of all proportion"),
+            [] => format!("{what} = {value} {unit} is beyond any tile"),
             proposals => format!(
                 "{what} = {value} {unit}: did you mean {}?",
                 proposals.join(" or ")
             ),
         };
-        Err((message, help(&format!("{what} is taken {limits}"))))
+        Err((message, help(&format!("{what} may be {limits}"))))
     }
 
     fn proposals(&self, value: f64) -> Vec<String> {
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn what_no_unit_explains_is_refused_without_a_guess() {
-        assert!(message(TILE_SIDE, 1e9).contains("out of all proportion"));
+        assert!(message(TILE_SIDE, 1e9).contains("beyond any tile"));
         assert!(message(TILE_SIDE, f64::NAN).contains("no number"));
         assert!(message(TILE_SIDE, 0.0).contains("above zero"));
         assert!(message(INSET, -0.001).contains("must not be negative"));

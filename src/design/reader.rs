@@ -31,10 +31,11 @@ pub(super) struct Entry<'a> {
 impl<'a> Section<'a> {
     /// The whole file.
     pub fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+        let first = table.keys().map(|key| Span::from(key.span())).min();
         Self {
             source,
             name: "the design file",
-            span: Span { start: 0, end: 0 },
+            span: first.unwrap_or((0..0).into()),
             table,
         }
     }
@@ -44,8 +45,7 @@ impl<'a> Section<'a> {
         let first_unknown = self
             .entries()
             .into_iter()
-            .filter(|entry| !known.contains(&entry.key))
-            .min_by_key(|entry| entry.key_span);
+            .find(|entry| !known.contains(&entry.key));
         match first_unknown {
             None => Ok(()),
             Some(entry) => Err(entry.key_error(
@@ -55,9 +55,10 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// All keys, in the order of their names.
+    /// All keys, in the order of the file.
     pub fn entries(&self) -> Vec<Entry<'a>> {
-        self.table
+        let mut entries: Vec<_> = self
+            .table
             .iter()
             .map(|(key, value)| Entry {
                 source: self.source,
@@ -65,7 +66,9 @@ impl<'a> Section<'a> {
                 key_span: key.span().into(),
                 value,
             })
-            .collect()
+            .collect();
+        entries.sort_by_key(|entry| entry.key_span);
+        entries
     }
 
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {

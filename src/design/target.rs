@@ -75,7 +75,7 @@ fn face_to_face(fixed: &Face, moving: &Face) -> Configuration {
     let theta = clean(cross(from, to)).atan2(clean(from.dot(&to)));
     let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
     let position: Vector2<f64> = fixed.middle() - turned;
-    Configuration::new(position.x, position.y, theta)
+    Configuration::new(clean(position.x), clean(position.y), theta)
 }
 
 /// Zero for what is zero but for rounding, so that squares meet at exact right angles; never -0.

@@ -1,7 +1,9 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
 pub mod capture;
+pub mod certificate;
 pub mod inventory;
+pub mod map;
 pub mod meeting;
 pub mod minimum;
 pub mod network;

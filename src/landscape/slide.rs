@@ -52,29 +52,61 @@ pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Con
         .map_or_else(Vec::new, |contact| contact.constraints(q, margin))
 }
 
-/// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
-/// it presses on: `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of least
-/// constraint). `None` in equilibrium.
-pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
+/// The force at a point, `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of
+/// least constraint), with the contacts and their multipliers.
+struct Projected {
+    free: Vector3<f64>,
+    held: Vector3<f64>,
+    touching: Vec<Constraint>,
+    multipliers: Vec<f64>,
+    metric: Matrix3<f64>,
+}
+
+fn project(problem: &Problem, point: &Point) -> Option<Projected> {
     let metric = problem.mass_metric(point.q.theta);
     let free = -(metric.try_inverse()? * point.gradient);
-    let strength = length(&free, &metric);
     let mut touching = constraints(problem, &point.q, MARGIN);
     for constraint in &mut touching {
         constraint.gap = 0.0;
     }
-    let (along, multipliers) = closest_admissible(free, &metric, &touching)?;
-    let size = length(&along, &metric);
-    if !(size > EQUILIBRIUM * strength && size.is_finite()) {
+    let (held, multipliers) = closest_admissible(free, &metric, &touching)?;
+    Some(Projected {
+        free,
+        held,
+        touching,
+        multipliers,
+        metric,
+    })
+}
+
+/// The fraction of the force at a point that contact does not hold: 0 in equilibrium on contact, 1
+/// without contact.
+pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
+    project(problem, point).map_or(0.0, |p| {
+        if p.multipliers.iter().all(|m| *m == 0.0) {
+            // Without contact a vanishing force is an equilibrium, however small its scale.
+            return 0.0;
+        }
+        length(&p.held, &p.metric) / length(&p.free, &p.metric).max(f64::MIN_POSITIVE)
+    })
+}
+
+/// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
+/// it presses on. `None` in equilibrium.
+pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
+    let p = project(problem, point)?;
+    let size = length(&p.held, &p.metric);
+    if !(size > EQUILIBRIUM * length(&p.free, &p.metric) && size.is_finite()) {
         return None;
     }
-    let pressed = touching
+    let pressed = p
+        .touching
         .iter()
-        .zip(multipliers)
-        .filter(|(_, multiplier)| *multiplier > 0.0)
+        .zip(&p.multipliers)
+        .filter(|(_, multiplier)| **multiplier > 0.0)
         .map(|(constraint, _)| constraint.touch)
         .collect();
-    Some((along / size, pressed))
+    Some((p.held / size, pressed))
 }
 
 /// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step

@@ -23,6 +23,8 @@ const CONVERGED: f64 = 1e-10;
 /// Contacts with a gap below this (m) are closed.
 const CLOSED: f64 = 1e-8;
 const MOST_STEPS: usize = 80;
+/// At rest, at most this fraction of the force is not held by contact.
+const UNBALANCED: f64 = 1e-5;
 
 /// A stationary point with its spectrum.
 #[derive(Clone, Debug)]
@@ -62,7 +64,7 @@ impl Stationary {
 
 /// The minimum near `q`, if Newton's method finds one.
 pub fn minimum(problem: &Problem, q: &Configuration) -> Option<Stationary> {
-    search(problem, q, None).filter(|found| found.index() == 0)
+    search(problem, q, None).filter(|found| found.index() == 0 && is_at_rest(problem, &found.point))
 }
 
 /// The transition state near `q`: uphill along the mode that resembles `along` most, downhill in
@@ -72,7 +74,14 @@ pub fn transition_state(
     q: &Configuration,
     along: &Vector3<f64>,
 ) -> Option<Stationary> {
-    search(problem, q, Some(*along)).filter(|found| found.index() == 1)
+    search(problem, q, Some(*along))
+        .filter(|found| found.index() == 1 && is_at_rest(problem, &found.point))
+}
+
+/// Whether contact, as it really is at a point, holds the force there. Newton's method may have
+/// kept a contact closed from which the tile can slip off round a corner.
+fn is_at_rest(problem: &Problem, point: &Point) -> bool {
+    slide::unbalanced(problem, point) <= UNBALANCED
 }
 
 fn search(

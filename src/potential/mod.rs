@@ -1,6 +1,7 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
 pub mod batch;
+pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
 
@@ -8,6 +9,7 @@ use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
+pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
 
 /// A potential energy over configurations.

@@ -16,7 +16,9 @@ use std::fmt;
 /// The pole of a magnet that points outwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pole {
+    /// The moment along the outward normal.
     North,
+    /// The moment against it.
     South,
 }
 
@@ -49,6 +51,7 @@ pub struct Barcode(Vec<Option<Pole>>);
 pub struct BarcodeError {
     /// Which character, counted from 0.
     pub index: usize,
+    /// What stands there.
     pub character: char,
 }
 
@@ -74,6 +77,7 @@ impl Barcode {
         self.0.len()
     }
 
+    /// Whether the code has no places at all.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -2,6 +2,7 @@
 
 pub mod assembly;
 pub mod barcode;
+pub mod edge_grid;
 pub mod magnet;
 pub mod outline;
 pub mod profile;
@@ -55,8 +56,11 @@ impl Face {
 /// A tile: a rigid, flat body with magnets.
 #[derive(Clone, Debug)]
 pub struct Tile {
+    /// Its rim, profiles included.
     pub outline: Outline,
+    /// Its faces, counter-clockwise.
     pub faces: Vec<Face>,
+    /// Its magnets, face by face.
     pub magnets: Vec<Magnet>,
     /// Mass (kg).
     pub mass: f64,

@@ -76,4 +76,9 @@ impl<L: Arithmetic, const N: usize, const M: usize> Arithmetic for Bundle<L, N, 
     fn reciprocal_sqrt_estimate(self, a: Self::F) -> Self::F {
         each!(self.reciprocal_sqrt_estimate(a))
     }
+
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: Self::F) -> Self::F {
+        each!(self.reciprocal_estimate(a))
+    }
 }

@@ -3,20 +3,27 @@
 //!
 //! One configuration has its moving dipoles in the lanes, many configurations have one
 //! configuration in each lane; either way each configuration's numbers come out of the same
-//! operations in the same order. So all functions agree with one another bit for bit, whatever
-//! else is in a batch and wherever in it a configuration stands. Different instruction sets sum in
-//! different orders, and differ by some 1e-13 of the sum of the pairs' magnitudes, as do they all
-//! from the scalar formula of [`super::dipole`].
+//! operations in the same order. So energies and gradients are the same bits whichever function
+//! gives them, whatever else is in a batch and wherever in it a configuration stands. They are not
+//! the same on all machines: instruction sets sum in different orders, and makes of CPU have
+//! different estimates of `1 / sqrt`. All differ by at most some 1e-13 of the sum of the pairs'
+//! magnitudes from one another and from the scalar formula of [`super::dipole`].
 //!
 //! Edges: where dipoles coincide (or are within 1e-19 m) the energy is plus infinity and the
-//! gradient zero.
+//! gradient zero. Poses beyond 1e18 m are not supported.
 
 mod bundle;
 mod curvature;
 mod field;
+<<<<<<< HEAD
 pub(crate) mod lanes;
+=======
+pub mod lanes;
+>>>>>>> main
 mod level;
+mod operations;
 mod portable;
+#[cfg(target_arch = "x86_64")]
 mod sin_cos;
 mod tasks;
 #[cfg(target_arch = "x86_64")]
@@ -25,6 +32,7 @@ mod x86;
 use nalgebra::Vector3;
 
 pub use level::Level;
+pub use operations::Operations;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
@@ -150,12 +158,15 @@ impl Potential for DipolePotential {
     }
 }
 
-/// Infinity, and no gradient, in place of what is not a finite energy.
+/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
 fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
-    if energy.is_finite() {
+    if !energy.is_finite() {
+        return (f64::INFINITY, Vector3::zeros());
+    }
+    if gradient.iter().all(|slope| slope.is_finite()) {
         (energy, gradient)
     } else {
-        (f64::INFINITY, Vector3::zeros())
+        (energy, Vector3::zeros())
     }
 }
 

@@ -56,6 +56,11 @@ impl Arithmetic for Portable {
     fn reciprocal_sqrt_estimate(self, a: [f64; 4]) -> [f64; 4] {
         a.map(|a| 1.0 / a.sqrt())
     }
+
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: [f64; 4]) -> [f64; 4] {
+        a.map(|a| 1.0 / a)
+    }
 }
 
 impl Lanes for Portable {

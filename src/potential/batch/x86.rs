@@ -101,6 +101,12 @@ impl Arithmetic for Avx2 {
     fn reciprocal_sqrt_estimate(self, a: __m256d) -> __m256d {
         with!(self: _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(a))))
     }
+
+    /// In single precision, with a relative error of at most 1.5 / 2^12.
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: __m256d) -> __m256d {
+        with!(self: _mm256_cvtps_pd(_mm_rcp_ps(_mm256_cvtpd_ps(a))))
+    }
 }
 
 impl Lanes for Avx2 {
@@ -225,6 +231,12 @@ impl Arithmetic for Avx512 {
     #[inline(always)]
     fn reciprocal_sqrt_estimate(self, a: __m512d) -> __m512d {
         with!(self: _mm512_rsqrt14_pd(a))
+    }
+
+    /// With a relative error of at most 1 / 2^14.
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_rcp14_pd(a))
     }
 }
 

@@ -1,0 +1,196 @@
+//! The key `profile` of a face: which line its outline follows.
+
+use super::DesignError;
+use super::quantity;
+use super::reader::{Entry, Result, Section};
+use crate::tile::profile::{Polyline, Profile, ProfileError, Waveform};
+
+#[derive(Clone, Copy)]
+enum Shape {
+    Flat,
+    Tab,
+    Teeth,
+    Arc,
+    Points,
+    Svg,
+}
+
+const SHAPES: [(&str, Shape); 6] = [
+    ("flat", Shape::Flat),
+    ("tab", Shape::Tab),
+    ("teeth", Shape::Teeth),
+    ("arc", Shape::Arc),
+    ("points", Shape::Points),
+    ("svg", Shape::Svg),
+];
+
+/// Most points of a face's line, curves drawn as chords: contact with more takes too long.
+const MOST_POINTS: usize = 4000;
+
+/// Most teeth on a face.
+const MOST_TEETH: u32 = 200;
+
+/// The line of a face of the given length (m), as its `profile` draws it.
+pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
+    let section = entry.section("`profile`")?;
+    let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
+    let shape = section.require("shape", example)?.word(&SHAPES)?;
+    let profile = match shape {
+        Shape::Flat => flat(&section),
+        Shape::Tab => tab(&section),
+        Shape::Teeth => teeth(&section, length),
+        Shape::Arc => arc(&section),
+        Shape::Points => points(&section),
+        Shape::Svg => return Err(super::svg::refused(&section)),
+    }?;
+    let line = profile.polyline().map_err(|error| mend(&section, error))?;
+    within_face(&section, &line, length)?;
+    if line.len() > MOST_POINTS {
+        return Err(section.error(
+            format!(
+                "the profile's line has {} points, more than {MOST_POINTS}",
+                line.len()
+            ),
+            "give it fewer or shallower teeth, or fewer points",
+        ));
+    }
+    Ok(line)
+}
+
+fn flat(section: &Section) -> Result<Profile> {
+    section.allow(&["shape"])?;
+    Ok(Profile::Flat)
+}
+
+fn tab(section: &Section) -> Result<Profile> {
+    section.allow(&["shape", "width", "depth", "draft", "offset"])?;
+    Ok(Profile::Tab {
+        width: width(section)?,
+        depth: depth(section)?,
+        draft: section.number("draft", quantity::DRAFT)?.unwrap_or(0.0),
+        offset: section
+            .number("offset", quantity::ALONG_FACE)?
+            .unwrap_or(0.0),
+    })
+}
+
+fn teeth(section: &Section, length: f64) -> Result<Profile> {
+    section.allow(&["shape", "form", "count", "depth", "span"])?;
+    let forms = [
+        ("sine", Waveform::Sine),
+        ("triangle", Waveform::Triangle),
+        ("square", Waveform::Square),
+    ];
+    let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
+    let count = section.require("count", "say how many teeth: count = 4")?;
+    Ok(Profile::Teeth {
+        form: form.word(&forms)?,
+        count: count.count(MOST_TEETH)?,
+        depth: depth(section)?,
+        span: section
+            .number("span", quantity::PROFILE_WIDTH)?
+            .unwrap_or(length),
+    })
+}
+
+fn arc(section: &Section) -> Result<Profile> {
+    section.allow(&["shape", "width", "depth", "offset"])?;
+    Ok(Profile::Arc {
+        width: width(section)?,
+        depth: depth(section)?,
+        offset: section
+            .number("offset", quantity::ALONG_FACE)?
+            .unwrap_or(0.0),
+    })
+}
+
+fn points(section: &Section) -> Result<Profile> {
+    section.allow(&["shape", "points"])?;
+    let points = section.require("points", "give the line: points = [[s, h], ...] (m)")?;
+    let points = points
+        .array()?
+        .iter()
+        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, "s along the face and h outwards"))
+        .collect::<Result<_>>()?;
+    Ok(Profile::Points(points))
+}
+
+fn width(section: &Section) -> Result<f64> {
+    section
+        .require("width", "say how wide it is at its base: width = 0.20 (m)")?
+        .number(quantity::PROFILE_WIDTH)
+}
+
+fn depth(section: &Section) -> Result<f64> {
+    section
+        .require(
+            "depth",
+            "say how far it sticks out: depth = 0.02 (m; negative cuts in)",
+        )?
+        .number(quantity::PROFILE_DEPTH)
+}
+
+/// A profile that cannot be drawn, as a fault of the key that is to be changed.
+fn mend(section: &Section, error: ProfileError) -> DesignError {
+    match error {
+        ProfileError::SidesMeet { largest_draft } => {
+            let key = if section.get("draft").is_some() {
+                "draft"
+            } else {
+                "depth"
+            };
+            let help = format!(
+                "keep draft below {} rad, or make the tab wider or less deep",
+                quantity::four_digits(largest_draft)
+            );
+            match section.get(key) {
+                Some(entry) => entry.error(error.to_string(), help),
+                None => section.error(error.to_string(), help),
+            }
+        }
+        ProfileError::OffTheBaseLine { first, .. } => {
+            let points = section.get("points");
+            let items = points
+                .and_then(|entry| entry.array().ok())
+                .unwrap_or_default();
+            let item = if first { items.first() } else { items.last() };
+            let help = "begin and end the profile at h = 0";
+            match item {
+                Some(item) => item.error(error.to_string(), help),
+                None => section.error(error.to_string(), help),
+            }
+        }
+        ProfileError::TooFewPoints => {
+            section.error(error.to_string(), "give more points, or shape = \"flat\"")
+        }
+    }
+}
+
+/// Refuses a profile that leaves its face to the left or to the right.
+fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> {
+    let half = length / 2.0;
+    let farthest = line
+        .iter()
+        .enumerate()
+        .max_by(|(_, a), (_, b)| a[0].abs().total_cmp(&b[0].abs()));
+    let Some((index, &[s, _])) = farthest.filter(|(_, p)| p[0].abs() > half * (1.0 + 1e-12)) else {
+        return Ok(());
+    };
+    let message = format!(
+        "the profile leaves its face: it reaches s = {}, the face ends at {}",
+        quantity::four_digits(s),
+        quantity::four_digits(half.copysign(s))
+    );
+    let help = format!(
+        "the face is {} m long; make the profile narrower or move it inwards",
+        quantity::four_digits(length)
+    );
+    let point = section
+        .get("points")
+        .and_then(|entry| entry.array().ok()?.get(index).copied());
+    let culprit = point.or_else(|| ["width", "span"].iter().find_map(|key| section.get(key)));
+    Err(match culprit {
+        Some(entry) => entry.error(message, help),
+        None => section.error(message, help),
+    })
+}

@@ -1,0 +1,101 @@
+//! The pictures of an analysis, each as SVG and as PNG.
+//!
+//! - `map`: lowest energy over theta at each (x, y), with states and pathways on it;
+//! - `approach`: energy in front of the target face, gap and slide against tilt;
+//! - `profiles`: energy along the main pathways with their barriers;
+//! - `docking`: film strip of the way into the bound state;
+//! - `disconnectivity`: which states merge at which energy.
+//!
+//! Charts are laid out by plotters. Its SVG backend writes the vector form; pixels are drawn from
+//! the same calls by tiny-skia, with a font that is part of the program, so that neither form
+//! depends on what is installed.
+
+mod approach;
+mod canvas;
+mod disconnectivity;
+mod energy_map;
+mod film;
+mod heat;
+mod marks;
+mod picture;
+mod profiles;
+mod raster;
+mod scale;
+mod scene;
+mod style;
+
+use rayon::prelude::*;
+
+pub use picture::{Picture, PictureError};
+pub use scene::Scene;
+
+use crate::landscape::map::{Approach, ApproachSlices, EnergyMap, MapSettings, SliceSettings};
+use scale::EnergyScale;
+
+/// A picture and the stem of the files that hold it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPicture {
+    pub name: &'static str,
+    pub picture: Picture,
+}
+
+/// All pictures of an analysis; those that nothing is known for are left out.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
+    let map = EnergyMap::new(&scene.pair, &map_settings(scene));
+    let approach = Approach::new(
+        scene.pair.fixed,
+        scene.pair.moving,
+        scene.target,
+        scene.bound,
+    );
+    let slices = ApproachSlices::new(&scene.pair, &approach, &slice_settings(scene));
+    let grids = [&map.lowest, &slices.gap, &slices.slide];
+    let sampled = grids
+        .iter()
+        .flat_map(|grid| grid.values.iter().flatten())
+        .map(|sample| sample.energy);
+    let scale = EnergyScale::holding(scene.states.iter().map(|state| state.energy).chain(sampled));
+
+    type Drawing<'a> = &'a (dyn Fn() -> Result<Option<Picture>, PictureError> + Sync);
+    let drawings: [(&str, Drawing); 5] = [
+        ("map", &|| energy_map::draw(scene, &map, &scale).map(Some)),
+        ("approach", &|| {
+            approach::draw(scene, &approach, &slices, &scale).map(Some)
+        }),
+        ("profiles", &|| profiles::draw(scene, &scale)),
+        ("docking", &|| film::draw(scene, &scale)),
+        ("disconnectivity", &|| disconnectivity::draw(scene, &scale)),
+    ];
+    let pictures: Vec<_> = drawings
+        .par_iter()
+        .map(|(name, drawing)| Ok((*name, drawing()?)))
+        .collect::<Result<_, PictureError>>()?;
+    Ok(pictures
+        .into_iter()
+        .filter_map(|(name, picture)| picture.map(|picture| NamedPicture { name, picture }))
+        .collect())
+}
+
+/// The map reaches a fifth of the tiles' size beyond where they can touch, or to the table's edge.
+fn map_settings(scene: &Scene) -> MapSettings {
+    let reach =
+        1.2 * (scene.pair.fixed.outline.circumradius() + scene.pair.moving.outline.circumradius());
+    MapSettings {
+        half_size: scene.space.half_size.map(|half| half.min(reach)),
+        samples: 160,
+        orientations: 48,
+    }
+}
+
+fn slice_settings(scene: &Scene) -> SliceSettings {
+    let length = scene.pair.fixed.faces[scene.target.0].length();
+    SliceSettings {
+        tilt: std::f64::consts::FRAC_PI_4,
+        gap: 0.2 * length,
+        slide: 0.5 * length,
+        samples: 121,
+    }
+}

@@ -1,0 +1,106 @@
+//! Energies as positions and colours.
+
+use crate::units::si;
+
+/// The diverging colour map "vik", attraction blue and repulsion brown, pale at zero: perceptually
+/// uniform and safe for colour-blind readers. Every sixteenth of its colours; straight lines
+/// between them stay within 7/255 of the original.
+///
+/// Source: Crameri, *Scientific colour maps* 8 (2023), doi:10.5281/zenodo.1243862 (MIT licence).
+const VIK: [[u8; 3]; 17] = [
+    [0, 18, 97],
+    [2, 43, 113],
+    [3, 68, 129],
+    [12, 94, 146],
+    [47, 124, 166],
+    [96, 157, 188],
+    [146, 189, 210],
+    [197, 219, 229],
+    [236, 229, 225],
+    [233, 203, 185],
+    [220, 171, 143],
+    [207, 142, 104],
+    [195, 114, 67],
+    [179, 83, 31],
+    [147, 46, 6],
+    [116, 21, 6],
+    [89, 0, 8],
+];
+
+/// Colours of the hatching of what is blocked.
+pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
+/// Steps of colour in a heat map.
+pub const COLOURS: usize = 250;
+
+/// Colour of a position from -1 (most negative) over 0 to 1.
+pub fn colour(position: f64) -> [u8; 3] {
+    let last = VIK.len() - 1;
+    let at = (position.clamp(-1.0, 1.0) + 1.0) / 2.0 * last as f64;
+    let below = (at.floor() as usize).min(last - 1);
+    let t = at - below as f64;
+    std::array::from_fn(|c| {
+        let (a, b) = (f64::from(VIK[below][c]), f64::from(VIK[below + 1][c]));
+        (a + (b - a) * t).round() as u8
+    })
+}
+
+/// A symmetric scale of energies, linear about zero and logarithmic beyond: the position of U is
+/// `asinh(U / U0) / asinh(Umax / U0)`, in [-1, 1], with `U0 = Umax / 10 000`.
+///
+/// Energies of a pair of tiles span four decades and both signs; zero stays in the middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyScale {
+    most: f64,
+}
+
+impl EnergyScale {
+    /// Decades between the linear part and the largest energy.
+    const DECADES: i32 = 4;
+
+    /// A scale that holds `energies` (J); infinite ones are left out.
+    pub fn holding(energies: impl IntoIterator<Item = f64>) -> Self {
+        let most = energies
+            .into_iter()
+            .map(f64::abs)
+            .filter(|u| u.is_finite())
+            .fold(0.0, f64::max);
+        Self {
+            most: if most > 0.0 { most } else { 1.0 },
+        }
+    }
+
+    fn linear(&self) -> f64 {
+        self.most / 10f64.powi(Self::DECADES)
+    }
+
+    pub fn position(&self, energy: f64) -> f64 {
+        let full = (self.most / self.linear()).asinh();
+        ((energy / self.linear()).asinh() / full).clamp(-1.0, 1.0)
+    }
+
+    /// Zero and the powers of ten beyond the linear part, between two positions.
+    pub fn ticks(&self, low: f64, high: f64) -> Vec<f64> {
+        let top = self.most.log10().floor() as i32;
+        let powers = (top - Self::DECADES + 1..=top).map(|k| 10f64.powi(k));
+        let mut ticks: Vec<f64> = powers.flat_map(|u| [-u, u]).chain([0.0]).collect();
+        ticks.retain(|&u| {
+            let position = self.position(u);
+            position >= low - 1e-9 && position <= high + 1e-9
+        });
+        ticks.sort_by(f64::total_cmp);
+        ticks
+    }
+
+    /// An energy with its unit, as 0 where it is lost on this scale.
+    pub fn label(&self, energy: f64, digits: usize) -> String {
+        if energy.abs() < 1e-3 * self.linear() {
+            return "0 J".into();
+        }
+        minus(&si(energy, "J", digits))
+    }
+}
+
+/// A number's text with a true minus sign.
+pub fn minus(text: &str) -> String {
+    text.replace('-', "\u{2212}")
+}

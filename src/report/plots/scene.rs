@@ -1,0 +1,151 @@
+//! What the pictures are drawn from, and which of it they show.
+
+use std::collections::BTreeMap;
+
+use super::marks::Mark;
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::landscape::map::Pair;
+use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
+
+/// An analysed pair of tiles.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// Name of the design.
+    pub name: &'a str,
+    pub pair: Pair<'a>,
+    pub space: &'a ConfigurationSpace,
+    /// The configuration in which the two target faces coincide.
+    pub bound: Configuration,
+    /// The target faces of the fixed and of the moving tile.
+    pub target: (usize, usize),
+    pub states: &'a [State],
+    pub barriers: &'a [Barrier],
+}
+
+/// States that a symmetry maps onto each other, seen through one of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Class<'a> {
+    /// The copy nearest to the bound configuration.
+    pub state: &'a State,
+    pub copies: usize,
+}
+
+impl<'a> Scene<'a> {
+    pub fn state(&self, id: usize) -> Option<&'a State> {
+        self.states.iter().find(|state| state.id == id)
+    }
+
+    /// The classes of states, the lowest first.
+    pub fn classes(&self) -> Vec<Class<'a>> {
+        let mut classes: BTreeMap<usize, Class> = BTreeMap::new();
+        for state in self.states {
+            let entry = classes
+                .entry(state.class)
+                .or_insert(Class { state, copies: 0 });
+            entry.copies += 1;
+            if self.from_bound(state) < self.from_bound(entry.state) - 1e-9 {
+                entry.state = state;
+            }
+        }
+        let mut classes: Vec<_> = classes.into_values().collect();
+        classes.sort_by(|a, b| a.state.energy.total_cmp(&b.state.energy));
+        classes
+    }
+
+    /// Distance of a state from the bound configuration (m).
+    fn from_bound(&self, state: &State) -> f64 {
+        self.space.distance(&state.configuration, &self.bound)
+    }
+
+    /// Class of a place; `None` for `Free`.
+    pub fn class_of(&self, place: Place) -> Option<usize> {
+        match place {
+            Place::State(id) => self.state(id).map(|state| state.class),
+            Place::Free => None,
+        }
+    }
+
+    /// The way out of each class over its lowest barrier, the deepest class first; only those with
+    /// a pathway. Among equals the pathway of the copy nearest to the bound configuration.
+    pub fn escapes(&self) -> Vec<&'a Barrier> {
+        let mut escapes: Vec<&Barrier> = Vec::new();
+        for class in self.classes() {
+            let distance = |barrier: &Barrier| match barrier.from {
+                Place::State(id) => self.state(id).map_or(f64::INFINITY, |s| self.from_bound(s)),
+                Place::Free => f64::INFINITY,
+            };
+            let way_out = self
+                .barriers
+                .iter()
+                .filter(|barrier| barrier.pathway.len() > 1)
+                .filter(|barrier| self.class_of(barrier.from) == Some(class.state.class))
+                .filter(|barrier| self.class_of(barrier.to) != Some(class.state.class))
+                .min_by(|a, b| {
+                    let close = 1e-9 * (a.saddle_energy.abs() + b.saddle_energy.abs());
+                    let by_distance = distance(a).total_cmp(&distance(b));
+                    if (a.saddle_energy - b.saddle_energy).abs() <= close {
+                        by_distance
+                    } else {
+                        a.saddle_energy.total_cmp(&b.saddle_energy)
+                    }
+                });
+            escapes.extend(way_out);
+        }
+        escapes
+    }
+
+    /// The way from far away into the bound state nearest to the bound configuration.
+    pub fn docking(&self) -> Option<Pathway> {
+        let bound = |place: Place| match place {
+            Place::State(id) => self
+                .state(id)
+                .filter(|state| state.kind == StateKind::Bound),
+            Place::Free => None,
+        };
+        let ways = self.barriers.iter().filter_map(|barrier| {
+            if barrier.pathway.len() < 2 {
+                return None;
+            }
+            match (barrier.from, barrier.to) {
+                (Place::Free, to) => Some((bound(to)?, barrier.pathway.clone())),
+                (from, Place::Free) => Some((bound(from)?, reversed(&barrier.pathway))),
+                _ => None,
+            }
+        });
+        ways.min_by(|(a, _), (b, _)| self.from_bound(a).total_cmp(&self.from_bound(b)))
+            .map(|(_, pathway)| pathway)
+    }
+
+    /// The marker of a place.
+    pub fn mark_of(&self, place: Place) -> Mark {
+        match place {
+            Place::Free => Mark::Free,
+            Place::State(id) => self
+                .state(id)
+                .map_or(Mark::Misbound, |state| state.kind.into()),
+        }
+    }
+
+    /// What a place is called on a picture.
+    pub fn name_of(&self, place: Place) -> String {
+        match place {
+            Place::Free => "free".into(),
+            Place::State(id) => match self.state(id).map(|state| state.kind) {
+                Some(StateKind::Bound) => format!("bound {id}"),
+                _ => format!("misbound {id}"),
+            },
+        }
+    }
+}
+
+/// A pathway walked the other way, its length counted from the new start.
+fn reversed(pathway: &Pathway) -> Pathway {
+    let length = pathway.last().map_or(0.0, |point| point.s);
+    let turned = pathway.iter().rev();
+    turned
+        .map(|point| PathwayPoint {
+            s: length - point.s,
+            ..*point
+        })
+        .collect()
+}
