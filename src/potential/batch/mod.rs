@@ -15,11 +15,7 @@
 mod bundle;
 mod curvature;
 mod field;
-<<<<<<< HEAD
 pub(crate) mod lanes;
-=======
-pub mod lanes;
->>>>>>> main
 mod level;
 mod operations;
 mod portable;

@@ -55,6 +55,11 @@ impl Block {
         }
     }
 
+    /// Half the diagonal in the plane (m).
+    pub fn radius(&self) -> f64 {
+        self.size[0].hypot(self.size[1]) / 2.0
+    }
+
     /// The unit vector across the axis, a quarter turn counter-clockwise from it: the direction
     /// of the pole faces.
     fn across(&self) -> Vector2<f64> {
@@ -151,7 +156,7 @@ impl BlockPair {
     #[inline(always)]
     pub fn faces(&self, number: usize) -> Faces {
         let sign1 = if number < 2 { 1.0 } else { -1.0 };
-        let sign2 = if number % 2 == 0 { 1.0 } else { -1.0 };
+        let sign2 = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
         let offset = self.second_axis * (sign2 * self.half_lengths[1]);
         let from = self.way - self.axis * (sign1 * self.half_lengths[0]);
         let middle = from + offset;

@@ -5,6 +5,7 @@ pub mod block;
 mod cloud;
 mod elementary;
 mod far;
+pub mod limits;
 mod multipole;
 mod panel;
 mod quadrature;
@@ -20,6 +21,7 @@ use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};
 use far::Group;
+use limits::Limits;
 use multipole::{Multipole, TERMS};
 use sum::Sum;
 
@@ -31,8 +33,8 @@ const HAND_OVER: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct CuboidPotential {
     level: Level,
-    fixed: Vec<Block>,
-    moving: Vec<Block>,
+    fixed: Vec<SizedBlock>,
+    moving: Vec<SizedBlock>,
     fixed_groups: Vec<Group>,
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
@@ -40,10 +42,19 @@ pub struct CuboidPotential {
     lever: f64,
 }
 
+/// A block and the number of its size.
+#[derive(Clone, Copy, Debug)]
+struct SizedBlock {
+    block: Block,
+    size: usize,
+}
+
 /// The far form of blocks of two sizes.
 #[derive(Clone, Debug)]
 struct Far {
     series: Multipole,
+    /// Bounds for moments of 1 A m^2.
+    limits: Limits,
     /// The squared distances (m^2) from which on 0, 1, 2 .. terms are enough.
     squares: [f64; TERMS + 1],
 }
@@ -57,6 +68,7 @@ impl Far {
         };
         Self {
             squares: std::array::from_fn(square),
+            limits: Limits::new(&Block::new(1.0, first), &Block::new(1.0, second)),
             series,
         }
     }
@@ -65,39 +77,44 @@ impl Far {
     fn near(&self) -> f64 {
         self.squares[TERMS]
     }
-
-    /// How many terms are enough at a squared distance.
-    fn terms(&self, square: f64) -> usize {
-        let mut terms = TERMS;
-        while terms > 1 && square >= self.squares[terms - 1] {
-            terms -= 1;
-        }
-        terms
-    }
 }
 
-/// Blocks sorted by size and by axis (up to its sign), and the sizes.
-fn groups(blocks: &[Block]) -> (Vec<Group>, Vec<[f64; 3]>) {
+/// Blocks with the numbers of their sizes, and the sizes.
+fn by_size(magnets: &[Magnet]) -> (Vec<SizedBlock>, Vec<[f64; 3]>) {
     let mut sizes: Vec<[f64; 3]> = Vec::new();
+    let mut number = |size: [f64; 3]| {
+        let known = sizes.iter().position(|other| *other == size);
+        known.unwrap_or_else(|| {
+            sizes.push(size);
+            sizes.len() - 1
+        })
+    };
+    let blocks = magnets
+        .iter()
+        .map(|magnet| SizedBlock {
+            block: Block::from(magnet),
+            size: number(magnet.size),
+        })
+        .collect();
+    (blocks, sizes)
+}
+
+/// Blocks sorted by size and by axis (up to its sign).
+fn groups(blocks: &[SizedBlock]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for (member, block) in blocks.iter().enumerate() {
-        let known = sizes.iter().position(|size| *size == block.size);
-        let size = known.unwrap_or(sizes.len());
-        if known.is_none() {
-            sizes.push(block.size);
-        }
+    for (member, SizedBlock { block, size }) in blocks.iter().enumerate() {
         let axis = Complex::new(block.axis.x, block.axis.y);
         let same = |group: &Group| {
-            group.size == size && (axis * group.axis.conj()).im.abs() < SAME_DIRECTION
+            group.size == *size && (axis * group.axis.conj()).im.abs() < SAME_DIRECTION
         };
         let number = groups.iter().position(same).unwrap_or(groups.len());
         if number == groups.len() {
-            groups.push(Group::new(size, block.axis));
+            groups.push(Group::new(*size, block.axis));
         }
         let along = (axis * groups[number].axis.conj()).re.signum();
         groups[number].push(member, block.position, along * block.moment);
     }
-    (groups, sizes)
+    groups
 }
 
 /// Axes that differ by less (rad) are taken for the same in the far form.
@@ -116,10 +133,8 @@ impl CuboidPotential {
             .flat_map(|magnet| magnet.corners())
             .map(|corner| corner.norm())
             .fold(0.0, f64::max);
-        let blocks = |magnets: &[Magnet]| magnets.iter().map(Block::from).collect::<Vec<_>>();
-        let (fixed, moving) = (blocks(fixed), blocks(moving));
-        let (mut fixed_groups, fixed_sizes) = groups(&fixed);
-        let (moving_groups, moving_sizes) = groups(&moving);
+        let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
+        let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
         for group in &mut fixed_groups {
             group.fill(level.width());
         }
@@ -153,8 +168,38 @@ impl Potential for CuboidPotential {
         self.level.run(Sum::<true> { potential: self, q })
     }
 
-    fn curvature_bound(&self, _q: &Configuration, _reach: f64) -> f64 {
-        f64::INFINITY
+    /// See [`limits`] for the bounds and their proofs. Where pole faces may come as close as a
+    /// sixteenth of the reach the second derivative has no bound, for it grows like the logarithm
+    /// of their distance; the bound there is that at a sixteenth of the reach, which holds for the
+    /// average over a motion of that reach.
+    fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let (sin, cos) = q.theta.sin_cos();
+        let turn = if self.lever > 0.0 {
+            1.0 / self.lever
+        } else {
+            0.0
+        };
+        let mut bound = 0.0;
+        for second in &self.moving {
+            let moved = second.block.moved(cos, sin, q.position());
+            for first in &self.fixed {
+                let limits = &self.far[first.size][second.size].limits;
+                let r = (moved.position - first.block.position).norm();
+                let radii = first.block.radius() + moved.radius();
+                let distance = r - radii - reach;
+                let apart = limits.curvature(turn, distance);
+                let strength = (first.block.moment * moved.moment).abs();
+                bound += strength
+                    * if distance > 2.0 * radii {
+                        apart
+                    } else {
+                        let distances = limits::face_distances(&first.block, &moved)
+                            .map(|d| (d - reach).max(reach / 16.0));
+                        apart.min(limits.curvature_of_faces(turn, distances))
+                    };
+            }
+        }
+        bound
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

@@ -1,6 +1,6 @@
 //! The sum over all pairs of blocks at one configuration.
 
-use nalgebra::{Complex, Vector2, Vector3};
+use nalgebra::{Complex, Vector3};
 
 use super::CuboidPotential;
 use super::block::BlockPair;
@@ -65,8 +65,9 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
         if !total.near.is_empty() {
             let mut panels = Panels::default();
             for &(first, second) in &total.near {
-                let first = &self.potential.fixed[first];
-                let second = self.potential.moving[second].moved(cos, sin, self.q.position());
+                let first = &self.potential.fixed[first].block;
+                let second = &self.potential.moving[second].block;
+                let second = second.moved(cos, sin, self.q.position());
                 let pair = BlockPair::new(first, &second, self.q.position());
                 panels.append::<L, SLOPE>(l, &pair);
             }
