@@ -21,46 +21,6 @@ const ROUNDS: usize = 40;
 const CONFIGURATIONS: usize = 512;
 
 fn main() {
-    if std::env::var("MICRO").is_ok() {
-        for level in Level::available() {
-            let one = &magnets("N")[..1];
-            let mut other = magnets("S");
-            let far = other[0].clone();
-            other = vec![other[2].clone()];
-            other[0].position.y = one[0].position.y;
-            for n in [1, 16] {
-                let moving: Vec<Magnet> = std::iter::repeat_n(other[0].clone(), n).collect();
-                let cuboid = CuboidPotential::with_level(one, &moving, level);
-                for gap in std::env::var("MICRO")
-                    .unwrap()
-                    .split(",")
-                    .map(|x| x.parse::<f64>().unwrap())
-                {
-                    let q = Configuration::new(0.43 + gap, 0.0, 0.0);
-                    let mut best = [f64::INFINITY; 2];
-                    for _ in 0..500 {
-                        let start = Instant::now();
-                        for _ in 0..200 {
-                            black_box(cuboid.energy(black_box(&q)));
-                        }
-                        best[0] = best[0].min(start.elapsed().as_nanos() as f64 / 200.0);
-                        let start = Instant::now();
-                        for _ in 0..200 {
-                            black_box(cuboid.energy_and_gradient(black_box(&q)));
-                        }
-                        best[1] = best[1].min(start.elapsed().as_nanos() as f64 / 200.0);
-                    }
-                    println!(
-                        "{level} n {n} gap {gap}: {:.0} {:.0} ns each",
-                        best[0] / n as f64,
-                        best[1] / n as f64
-                    );
-                }
-            }
-            let _ = far;
-        }
-        return;
-    }
     println!("ns a configuration, 16 x 16 magnets, one core; in brackets times the dipoles'\n");
     for level in Level::available() {
         let (fixed, moving) = (magnets("NNNS"), magnets("NSSS"));

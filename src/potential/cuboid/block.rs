@@ -79,7 +79,7 @@ pub struct PairEnergy {
 /// Two blocks as four pairs of pole faces, all at the same angle. Coordinates are those of the
 /// first block's pole faces: x along them, h against the axis (see [`super::sheet`]).
 #[derive(Clone, Copy, Debug)]
-pub struct BlockPair {
+pub(super) struct BlockPair {
     /// Widths of the pole faces (m).
     pub widths: [f64; 2],
     /// Half the sum and half the difference of the thicknesses (m).
@@ -103,7 +103,7 @@ pub struct BlockPair {
 
 /// A pole face of the first block and one of the second.
 #[derive(Clone, Copy, Debug)]
-pub struct Faces {
+pub(super) struct Faces {
     /// The product of the two poles' signs.
     pub sign: f64,
     /// The second face's middle, seen from its block's centre (m).
@@ -297,21 +297,27 @@ impl Points {
     }
 }
 
-/// Two blocks' energy and its derivatives by their pole faces, however far apart they are.
+/// Two blocks' energy and its derivatives by their pole faces, however far apart they are: exact
+/// near by, while far away (from some thirty times their size on) digits are lost to cancellation.
 pub fn exact(first: &Block, second: &Block) -> PairEnergy {
-    struct Exact(BlockPair);
-    impl Task for Exact {
-        type Output = (f64, Vector3<f64>);
+    struct Exact<'a>(&'a Block, &'a Block);
+    impl Task for Exact<'_> {
+        type Output = PairEnergy;
 
         #[inline(always)]
-        fn run<L: Lanes>(self, l: L) -> Self::Output {
-            let mut panels = Panels::default();
-            panels.append::<L, true>(l, &self.0);
-            panels.sum::<L, true>(l)
+        fn run<L: Lanes>(self, l: L) -> PairEnergy {
+            near(l, self.0, self.1)
         }
     }
-    let pair = BlockPair::new(first, second, second.position);
-    let (energy, gradient) = Level::best().run(Exact(pair));
+    Level::best().run(Exact(first, second))
+}
+
+/// [`exact`] in vectors.
+#[inline(always)]
+pub(super) fn near<L: Lanes>(l: L, first: &Block, second: &Block) -> PairEnergy {
+    let mut panels = Panels::default();
+    panels.append::<L, true>(l, &BlockPair::new(first, second, second.position));
+    let (energy, gradient) = panels.sum::<L, true>(l);
     PairEnergy {
         energy,
         gradient: gradient.xy(),

@@ -59,6 +59,29 @@ pub struct Pairs<F> {
     pub arm: Complex<f64>,
 }
 
+impl<F: Copy> Pairs<F> {
+    /// The members of a group from `from` on, and a block at `place`.
+    #[inline(always)]
+    pub fn new<L: Lanes<F = F>>(
+        l: L,
+        fixed: &Group,
+        from: usize,
+        place: Complex<f64>,
+        moment: f64,
+    ) -> Self {
+        let r = [
+            l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
+            l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
+        ];
+        Self {
+            moments: l.mul(l.splat(moment), l.load(&fixed.moment[from..])),
+            r,
+            rr: l.mul_add(r[0], r[0], l.mul(r[1], r[1])),
+            arm: Complex::new(0.0, 0.0),
+        }
+    }
+}
+
 /// Adds the first `TERMS` terms of the series to the sums.
 ///
 /// With `v = e^(-2 i phi)` the terms are polynomials `P_k(v) = sum_l C_kl v^(l/2)` over powers of

@@ -19,10 +19,10 @@
 //!   energy of block i's charges with a copy of themselves (Cauchy and Schwarz).
 //! * **Gradient.** The normal field of an even sheet of charge is at most 2 pi a density (half a
 //!   full solid angle). Its field along itself is the difference of the potentials of its two
-//!   upright edges, both positive; integrated over a face of width w and height c', an edge of
-//!   height c gives at most `T = 4 c' [w/2 asinh(c / w) + c/2 asinh(w / c)]`, the value for an edge
-//!   that stands in the middle of that face. So each pair of faces gives
-//!   `k sqrt((2 pi w c')^2 + T^2)` at most.
+//!   upright edges; integrated over a face of width w and height c', an edge of height c gives at
+//!   most `T = 4 c' [w/2 asinh(c / w) + c/2 asinh(w / c)]`, the value for an edge that stands in
+//!   the middle of that face. So, whatever the directions in which the points of that face move,
+//!   each pair of faces gives at most `k (2 pi w c' + 2 T)` per metre of the farthest.
 //! * **Second derivatives.** Differentiating along a face turns its charge into charges on its
 //!   upright edges, and differentiating along the vertical into charges on its level edges; the
 //!   derivative along the normal follows from the Laplace equation. The field of a line of charge
@@ -72,7 +72,7 @@ impl Limits {
             strength: pair.strength,
             face: [width, height],
             energy: (own(&a) * own(&b)).sqrt() * ROOM,
-            gradient: 4.0 * pair.strength * normal.hypot(tangential),
+            gradient: 4.0 * pair.strength * (normal + 2.0 * tangential),
         }
     }
 
@@ -81,9 +81,12 @@ impl Limits {
         self.energy.min(self.derivative(0, distance))
     }
 
-    /// Bound of the force (N) where the blocks are at least `distance` (m) apart.
-    pub fn gradient(&self, distance: f64) -> f64 {
-        self.gradient.min(self.derivative(1, distance))
+    /// Bound of the derivative of U (J/m) along a motion in which no point of the second block is
+    /// faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are at least
+    /// `distance` (m) apart. With `turn` 0 it is a bound of the force (N).
+    pub fn gradient(&self, turn: f64, distance: f64) -> f64 {
+        let apart = self.derivative(1, distance) + turn * self.derivative(0, distance);
+        self.gradient.min(apart)
     }
 
     /// Bound of the n-th derivative of U (J/m^n) along a shift of one block, where the blocks are
@@ -191,7 +194,7 @@ mod tests {
                 let limits = Limits::new(&first, &second);
                 let pair = exact(&first, &second);
                 assert!(pair.energy.abs() <= limits.energy(gap));
-                assert!(pair.gradient.norm() <= limits.gradient(gap));
+                assert!(pair.gradient.norm() <= limits.gradient(0.0, gap));
             }
         }
     }

@@ -23,7 +23,7 @@ pub use block::{Block, PairEnergy};
 use far::Group;
 use limits::Limits;
 use multipole::{Multipole, TERMS};
-use sum::Sum;
+use sum::{Each, Sum};
 
 /// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form takes
 /// over from the pole faces, and at which it drops its terms one after the other.
@@ -156,6 +156,20 @@ impl CuboidPotential {
             far,
             lever,
         }
+    }
+}
+
+impl CuboidPotential {
+    /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
+    /// moving tile's block j is number `j * fixed blocks + i`.
+    pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
+        let mut out = vec![PairEnergy::default(); self.fixed.len() * self.moving.len()];
+        self.level.run(Each {
+            potential: self,
+            q,
+            out: &mut out,
+        });
+        out
     }
 }
 

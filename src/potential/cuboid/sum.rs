@@ -1,9 +1,9 @@
 //! The sum over all pairs of blocks at one configuration.
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Vector2, Vector3};
 
 use super::CuboidPotential;
-use super::block::BlockPair;
+use super::block::{self, BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::Panels;
@@ -104,18 +104,9 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         for (j, &second) in moving.members.iter().enumerate() {
             let arm = turn * Complex::new(moving.x[j], moving.y[j]);
             let place = centre + arm;
-            let own = l.splat(moving.moment[j]);
             for from in (0..fixed.x.len()).step_by(L::WIDTH) {
-                let r = [
-                    l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
-                    l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
-                ];
-                let mut pairs = Pairs {
-                    moments: l.mul(own, l.load(&fixed.moment[from..])),
-                    r,
-                    rr: l.mul_add(r[0], r[0], l.mul(r[1], r[1])),
-                    arm,
-                };
+                let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+                pairs.arm = arm;
                 let least = l.least(pairs.rr);
                 if least >= far.squares[FEW] {
                     far::add::<L, FEW, SLOPE>(l, coefficients, &pairs, &mut sums);
@@ -152,5 +143,87 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
             }
         }
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
+    }
+}
+
+/// The energies of all pairs of blocks one by one, `out[second * fixed blocks + first]`.
+pub struct Each<'a> {
+    pub potential: &'a CuboidPotential,
+    pub q: &'a Configuration,
+    pub out: &'a mut [PairEnergy],
+}
+
+impl Task for Each<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let (sin, cos) = self.q.theta.sin_cos();
+        let mut coefficients = Coefficients::NONE;
+        for moving in &self.potential.moving_groups {
+            for fixed in &self.potential.fixed_groups {
+                let far = &self.potential.far[fixed.size][moving.size];
+                let into = fixed.axis.conj();
+                let turn = moving.axis * Complex::new(cos, sin) * into;
+                let centre = Complex::new(self.q.x, self.q.y) * into;
+                far.series
+                    .evaluate::<L, true>(l, turn, TERMS, &mut coefficients);
+                for (j, &second) in moving.members.iter().enumerate() {
+                    let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+                    for from in (0..fixed.x.len()).step_by(L::WIDTH) {
+                        let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+                        let mut sums = Sums::zero(l);
+                        far::add::<L, TERMS, true>(l, &coefficients, &pairs, &mut sums);
+                        let lanes = fixed.members.len().min(from + L::WIDTH) - from;
+                        let out = Lane::split(l, &sums, pairs.rr, fixed.axis);
+                        for (&first, lane) in fixed.members[from..].iter().zip(&out[..lanes]) {
+                            let at = second * self.potential.fixed.len() + first;
+                            self.out[at] = if lane.square < far.near() {
+                                let moving = &self.potential.moving[second].block;
+                                let moved = moving.moved(cos, sin, self.q.position());
+                                block::near(l, &self.potential.fixed[first].block, &moved)
+                            } else {
+                                lane.pair
+                            };
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// One of several pairs, and the square of its distance (m^2).
+#[derive(Clone, Copy, Default)]
+struct Lane {
+    pair: PairEnergy,
+    square: f64,
+}
+
+impl Lane {
+    #[inline(always)]
+    fn split<L: Lanes>(
+        l: L,
+        sums: &Sums<L::F>,
+        squares: L::F,
+        axis: Complex<f64>,
+    ) -> [Self; MAX_WIDTH] {
+        let mut columns = [[0.0; MAX_WIDTH]; 5];
+        let [x, y, turn] = sums.gradient;
+        for (column, values) in columns.iter_mut().zip([sums.energy, x, y, turn, squares]) {
+            l.store(values, column);
+        }
+        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        std::array::from_fn(|i| {
+            let gradient = axis * Complex::new(columns[1][i], columns[2][i]) * scale;
+            Self {
+                pair: PairEnergy {
+                    energy: columns[0][i] * scale,
+                    gradient: Vector2::new(gradient.re, gradient.im),
+                    slope: columns[3][i] * scale,
+                },
+                square: columns[4][i],
+            }
+        })
     }
 }
