@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::analysis::Settings;
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
@@ -23,7 +23,7 @@ const BEND: f64 = 1e-3;
 ///
 /// The bounds are narrowed to `settings.tolerance`; after `settings.certify_seconds` in all, the
 /// bounds known by then are kept, so that only results within the limit are the same on every
-/// machine.
+/// machine. Nothing is certified for magnets modelled as blocks.
 pub fn certify(
     design: &Design,
     problem: &Problem,
@@ -32,7 +32,8 @@ pub fn certify(
     observer: &dyn Observer,
 ) -> usize {
     let limit = Duration::from_secs_f64(settings.certify_seconds.clamp(0.0, 1e9));
-    if limit.is_zero() {
+    // Bounds over cells are known for point dipoles only.
+    if limit.is_zero() || design.model != MagnetModel::Dipole {
         return 0;
     }
     let depth = pipeline::energy_scale(design, problem);

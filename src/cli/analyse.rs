@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use tilebind::analysis::Settings;
+use tilebind::design::MagnetModel;
 use tilebind::pipeline::{self, Observer};
 use tilebind::report::json::Report;
 use tilebind::report::{summary, writer};
@@ -22,6 +23,10 @@ Examples:
 pub struct Analyse {
     /// The design file
     design: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    model: Option<MagnetModel>,
 
     /// Folder for the results; made if need be
     #[arg(long, value_name = "DIR")]
@@ -85,7 +90,7 @@ pub struct Analyse {
 impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
-        let design = input::load(&self.design)?;
+        let design = input::load_as(&self.design, self.model)?;
         check_folder(&self.out)?;
         input::use_threads(self.threads)?;
         interrupt::prepare()?;

@@ -202,6 +202,7 @@ impl Taker<'_> {
                 }),
             attracting,
             repelling,
+            block_energy: None,
             capture: None,
         }
     }

@@ -70,6 +70,9 @@ pub struct State {
     /// Magnet pairs within 1.5 pitches (or magnet lengths) of each other that attract, and repel.
     pub attracting: usize,
     pub repelling: usize,
+    /// Energy (J) of uniformly magnetised blocks in this configuration, where `energy` is that of
+    /// point dipoles.
+    pub block_energy: Option<f64>,
     /// Share of far starts that overdamped motion takes into this state.
     pub capture: Option<Proportion>,
 }

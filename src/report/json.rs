@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::analysis::{Alternative, Analysis, Counts, PathwayCost, Settings, Stage};
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
 use crate::pipeline;
 use crate::roadmap::neighbour;
@@ -81,6 +81,9 @@ pub struct StateEntry {
     pub kind: &'static str,
     pub pose: [f64; 3],
     pub energy_J: f64,
+    /// Energy of uniformly magnetised blocks in this pose, where `energy_J` is that of point
+    /// dipoles; null otherwise.
+    pub block_energy_J: Option<f64>,
     /// Lowest id among the states that symmetries of the tiles map onto this one.
     pub class: usize,
     /// How many states there are in the class.
@@ -296,10 +299,7 @@ impl SettingsEntry {
     fn new(design: &Design, settings: &Settings, counts: &Counts) -> Self {
         let problem = pipeline::problem(design);
         Self {
-            model: match design.model {
-                MagnetModel::Dipole => "dipole",
-                _ => "cuboid",
-            },
+            model: design.model.name(),
             milestones: settings.milestones,
             neighbours: settings
                 .neighbours
@@ -325,6 +325,7 @@ impl StateEntry {
             kind: kind(state.kind),
             pose: pose(&state.configuration),
             energy_J: positive_zero(state.energy),
+            block_energy_J: state.block_energy,
             class: state.class,
             copies: copies(state, all),
             faces: face_names(design, state),
