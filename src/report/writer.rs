@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::plots::{self, PictureError, Scene};
 use super::{csv, json};
 use crate::analysis::Analysis;
+use crate::contact::Contact;
 use crate::design::Design;
 use crate::landscape::map::Pair;
 use crate::pipeline;
@@ -62,18 +63,20 @@ fn pictures(
     analysis: &Analysis,
 ) -> Result<Vec<plots::NamedPicture>, PictureError> {
     let problem = pipeline::problem(design);
+    let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
     plots::draw_all(&Scene {
         name: &design.name,
         pair: Pair {
             fixed: &design.fixed,
             moving: &design.moving,
             potential: problem.potential(),
-            clearance: &|q| problem.clearance(q),
+            contact: &contact,
         },
         space: &problem.space,
         bound: design.bound,
         target: design.target,
         states: &analysis.states,
+        escapes: &analysis.escapes,
         barriers: &analysis.barriers,
     })
 }
