@@ -18,6 +18,8 @@ const PATHWAY: &str = "s,x,y,theta,energy_J,clearance_m";
 /// How far (m, and rad) a dropped point of a pathway may lie from the straight motion between its
 /// neighbours in the file.
 const POSE_TOLERANCE: f64 = 2e-6;
+/// How far the clearance may be off there beyond that, as a fraction of itself.
+const CLEARANCE_TOLERANCE: f64 = 1e-3;
 /// How far the energy may be off there, as a fraction of the range of energies on the pathway.
 const ENERGY_TOLERANCE: f64 = 1e-3;
 
@@ -135,7 +137,7 @@ fn is_between(pathway: &Pathway, start: usize, between: usize, end: usize, allow
     let straight = a.configuration.interpolate(&b.configuration, t);
     t.is_finite()
         && straight.step_to(&p.configuration).amax() <= POSE_TOLERANCE
-        && linear(|p| p.clearance).abs() <= POSE_TOLERANCE
+        && linear(|p| p.clearance).abs() <= POSE_TOLERANCE + CLEARANCE_TOLERANCE * p.clearance
         && linear(|p| p.energy).abs() <= allowed
 }
 

@@ -125,8 +125,8 @@ pub struct BarrierEntry {
     pub reverse_J: f64,
     /// Lowest and highest saddle energy over repeated runs; null for a single run.
     pub spread_J: Option<[f64; 2]>,
-    /// File of the pathway, relative to the report.
-    pub pathway: String,
+    /// File of the pathway, relative to the report; null where it was not asked for.
+    pub pathway: Option<String>,
 }
 
 /// A pathway by another cost than the highest energy.
@@ -215,6 +215,16 @@ impl Report {
                 stages: analysis.stages.iter().map(StageEntry::from).collect(),
             },
         }
+    }
+
+    /// Names no pathway for the escapes of states that are copies of another one.
+    pub fn without_copies(mut self) -> Self {
+        for state in self.states.iter_mut().filter(|s| s.id != s.class) {
+            if let Some(escape) = &mut state.escape {
+                escape.pathway = None;
+            }
+        }
+        self
     }
 
     /// The text of `report.json`.
@@ -364,7 +374,7 @@ impl BarrierEntry {
             forward_J: positive_zero(barrier.forward()),
             reverse_J: positive_zero(barrier.reverse()),
             spread_J: barrier.spread.map(|(low, high)| [low, high]),
-            pathway: pathway_file(barrier),
+            pathway: Some(pathway_file(barrier)),
         }
     }
 }

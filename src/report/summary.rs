@@ -239,13 +239,16 @@ fn tenths(value: f64) -> String {
 /// `56 % (53-59)`, with the interval.
 fn percent(proportion: &Proportion) -> String {
     if proportion.of == 0 {
-        return "? %".to_owned();
+        return "not counted".to_owned();
     }
-    let whole = |x: f64| (100.0 * x).round();
-    format!(
-        "{} % ({}-{})",
-        whole(proportion.share()),
-        whole(proportion.low),
-        whole(proportion.high)
-    )
+    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
+        let percent = 100.0 * x;
+        // Whole percents, but 0 only for none and 100 only for all.
+        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
+            format!("{percent:.1}")
+        } else {
+            format!("{percent:.0}")
+        }
+    });
+    format!("{share} % ({low}-{high})")
 }
