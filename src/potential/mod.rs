@@ -3,6 +3,7 @@
 pub mod analytic;
 pub mod batch;
 pub mod bounds;
+pub mod cuboid;
 pub mod dipole;
 
 use crate::configuration::Configuration;
@@ -10,6 +11,7 @@ use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
+pub use cuboid::CuboidPotential;
 
 /// A potential energy over configurations.
 ///

@@ -11,6 +11,7 @@ use super::{csv, json};
 use crate::analysis::Analysis;
 use crate::contact::Contact;
 use crate::design::Design;
+use crate::landscape::Barrier;
 use crate::landscape::map::Pair;
 use crate::pipeline;
 
@@ -77,7 +78,8 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
         .iter()
         .filter(|state| extent == Extent::Full || state.id == state.class)
         .filter_map(|state| analysis.escapes[state.id].as_ref());
-    for barrier in escapes.chain(&analysis.barriers) {
+    let barriers = escapes.chain(&analysis.barriers);
+    for barrier in barriers.filter(|barrier| !barrier.pathway.is_empty()) {
         add(json::pathway_file(barrier), csv::pathway(&barrier.pathway));
     }
     for alternative in &analysis.alternatives {
@@ -91,6 +93,12 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
 
 fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, PictureError> {
     let problem = pipeline::problem(design);
+    let passable: Vec<Barrier> = analysis
+        .barriers
+        .iter()
+        .filter(|barrier| !barrier.pathway.is_empty())
+        .cloned()
+        .collect();
     let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
     plots::draw_all(&Scene {
         name: &design.name,
@@ -105,7 +113,7 @@ fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, P
         target: design.target,
         states: &analysis.states,
         escapes: &analysis.escapes,
-        barriers: &analysis.barriers,
+        barriers: &passable,
     })
 }
 
