@@ -9,7 +9,7 @@ use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Certifier, CertifyError, Effort, End};
 use crate::landscape::minimum::descend;
 use crate::landscape::network::{Link, Way};
-use crate::landscape::survey::Survey;
+use crate::landscape::survey::{Survey, same_link};
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Pathway, pathway};
 use crate::pipeline::{self, Clock, Observer};
@@ -227,6 +227,11 @@ fn attach(
             costs: found.costs,
             way: Way::Straight,
         });
+    }
+    if problem.space.is_far(q) {
+        let link = same_link(node, survey.free, problem.energy(q));
+        survey.network.add_link(link);
+        return node;
     }
     let descent = descend(problem, q);
     if let Some(end) = survey.arrive(problem, &descent) {

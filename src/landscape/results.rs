@@ -40,8 +40,9 @@ impl Proportion {
         Self {
             count,
             of,
-            low: (centre - half).max(0.0),
-            high: (centre + half).min(1.0),
+            // Exactly the ends of [0, 1] there, which rounding would miss.
+            low: if count == 0 { 0.0 } else { centre - half },
+            high: if count == of { 1.0 } else { centre + half },
         }
     }
 

@@ -133,7 +133,8 @@ pub struct BarrierEntry {
     pub reverse_J: f64,
     /// Lowest and highest saddle energy over repeated runs; null for a single run.
     pub spread_J: Option<[f64; 2]>,
-    /// File of the pathway, relative to the report; null where no way is known.
+    /// File of the pathway, relative to the report; null where no way is known, or its file was
+    /// not asked for.
     pub pathway: Option<String>,
 }
 
@@ -226,6 +227,16 @@ impl Report {
                 stages: analysis.stages.iter().map(StageEntry::from).collect(),
             },
         }
+    }
+
+    /// Names no pathway for the escapes of states that are copies of another one.
+    pub fn without_copies(mut self) -> Self {
+        for state in self.states.iter_mut().filter(|s| s.id != s.class) {
+            if let Some(escape) = &mut state.escape {
+                escape.pathway = None;
+            }
+        }
+        self
     }
 
     /// The text of `report.json`.
