@@ -2,6 +2,7 @@
 
 pub mod analysis;
 pub mod cell;
+pub mod certification;
 pub mod configuration;
 pub mod contact;
 pub mod design;

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::analysis::{Analysis, Counts, Settings, Stage};
+use crate::certification;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::capture::{self, FarStarts};
@@ -20,6 +21,9 @@ use crate::roadmap::{
 pub trait Observer: Sync {
     /// A stage begins; `share` of the whole time (0 to 1) is behind.
     fn stage(&self, name: &'static str, share: f64);
+
+    /// Of a stage that has `count` parts, `done` are done.
+    fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
 }
 
 /// An observer that looks away.
@@ -40,7 +44,8 @@ pub fn problem(design: &Design) -> Problem {
     )
 }
 
-/// The main job. The same design and settings give the same result on any number of threads.
+/// The main job. The same design and settings give the same result on any number of threads, as
+/// long as the certificate keeps within its time.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     let problem = problem(design);
     let symmetries = Symmetry::all(&design.fixed, &design.moving);
@@ -77,6 +82,8 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         let other = inventory::take(design, &problem, &symmetries, &again.survey, settings);
         inventory.widen_spread(&problem, &other);
     }
+    clock.start("certificate", 0.75);
+    let cells = certification::certify(design, &problem, &mut inventory, settings, observer);
     let stages = clock.stop();
     let Inventory {
         states,
@@ -99,6 +106,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         ring: capture::ring(&problem),
         counts: Counts {
             energy_evaluations: problem.evaluations(),
+            cells,
             ..first.counts
         },
         stages,

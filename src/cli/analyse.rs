@@ -61,6 +61,14 @@ pub struct Analyse {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     thermal_energy: Option<f64>,
 
+    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the bond]
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    tolerance: Option<f64>,
+
+    /// Seconds after which the certificate keeps the bounds it has; 0 for no certificate
+    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
+    certify_seconds: f64,
+
     /// Threads [default: all cores]; the results do not depend on them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -111,6 +119,8 @@ impl Analyse {
             settled: self.settled,
             far_starts: self.far_starts as usize,
             repeats: self.repeats as usize,
+            tolerance: self.tolerance,
+            certify_seconds: self.certify_seconds,
             ..Settings::default()
         }
     }

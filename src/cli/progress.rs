@@ -42,4 +42,9 @@ impl Observer for Progress {
         self.0.set_position((share * STEPS as f64) as u64);
         self.0.set_message(name);
     }
+
+    fn part(&self, name: &'static str, done: usize, count: usize) {
+        self.0
+            .set_message(format!("{name}, {done} of {count} done"));
+    }
 }

@@ -307,6 +307,7 @@ impl Taker<'_> {
             saddle,
             lower: None,
             upper: None,
+            caged: false,
             from_energy: self.energy(found),
             to_energy,
             spread: None,

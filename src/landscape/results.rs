@@ -109,6 +109,8 @@ pub struct Barrier {
     /// Certified bounds of the saddle energy (J), where certified.
     pub lower: Option<f64>,
     pub upper: Option<f64>,
+    /// Proved that there is no way at all; the saddle energy is then infinite.
+    pub caged: bool,
     /// Energies (J) of the two ends; 0 for `Free`.
     pub from_energy: f64,
     pub to_energy: f64,

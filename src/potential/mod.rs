@@ -1,7 +1,9 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
+pub mod analytic;
 pub mod batch;
 pub mod bounds;
+pub mod cuboid;
 pub mod dipole;
 
 use crate::configuration::Configuration;
@@ -9,6 +11,7 @@ use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
+pub use cuboid::CuboidPotential;
 
 /// A potential energy over configurations.
 ///

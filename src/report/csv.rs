@@ -60,20 +60,26 @@ pub fn barriers(barriers: &[Barrier], pathway_file: impl Fn(&Barrier) -> String)
     let mut table = String::from(BARRIERS);
     for barrier in barriers {
         let optional = |value: Option<f64>| value.map(number).unwrap_or_default();
+        // Without a way the barrier is infinite: an empty cell.
+        let finite = |value: f64| optional(Some(value).filter(|value| value.is_finite()));
         let _ = write!(
             table,
             "\n{},{},{},{},{},{},{},{},{},{},{}",
             place_name(barrier.from),
             place_name(barrier.to),
-            number(barrier.saddle_energy),
+            finite(barrier.saddle_energy),
             optional(barrier.lower),
             optional(barrier.upper),
-            number(barrier.forward()),
-            number(barrier.reverse()),
+            finite(barrier.forward()),
+            finite(barrier.reverse()),
             optional(barrier.spread.map(|spread| spread.0)),
             optional(barrier.spread.map(|spread| spread.1)),
             pose(&barrier.saddle),
-            pathway_file(barrier),
+            if barrier.pathway.is_empty() {
+                String::new()
+            } else {
+                pathway_file(barrier)
+            },
         );
     }
     table.push('\n');

@@ -58,6 +58,9 @@ pub struct SettingsEntry {
     pub least_depth: f64,
     pub far_starts: usize,
     pub repeats: usize,
+    /// Width to which certified bounds are narrowed; null for a hundredth of the bond.
+    pub tolerance_J: Option<f64>,
+    pub certify_s: f64,
 }
 
 /// The configuration in which the target faces coincide.
@@ -121,12 +124,14 @@ pub struct BarrierEntry {
     pub saddle_pose: [f64; 3],
     pub lower_J: Option<f64>,
     pub upper_J: Option<f64>,
+    /// Proved that there is no way at all; `saddle_energy_J` is then null.
+    pub caged: bool,
     pub forward_J: f64,
     pub reverse_J: f64,
     /// Lowest and highest saddle energy over repeated runs; null for a single run.
     pub spread_J: Option<[f64; 2]>,
-    /// File of the pathway, relative to the report.
-    pub pathway: String,
+    /// File of the pathway, relative to the report; null where no way is known.
+    pub pathway: Option<String>,
 }
 
 /// A pathway by another cost than the highest energy.
@@ -153,6 +158,8 @@ pub struct CountsEntry {
     /// Minima left out because next to nothing keeps them.
     pub shallow_minima: usize,
     pub energy_evaluations: u64,
+    /// Cells of the certificate.
+    pub cells: usize,
 }
 
 /// How long it took.
@@ -209,6 +216,7 @@ impl Report {
                 transition_states: analysis.counts.transition_states,
                 shallow_minima: analysis.shallow,
                 energy_evaluations: analysis.counts.energy_evaluations,
+                cells: analysis.counts.cells,
             },
             timing: TimingEntry {
                 total_wall_s: total_wall,
@@ -304,6 +312,8 @@ impl SettingsEntry {
             least_depth: settings.least_depth,
             far_starts: settings.far_starts,
             repeats: settings.repeats,
+            tolerance_J: settings.tolerance,
+            certify_s: settings.certify_seconds,
         }
     }
 }
@@ -361,10 +371,11 @@ impl BarrierEntry {
             saddle_pose: pose(&barrier.saddle),
             lower_J: barrier.lower,
             upper_J: barrier.upper,
+            caged: barrier.caged,
             forward_J: positive_zero(barrier.forward()),
             reverse_J: positive_zero(barrier.reverse()),
             spread_J: barrier.spread.map(|(low, high)| [low, high]),
-            pathway: pathway_file(barrier),
+            pathway: (!barrier.pathway.is_empty()).then(|| pathway_file(barrier)),
         }
     }
 }

@@ -9,6 +9,7 @@ use super::{csv, json};
 use crate::analysis::Analysis;
 use crate::contact::Contact;
 use crate::design::Design;
+use crate::landscape::Barrier;
 use crate::landscape::map::Pair;
 use crate::pipeline;
 
@@ -41,7 +42,8 @@ pub fn files(design: &Design, analysis: &Analysis) -> Result<Files, PictureError
         "barriers.csv".into(),
         csv::barriers(&analysis.barriers, json::pathway_file),
     );
-    for barrier in analysis.escapes.iter().flatten().chain(&analysis.barriers) {
+    let barriers = analysis.escapes.iter().flatten().chain(&analysis.barriers);
+    for barrier in barriers.filter(|barrier| !barrier.pathway.is_empty()) {
         add(json::pathway_file(barrier), csv::pathway(&barrier.pathway));
     }
     for alternative in &analysis.alternatives {
@@ -63,6 +65,12 @@ fn pictures(
     analysis: &Analysis,
 ) -> Result<Vec<plots::NamedPicture>, PictureError> {
     let problem = pipeline::problem(design);
+    let passable: Vec<Barrier> = analysis
+        .barriers
+        .iter()
+        .filter(|barrier| !barrier.pathway.is_empty())
+        .cloned()
+        .collect();
     let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
     plots::draw_all(&Scene {
         name: &design.name,
@@ -77,7 +85,7 @@ fn pictures(
         target: design.target,
         states: &analysis.states,
         escapes: &analysis.escapes,
-        barriers: &analysis.barriers,
+        barriers: &passable,
     })
 }
 
