@@ -5,6 +5,7 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+pub mod shielding;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;
@@ -12,6 +13,7 @@ use nalgebra::Vector3;
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
+pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.
 ///

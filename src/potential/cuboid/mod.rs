@@ -15,8 +15,8 @@ mod sum;
 
 use nalgebra::{Complex, Vector3};
 
-use super::Potential;
 use super::batch::Level;
+use super::{DipolePotential, Potential};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};
@@ -218,5 +218,42 @@ impl Potential for CuboidPotential {
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         step.xy().norm() + self.lever * step.z.abs()
+    }
+}
+
+/// What the two models say of the same magnets.
+#[derive(Clone, Debug)]
+pub struct ModelComparison {
+    dipoles: DipolePotential,
+    blocks: CuboidPotential,
+}
+
+/// The energies (J) of one configuration by both models.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelEnergies {
+    pub dipole: f64,
+    pub cuboid: f64,
+}
+
+impl ModelEnergies {
+    /// The dipole's error relative to the block's energy; infinite or NaN where that is 0.
+    pub fn relative_error(&self) -> f64 {
+        (self.dipole - self.cuboid) / self.cuboid.abs()
+    }
+}
+
+impl ModelComparison {
+    pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
+        Self {
+            dipoles: DipolePotential::new(fixed, moving),
+            blocks: CuboidPotential::new(fixed, moving),
+        }
+    }
+
+    pub fn at(&self, q: &Configuration) -> ModelEnergies {
+        ModelEnergies {
+            dipole: self.dipoles.energy(q),
+            cuboid: self.blocks.energy(q),
+        }
     }
 }
