@@ -4,6 +4,7 @@ pub mod analysis;
 pub mod configuration;
 pub mod contact;
 pub mod design;
+pub mod dynamics;
 pub mod landscape;
 pub mod pipeline;
 pub mod potential;
