@@ -6,7 +6,6 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
 use crate::tile::Outline;
-use crate::tile::outline::contains;
 
 /// Vertices closer than this (m) count as coinciding.
 const COINCIDENT: f64 = 1e-7;
@@ -36,60 +35,111 @@ pub struct Constraint {
     pub gradient: Vector3<f64>,
 }
 
-/// An outline placed in the plane.
-struct Placed {
-    vertices: Vec<Vector2<f64>>,
-    normals: Vec<Vector2<f64>>,
-    low: Vector2<f64>,
-    high: Vector2<f64>,
+/// Two outlines in the frame of the second: the vertices of `a` against the edges of `b`.
+struct Meeting<'a> {
+    a: &'a Outline,
+    b: &'a Outline,
+    /// Where `a` lies in `b`'s frame.
+    pose: Configuration,
 }
 
-impl Placed {
-    fn new(outline: &Outline, q: &Configuration) -> Self {
-        let rotation = q.rotation();
-        let vertices: Vec<_> = outline
-            .vertices()
-            .iter()
-            .map(|v| q.position() + rotation * v)
-            .collect();
-        let low = vertices.iter().fold(vertices[0], |a, b| a.inf(b));
-        let high = vertices.iter().fold(vertices[0], |a, b| a.sup(b));
-        Self {
-            normals: outline.normals().iter().map(|n| rotation * n).collect(),
-            vertices,
-            low,
-            high,
+impl Meeting<'_> {
+    fn vertex(&self, i: usize) -> Vector2<f64> {
+        self.pose.transform(self.a.vertices()[i])
+    }
+
+    /// Calls `found(vertex, edge)` for every convex vertex of `a` within `margin` of an edge of
+    /// `b` that it faces, except where it coincides with a convex corner of `b`; those pairs
+    /// (vertex, corner) go to `corners`.
+    fn find(
+        &self,
+        margin: f64,
+        mut found: impl FnMut(usize, usize),
+        mut corners: impl FnMut(usize, usize),
+    ) {
+        let mut near = Vec::new();
+        let n = self.b.vertices().len();
+        for i in 0..self.a.vertices().len() {
+            if !self.a.convex_vertices()[i] {
+                continue;
+            }
+            let p = self.vertex(i);
+            self.b.grid().near(p, margin, &mut near);
+            for &edge in &near {
+                let edge = edge as usize;
+                match self.facing(i, p, edge, margin) {
+                    Facing::Edge => found(i, edge),
+                    // Each corner is met from both of its edges; count it once, from its own.
+                    Facing::Start => corners(i, edge),
+                    Facing::End if !near.contains(&(((edge + 1) % n) as u32)) => {
+                        corners(i, (edge + 1) % n);
+                    }
+                    Facing::End | Facing::Nothing => {}
+                }
+            }
         }
     }
 
-    fn near(&self, p: &Vector2<f64>, margin: f64) -> bool {
-        p.x >= self.low.x - margin
-            && p.x <= self.high.x + margin
-            && p.y >= self.low.y - margin
-            && p.y <= self.high.y + margin
+    fn facing(&self, i: usize, p: Vector2<f64>, edge: usize, margin: f64) -> Facing {
+        let b = self.b;
+        let (start, end) = b.edge(edge);
+        let normal = b.normals()[edge];
+        let gap = normal.dot(&(p - start));
+        if gap.abs() > margin {
+            return Facing::Nothing;
+        }
+        let n = b.vertices().len();
+        if b.convex_vertices()[edge] && (p - start).norm() <= COINCIDENT {
+            return Facing::Start;
+        }
+        if b.convex_vertices()[(edge + 1) % n] && (p - end).norm() <= COINCIDENT {
+            return Facing::End;
+        }
+        let length = (end - start).norm();
+        let t = (p - start).dot(&(end - start)) / length;
+        if t < -COINCIDENT || t > length + COINCIDENT {
+            return Facing::Nothing;
+        }
+        // In front of an edge's very end the vertex may pass round the corner, unless its tile
+        // lies squarely against the edge.
+        let at_end = t < COINCIDENT || t > length - COINCIDENT;
+        if at_end && !self.wedge_is_beyond(i, normal) {
+            return Facing::Nothing;
+        }
+        // Behind the edge's line, but outside: in front of another edge, past a corner.
+        if gap < -TOUCH && !b.contains(p) {
+            return Facing::Nothing;
+        }
+        Facing::Edge
     }
 
-    fn contains(&self, p: &Vector2<f64>) -> bool {
-        contains(&self.vertices, p)
-    }
-
-    fn next(&self, i: usize) -> usize {
-        (i + 1) % self.vertices.len()
-    }
-
-    fn previous(&self, i: usize) -> usize {
-        (i + self.vertices.len() - 1) % self.vertices.len()
-    }
-
-    /// Whether the tile near its vertex i lies on the positive side of a line with this normal
-    /// through the vertex.
-    fn wedge_is_beyond(&self, i: usize, normal: &Vector2<f64>) -> bool {
-        let here = self.vertices[i];
-        [self.next(i), self.previous(i)].iter().all(|&k| {
-            let along = self.vertices[k] - here;
+    /// Whether `a` near its vertex i lies on the positive side of a line with this normal through
+    /// the vertex.
+    fn wedge_is_beyond(&self, i: usize, normal: Vector2<f64>) -> bool {
+        let n = self.a.vertices().len();
+        let rotation = self.pose.rotation();
+        [(i + 1) % n, (i + n - 1) % n].iter().all(|&k| {
+            let along = rotation * (self.a.vertices()[k] - self.a.vertices()[i]);
             normal.dot(&along) >= -1e-6 * along.norm()
         })
     }
+
+    /// The edges of `b` at its corner j that could separate it from `a`'s vertex i.
+    fn separating_edges(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + '_ {
+        let n = self.b.vertices().len();
+        [(j + n - 1) % n, j]
+            .into_iter()
+            .filter(move |&edge| self.wedge_is_beyond(i, self.b.normals()[edge]))
+    }
+}
+
+/// What a vertex is in front of.
+enum Facing {
+    Nothing,
+    Edge,
+    /// The convex corner at the edge's start, or at its end.
+    Start,
+    End,
 }
 
 impl Contact {
@@ -103,7 +153,19 @@ impl Contact {
         let normal = edge_pose.rotation() * edges.normals()[touch.edge];
         let start = edge_pose.transform(edges.vertices()[touch.edge]);
         let vertex = vertex_pose.transform(vertices.vertices()[touch.vertex]);
-        constraint(touch, normal, start, vertex, q.position())
+        let gap = normal.dot(&(vertex - start));
+        let arm = vertex - q.position();
+        let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
+        let gradient = match touch.edge_of {
+            EdgeOf::Fixed => along,
+            // The edge turns with the tile, under a vertex that stays: the opposite.
+            EdgeOf::Moving => -along,
+        };
+        Constraint {
+            touch,
+            gap,
+            gradient,
+        }
     }
 
     /// The contacts with a gap of at most `margin` (m): a convex vertex of one tile in front of an
@@ -114,159 +176,46 @@ impl Contact {
         if self.clearance_bound(q) > margin {
             return found;
         }
-        let fixed = Placed::new(self.fixed(), &Configuration::new(0.0, 0.0, 0.0));
-        let moving = Placed::new(self.moving(), q);
-        let convex_fixed = self.fixed().convex_vertices();
-        let convex_moving = self.moving().convex_vertices();
-        let centre = q.position();
-        vertices_against_edges(
-            &moving,
-            convex_moving,
-            &fixed,
-            convex_fixed,
+        let on_fixed = Meeting {
+            a: self.moving(),
+            b: self.fixed(),
+            pose: *q,
+        };
+        let on_moving = Meeting {
+            a: self.fixed(),
+            b: self.moving(),
+            pose: q.inverse(),
+        };
+        let touch = |edge_of, edge, vertex| Touch {
+            edge_of,
+            edge,
+            vertex,
+        };
+        let mut corners: Vec<(usize, usize)> = Vec::new();
+        on_fixed.find(
             margin,
-            |v, e| {
-                found.push(placed_constraint(
-                    &fixed,
-                    e,
-                    &moving,
-                    v,
-                    EdgeOf::Fixed,
-                    centre,
-                ));
-            },
+            |vertex, edge| found.push(self.constraint(touch(EdgeOf::Fixed, edge, vertex), q)),
+            |vertex, corner| corners.push((vertex, corner)),
         );
-        vertices_against_edges(
-            &fixed,
-            convex_fixed,
-            &moving,
-            convex_moving,
+        on_moving.find(
             margin,
-            |v, e| {
-                found.push(placed_constraint(
-                    &moving,
-                    e,
-                    &fixed,
-                    v,
-                    EdgeOf::Moving,
-                    centre,
-                ));
-            },
+            |vertex, edge| found.push(self.constraint(touch(EdgeOf::Moving, edge, vertex), q)),
+            |_, _| {},
         );
-        for (i, p) in moving.vertices.iter().enumerate() {
-            if !convex_moving[i] || !fixed.near(p, COINCIDENT) {
-                continue;
-            }
-            for (j, b) in fixed.vertices.iter().enumerate() {
-                if convex_fixed[j] && (p - b).norm() <= COINCIDENT {
-                    found.extend(corner_on_corner(&moving, i, &fixed, j, centre));
-                }
-            }
+        for (vertex, corner) in corners {
+            let by_fixed = on_fixed
+                .separating_edges(vertex, corner)
+                .map(|edge| touch(EdgeOf::Fixed, edge, vertex));
+            let by_moving = on_moving
+                .separating_edges(corner, vertex)
+                .map(|edge| touch(EdgeOf::Moving, edge, corner));
+            let clearest = by_fixed
+                .chain(by_moving)
+                .map(|touch| self.constraint(touch, q))
+                .max_by(|a, b| a.gap.total_cmp(&b.gap));
+            found.extend(clearest);
         }
         found
-    }
-}
-
-/// Calls `found(vertex, edge)` for every convex vertex of `a` within `margin` of an edge of `b`
-/// that it faces, except where it coincides with a convex corner of `b`.
-fn vertices_against_edges(
-    a: &Placed,
-    convex_a: &[bool],
-    b: &Placed,
-    convex_b: &[bool],
-    margin: f64,
-    mut found: impl FnMut(usize, usize),
-) {
-    for (i, p) in a.vertices.iter().enumerate() {
-        if !convex_a[i] || !b.near(p, margin) {
-            continue;
-        }
-        for (j, start) in b.vertices.iter().enumerate() {
-            let end = b.vertices[b.next(j)];
-            let gap = b.normals[j].dot(&(p - start));
-            if gap.abs() > margin {
-                continue;
-            }
-            let length = (end - start).norm();
-            let t = (p - start).dot(&(end - start)) / length;
-            let beside = t < -COINCIDENT || t > length + COINCIDENT;
-            let corner = |k: usize, q: &Vector2<f64>| convex_b[k] && (p - q).norm() <= COINCIDENT;
-            if beside || corner(j, start) || corner(b.next(j), &end) {
-                continue;
-            }
-            // In front of an edge's very end the vertex may pass round the corner, unless its
-            // tile lies squarely against the edge.
-            let at_end = t < COINCIDENT || t > length - COINCIDENT;
-            if at_end && !a.wedge_is_beyond(i, &b.normals[j]) {
-                continue;
-            }
-            // Behind the edge's line, but outside: in front of another edge, past a corner.
-            if gap < -TOUCH && !b.contains(p) {
-                continue;
-            }
-            found(i, j);
-        }
-    }
-}
-
-fn corner_on_corner(
-    moving: &Placed,
-    i: usize,
-    fixed: &Placed,
-    j: usize,
-    centre: Vector2<f64>,
-) -> Option<Constraint> {
-    let on_fixed = [fixed.previous(j), j]
-        .into_iter()
-        .filter(|&e| moving.wedge_is_beyond(i, &fixed.normals[e]))
-        .map(|e| placed_constraint(fixed, e, moving, i, EdgeOf::Fixed, centre));
-    let on_moving = [moving.previous(i), i]
-        .into_iter()
-        .filter(|&e| fixed.wedge_is_beyond(j, &moving.normals[e]))
-        .map(|e| placed_constraint(moving, e, fixed, j, EdgeOf::Moving, centre));
-    on_fixed
-        .chain(on_moving)
-        .max_by(|a, b| a.gap.total_cmp(&b.gap))
-}
-
-fn placed_constraint(
-    edges: &Placed,
-    edge: usize,
-    vertices: &Placed,
-    vertex: usize,
-    edge_of: EdgeOf,
-    centre: Vector2<f64>,
-) -> Constraint {
-    let touch = Touch {
-        edge_of,
-        edge,
-        vertex,
-    };
-    let (normal, start) = (edges.normals[edge], edges.vertices[edge]);
-    constraint(touch, normal, start, vertices.vertices[vertex], centre)
-}
-
-/// The gap between a vertex and an edge, given by its normal and its start, and the gap's
-/// derivative with respect to the moving tile's configuration, `centre` being its reference point.
-fn constraint(
-    touch: Touch,
-    normal: Vector2<f64>,
-    start: Vector2<f64>,
-    vertex: Vector2<f64>,
-    centre: Vector2<f64>,
-) -> Constraint {
-    let gap = normal.dot(&(vertex - start));
-    let arm = vertex - centre;
-    let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
-    let gradient = match touch.edge_of {
-        EdgeOf::Fixed => along,
-        // The edge turns with the tile, under a vertex that stays: the opposite.
-        EdgeOf::Moving => -along,
-    };
-    Constraint {
-        touch,
-        gap,
-        gradient,
     }
 }
 

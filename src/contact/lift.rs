@@ -13,11 +13,21 @@ impl Contact {
     /// Each pair of convex parts overlaps on one open interval of t, found exactly from its
     /// separating axes; the answer is the first point outside their union.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
+        let across = Vector2::new(-direction.y, direction.x);
+        let lanes: Vec<(f64, f64)> = self
+            .fixed()
+            .parts()
+            .iter()
+            .map(|part| extent(part, &across))
+            .collect();
         let mut blocked: Vec<(f64, f64)> = Vec::new();
         for part in self.moving().parts() {
             let placed = part.placed(q);
-            for other in self.fixed().parts() {
-                blocked.extend(overlap_interval(other, &placed, direction));
+            let (low, high) = extent(&placed, &across);
+            for (other, lane) in self.fixed().parts().iter().zip(&lanes) {
+                if low < lane.1 && lane.0 < high {
+                    blocked.extend(overlap_interval(other, &placed, direction));
+                }
             }
         }
         blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -29,6 +39,11 @@ impl Contact {
         }
         lifted
     }
+}
+
+/// Least and largest coordinate of a polygon along a direction.
+fn extent(part: &ConvexPart, direction: &Vector2<f64>) -> (f64, f64) {
+    (support(part, direction), -support(part, &-direction))
 }
 
 /// The open interval of translations of `moving` along `direction` at which it overlaps `fixed`.

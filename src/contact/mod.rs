@@ -5,9 +5,12 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
+pub(crate) mod sweep;
+mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
 
@@ -18,7 +21,7 @@ use parry2d_f64::shape::{Compound, SharedShape};
 
 use crate::configuration::Configuration;
 use crate::tile::Outline;
-use crate::tile::outline::ConvexPart;
+use crate::tile::outline::{Bounds, ConvexPart};
 
 /// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
@@ -31,6 +34,7 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
 }
@@ -40,6 +44,7 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
             fixed: fixed.clone(),
@@ -103,16 +108,12 @@ impl Contact {
         }
         let mut deepest: f64 = 0.0;
         for part in self.moving.parts() {
-            let placed = part.placed(q);
-            let (low, high) = placed.bounding_box();
-            for other in self.fixed.parts() {
-                let (other_low, other_high) = other.bounding_box();
-                let apart = low.x >= other_high.x
-                    || other_low.x >= high.x
-                    || low.y >= other_high.y
-                    || other_low.y >= high.y;
-                if !apart {
-                    deepest = deepest.max(-separation(other, &placed));
+            let bounds = part.placed_bounds(q);
+            let mut placed = None;
+            for (other, other_bounds) in self.fixed.parts().iter().zip(&self.fixed_bounds) {
+                if !bounds.apart(other_bounds) {
+                    let placed = placed.get_or_insert_with(|| part.placed(q));
+                    deepest = deepest.max(-separation(other, placed));
                 }
             }
         }

@@ -53,11 +53,22 @@ impl Contact {
             return true;
         }
         self.moving().parts().iter().all(|part| {
-            let (start, end) = (part.placed(a), part.placed(b));
+            // x and y are axes of the fixed tile like any other: boxes apart settle most pairs.
+            let bounds = part
+                .placed_bounds(a)
+                .union(&part.placed_bounds(b))
+                .grown(sag.fixed_axis);
+            let mut placed = None;
             self.fixed()
                 .parts()
                 .iter()
-                .all(|other| sag.separates(other, &start, &end))
+                .zip(&self.fixed_bounds)
+                .filter(|(_, other_bounds)| !bounds.apart(other_bounds))
+                .all(|(other, _)| {
+                    let (start, end) =
+                        placed.get_or_insert_with(|| (part.placed(a), part.placed(b)));
+                    sag.separates(other, start, end)
+                })
         })
     }
 }

@@ -1,6 +1,7 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
 pub mod capture;
+pub mod certificate;
 pub mod inventory;
 pub mod map;
 pub mod meeting;

@@ -143,3 +143,145 @@ impl Potential for ScalarDipoles {
         step.xy().norm() + self.lever * step.z.abs()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    const X: Vector2<f64> = Vector2::new(1.0, 0.0);
+    const Y: Vector2<f64> = Vector2::new(0.0, 1.0);
+
+    fn random_vector(rng: &mut ChaCha8Rng, size: f64) -> Vector2<f64> {
+        Vector2::new(rng.random_range(-size..size), rng.random_range(-size..size))
+    }
+
+    fn random_tile(rng: &mut ChaCha8Rng, count: usize) -> Vec<Dipole> {
+        (0..count)
+            .map(|_| Dipole {
+                position: random_vector(rng, 0.2),
+                moment: random_vector(rng, 1.0),
+            })
+            .collect()
+    }
+
+    /// Two tiles whose dipoles come no closer than some 5 cm.
+    fn random_case(rng: &mut ChaCha8Rng) -> (ScalarDipoles, Configuration) {
+        let potential = ScalarDipoles::new(&random_tile(rng, 4), &random_tile(rng, 3));
+        let theta = rng.random_range(-PI..PI);
+        let q = Configuration::new(
+            rng.random_range(0.6..0.8),
+            rng.random_range(-0.3..0.3),
+            theta,
+        );
+        (potential, q)
+    }
+
+    #[test]
+    fn dipoles_in_line_side_by_side_and_at_right_angles() {
+        // K / r^3 with moments of 2 and 3 A m^2 at 0.1 m.
+        let unit = 1e-7 * 6.0 / 1e-3;
+        let energy = |a: Vector2<f64>, b: Vector2<f64>| pair(a * 2.0, b * 3.0, X * 0.1).0;
+        for (a, b, expected) in [
+            (X, X, -2.0),
+            (X, -X, 2.0),
+            (Y, Y, 1.0),
+            (Y, -Y, -1.0),
+            (X, Y, 0.0),
+        ] {
+            assert!((energy(a, b) - expected * unit).abs() < 1e-15 * unit);
+        }
+    }
+
+    #[test]
+    fn action_equals_reaction_and_energy_falls_as_the_cube() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..100 {
+            let (m1, m2) = (random_vector(&mut rng, 1.0), random_vector(&mut rng, 1.0));
+            let r = random_vector(&mut rng, 1.0);
+            let (energy, force, slope) = pair(m1, m2, r);
+            let (other, reaction, counter_slope) = pair(m2, m1, -r);
+            let size = 1e-7 * m1.norm() * m2.norm() / r.norm().powi(3);
+            assert!((energy - other).abs() < 1e-14 * size);
+            assert!((force + reaction).norm() < 1e-14 * size / r.norm());
+            // No net torque on the two together.
+            let orbital = r.x * force.y - r.y * force.x;
+            assert!((orbital - slope - counter_slope).abs() < 1e-13 * size);
+            let (farther, weaker, _) = pair(m1, m2, r * 2.0);
+            assert!((farther * 8.0 - energy).abs() < 1e-14 * size);
+            assert!((weaker * 16.0 - force).norm() < 1e-13 * size / r.norm());
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_the_energy() {
+        let mut rng = ChaCha8Rng::seed_from_u64(2);
+        for _ in 0..100 {
+            let (potential, q) = random_case(&mut rng);
+            let gradient = potential.energy_and_gradient(&q).1;
+            let h = 1e-5;
+            let difference = Vector3::from_fn(|i, _| {
+                let step = Vector3::from_fn(|j, _| if i == j { h } else { 0.0 });
+                let ahead = potential.energy(&q.moved(step));
+                (ahead - potential.energy(&q.moved(-step))) / (2.0 * h)
+            });
+            assert!((difference - gradient).norm() < 1e-5 * gradient.norm());
+        }
+    }
+
+    #[test]
+    fn the_tiles_may_be_seen_from_either_one() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        for _ in 0..100 {
+            let (potential, q) = random_case(&mut rng);
+            let exchanged = ScalarDipoles::new(&potential.moving, &potential.fixed);
+            let (energy, other) = (potential.energy(&q), exchanged.energy(&q.inverse()));
+            assert!((energy - other).abs() < 1e-12 * energy.abs().max(1e-9));
+        }
+    }
+
+    #[test]
+    fn the_curvature_is_bounded_within_reach() {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        let mut closest = 0f64;
+        for _ in 0..300 {
+            let (potential, q) = random_case(&mut rng);
+            let away = random_vector(&mut rng, 1.0);
+            let direction = Vector3::new(away.x, away.y, rng.random_range(-5.0..5.0));
+            let step = direction / potential.displacement(direction);
+            let (reach, h) = (0.01, 1e-4);
+            let bound = potential.curvature_bound(&q, reach);
+            for at in [-reach + h, 0.0, reach - h] {
+                let u = |t: f64| potential.energy(&q.moved(step * t));
+                let curvature = (u(at + h) - 2.0 * u(at) + u(at - h)) / (h * h);
+                closest = closest.max(curvature.abs() / bound);
+            }
+        }
+        // A bound that is never approached would be of little use.
+        assert!(
+            (0.01..=1.0).contains(&closest),
+            "at most {closest} of the bound"
+        );
+    }
+
+    #[test]
+    fn nothing_is_known_where_dipoles_may_meet() {
+        let dipole = Dipole {
+            position: X * 0.25,
+            moment: Y,
+        };
+        let potential = ScalarDipoles::new(&[dipole], &[dipole]);
+        let q = Configuration::new(0.5, 0.0, 0.0);
+        assert_eq!(potential.curvature_bound(&q, 0.5), f64::INFINITY);
+        assert!(potential.curvature_bound(&q, 0.49).is_finite());
+        let met = Configuration::new(0.0, 0.0, 0.0);
+        assert_eq!(
+            potential.energy_and_gradient(&met),
+            (f64::INFINITY, Vector3::zeros())
+        );
+    }
+}

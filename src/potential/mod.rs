@@ -1,12 +1,14 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
 pub mod batch;
+pub mod bounds;
 pub mod dipole;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
+pub use bounds::CellBounds;
 
 /// A potential energy over configurations.
 ///

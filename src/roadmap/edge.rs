@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Milestone;
-use super::profile::{Profile, ProfileTolerance, Sample};
+use super::profile::{Profile, ProfileTolerance};
 use crate::problem::Problem;
 
 /// What a motion costs, read off one energy profile.
@@ -76,37 +76,40 @@ pub fn costs(
         peak_at: peak.t,
         length,
         work: [work.0, work.1],
-        improbability: improbabilities(&profile, length, settings),
+        improbability: improbabilities(|t| profile.energy_at(t), length, settings),
     })
 }
 
 /// The costs of a way given by energies (J) at points so close that the energy between two of them
 /// is as good as linear, and the lengths (m) between them.
 pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSettings) -> EdgeCosts {
-    let length: f64 = lengths.iter().sum();
-    let mut t = 0.0;
-    let mut samples = vec![Sample {
-        t,
-        energy: energies[0],
-        slope: 0.0,
-    }];
-    for (energy, step) in energies[1..].iter().zip(lengths) {
-        t += step / length.max(f64::MIN_POSITIVE);
-        samples.push(Sample {
-            t,
-            energy: *energy,
-            slope: 0.0,
-        });
+    let mut along = vec![0.0];
+    for step in lengths {
+        along.push(along[along.len() - 1] + step);
     }
-    let profile = Profile { samples };
-    let peak = profile.peak();
-    let work = profile.work();
+    let length = along[along.len() - 1];
+    let highest = (0..energies.len())
+        .max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+        .unwrap_or(0);
+    let mut work = [0.0; 2];
+    for pair in energies.windows(2) {
+        let climb = pair[1] - pair[0];
+        work[0] += climb.max(0.0);
+        work[1] += (-climb).max(0.0);
+    }
+    let energy_at = |t: f64| {
+        let s = t * length;
+        let i = along.partition_point(|a| *a < s).clamp(1, along.len().max(2) - 1);
+        let (a, b) = (along[i - 1], along[i]);
+        let share = if b > a { (s - a) / (b - a) } else { 1.0 };
+        energies[i - 1] + (energies[i] - energies[i - 1]) * share
+    };
     EdgeCosts {
-        peak: peak.energy,
-        peak_at: peak.t,
+        peak: energies[highest],
+        peak_at: along[highest] / length.max(f64::MIN_POSITIVE),
         length,
-        work: [work.0, work.1],
-        improbability: improbabilities(&profile, length, settings),
+        work,
+        improbability: improbabilities(energy_at, length, settings),
     }
 }
 
@@ -115,10 +118,14 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
 /// to the last one (D-) with probability `e^(-D+/kT) / (e^(-D+/kT) + e^(-D-/kT))`; the first step
 /// is weighed against staying (D- = 0). Source: Singh, Latombe and Brutlag, *A motion planning
 /// approach to flexible ligand binding* (ISMB 1999), section "Edge weights". Both ends count.
-fn improbabilities(profile: &Profile, length: f64, settings: &EdgeSettings) -> [f64; 2] {
+fn improbabilities(
+    energy_at: impl Fn(f64) -> f64,
+    length: f64,
+    settings: &EdgeSettings,
+) -> [f64; 2] {
     let steps = (length / settings.probability_step).ceil().max(1.0) as usize;
     let energies: Vec<f64> = (0..=steps)
-        .map(|i| profile.energy_at(i as f64 / steps as f64))
+        .map(|i| energy_at(i as f64 / steps as f64))
         .collect();
     let mut reversed = energies.clone();
     reversed.reverse();

@@ -2,6 +2,7 @@
 
 pub mod assembly;
 pub mod barcode;
+pub mod edge_grid;
 pub mod magnet;
 pub mod outline;
 pub mod profile;

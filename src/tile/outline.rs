@@ -9,6 +9,7 @@ use parry2d_f64::math::Vector;
 use parry2d_f64::shape::TriMesh;
 use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn};
 
+use super::edge_grid::EdgeGrid;
 use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
@@ -40,12 +41,62 @@ impl ConvexPart {
         }
     }
 
-    /// Lowest and highest coordinates.
-    pub fn bounding_box(&self) -> (Vector2<f64>, Vector2<f64>) {
-        let first = self.points[0];
-        let low = self.points.iter().fold(first, |a, b| a.inf(b));
-        let high = self.points.iter().fold(first, |a, b| a.sup(b));
-        (low, high)
+    /// The box around the part.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::around(self.points.iter().copied())
+    }
+
+    /// The box around the part as it lies at a configuration of its tile.
+    pub fn placed_bounds(&self, q: &Configuration) -> Bounds {
+        let rotation = q.rotation();
+        Bounds::around(self.points.iter().map(|p| q.position() + rotation * p))
+    }
+}
+
+/// A box with sides along x and y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub low: Vector2<f64>,
+    pub high: Vector2<f64>,
+}
+
+impl Bounds {
+    fn around(points: impl Iterator<Item = Vector2<f64>>) -> Self {
+        let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+        points.fold(
+            Self {
+                low: Vector2::repeat(high),
+                high: Vector2::repeat(low),
+            },
+            |bounds, p| Self {
+                low: bounds.low.inf(&p),
+                high: bounds.high.sup(&p),
+            },
+        )
+    }
+
+    /// The box around both.
+    pub fn union(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    /// The box with each side moved outwards by `margin` (m).
+    pub fn grown(&self, margin: f64) -> Self {
+        Self {
+            low: self.low.add_scalar(-margin),
+            high: self.high.add_scalar(margin),
+        }
+    }
+
+    /// Whether the boxes share no inner point.
+    pub fn apart(&self, other: &Self) -> bool {
+        self.low.x >= other.high.x
+            || other.low.x >= self.high.x
+            || self.low.y >= other.high.y
+            || other.low.y >= self.high.y
     }
 }
 
@@ -57,6 +108,7 @@ pub struct Outline {
     convex: Vec<bool>,
     parts: Vec<ConvexPart>,
     circumradius: f64,
+    grid: EdgeGrid,
 }
 
 /// Why a list of vertices is no outline.
@@ -91,6 +143,7 @@ impl Outline {
             .map(|i| cross(normals[(i + n - 1) % n], normals[i]) > 0.0)
             .collect();
         let parts = convex_parts(&vertices).ok_or(OutlineError::NotDecomposable)?;
+        let grid = EdgeGrid::new(&vertices);
         let circumradius = vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
         Ok(Self {
             vertices,
@@ -98,6 +151,7 @@ impl Outline {
             convex,
             parts,
             circumradius,
+            grid,
         })
     }
 
@@ -129,6 +183,11 @@ impl Outline {
             .collect();
         let hull = convex_hull(&points);
         ConvexPart::new(hull.iter().map(|p| Vector2::new(p.x, p.y)).collect())
+    }
+
+    /// Finds the edges near a point.
+    pub fn grid(&self) -> &EdgeGrid {
+        &self.grid
     }
 
     /// Largest distance of a point of the outline from the reference point (m).

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 /// Largest distance (m) of a chord from the curve that it stands for: far below what is cut or
 /// printed to, and few enough points for contact to stay cheap.
-pub const CHORD_ERROR: f64 = 2e-5;
+pub const CHORD_ERROR: f64 = 5e-5;
 
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;

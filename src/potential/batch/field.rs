@@ -8,7 +8,9 @@
 //! several dipoles of one. Either way a place's field comes out of the same operations in the same
 //! order, so it has the same bits.
 
-use super::lanes::Lanes;
+use super::bundle::Bundle;
+use super::lanes::Arithmetic;
+use crate::potential::dipole::Dipole;
 
 /// A dipole of the fixed tile: place (m), scaled moment (sqrt(J m^3)) and three times that.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +22,17 @@ pub struct Source {
     pub magnitude: f64,
 }
 
+impl From<&Dipole> for Source {
+    fn from(dipole: &Dipole) -> Self {
+        Self {
+            position: dipole.position.into(),
+            moment: dipole.moment.into(),
+            thrice: (dipole.moment * 3.0).into(),
+            magnitude: dipole.moment.norm(),
+        }
+    }
+}
+
 /// The field A at some places, with its derivatives if they are asked for.
 #[derive(Clone, Copy)]
 pub struct Field<F> {
@@ -29,63 +42,92 @@ pub struct Field<F> {
     pub slope: [F; 3],
 }
 
-/// The field of the sources at `N` times `L::WIDTH` places (the `N` vectors are independent of
-/// each other, which keeps the arithmetic units busy).
+/// How many sources are taken at once; the number of sources must be a multiple of it.
+pub const TOGETHER: usize = 2;
+
+/// The field of the sources at `N` vectors of places.
 ///
-/// With `s = m.d`, `u = 3 s / r^2` and `v = m - u d`, a source gives `A = r^-3 v` and
-/// `dA_a/db = -r^-5 [3 (v_a d_b + v_b d_a) + u d_a d_b + 3 s delta_ab]`, whose trace is
-/// `3 r^-5 s`.
+/// With `s = m.d`, `u = 3 s / r^2` and `v = m - u d`, a source gives `A = r^-3 v` and, with
+/// `z = v + u d / 6` and `f = r^-5 d`, `dA_a/db = -3 (z_a f_b + z_b f_a) - 3 r^-5 s delta_ab`,
+/// whose trace is `3 r^-5 s`.
 #[inline(always)]
-pub fn field<L: Lanes, const N: usize, const SLOPE: bool>(
+pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
     l: L,
     sources: &[Source],
-    place: [[L::F; 2]; N],
+    places: &[[L::F; 2]; N],
 ) -> [Field<L::F>; N] {
-    let zero = l.splat(0.0);
-    let mut sums = [Sums {
-        a: [zero; 2],
-        outer: [zero; 2],
-        trace: zero,
-    }; N];
-    for source in sources {
-        let position = source.position.map(|c| l.splat(c));
-        let moment = source.moment.map(|c| l.splat(c));
-        let thrice = source.thrice.map(|c| l.splat(c));
-        for (sum, place) in sums.iter_mut().zip(&place) {
-            let d = [l.sub(place[0], position[0]), l.sub(place[1], position[1])];
-            let r2 = l.mul_add(d[0], d[0], l.mul(d[1], d[1]));
-            let s3 = l.mul_add(thrice[0], d[0], l.mul(thrice[1], d[1]));
-            let w1 = l.reciprocal_sqrt(r2);
-            let w2 = l.mul(w1, w1);
-            let w3 = l.mul(w1, w2);
-            let u = l.mul(s3, w2);
-            let v = [
-                l.neg_mul_add(u, d[0], moment[0]),
-                l.neg_mul_add(u, d[1], moment[1]),
-            ];
-            sum.a = [l.mul_add(w3, v[0], sum.a[0]), l.mul_add(w3, v[1], sum.a[1])];
-            if SLOPE {
-                let w5 = l.mul(w3, w2);
-                let f = [l.mul(w5, d[0]), l.mul(w5, d[1])];
-                // v + u d / 6 takes the term u d_a d_b into the symmetric product.
-                let u6 = l.mul(u, l.splat(1.0 / 6.0));
-                let v = [l.mul_add(u6, d[0], v[0]), l.mul_add(u6, d[1], v[1])];
-                sum.outer[0] = l.mul_add(v[0], f[0], sum.outer[0]);
-                sum.outer[1] = l.mul_add(v[0], f[1], sum.outer[1]);
-                sum.outer[1] = l.mul_add(v[1], f[0], sum.outer[1]);
-                sum.trace = l.mul_add(w5, s3, sum.trace);
+    let b = Bundle::<L, N, TOGETHER>(l);
+    let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
+    for ((x, y), place) in x.iter_mut().zip(&mut y).zip(places) {
+        [*x, *y] = *place;
+    }
+    let (x, y) = ([x; TOGETHER], [y; TOGETHER]);
+    let mut sums = [Sums::zero(l); N];
+    for pair in sources.as_chunks::<TOGETHER>().0 {
+        let position = [
+            b.rows(pair.map(|s| s.position[0])),
+            b.rows(pair.map(|s| s.position[1])),
+        ];
+        let moment = [
+            b.rows(pair.map(|s| s.moment[0])),
+            b.rows(pair.map(|s| s.moment[1])),
+        ];
+        let thrice = [
+            b.rows(pair.map(|s| s.thrice[0])),
+            b.rows(pair.map(|s| s.thrice[1])),
+        ];
+
+        let d = [b.sub(x, position[0]), b.sub(y, position[1])];
+        let r2 = b.mul_add(d[0], d[0], b.mul(d[1], d[1]));
+        let s3 = b.mul_add(thrice[0], d[0], b.mul(thrice[1], d[1]));
+        let w1 = b.reciprocal_sqrt(r2);
+        let w2 = b.mul(w1, w1);
+        let w3 = b.mul(w1, w2);
+        let u = b.mul(s3, w2);
+        let v = [
+            b.neg_mul_add(u, d[0], moment[0]),
+            b.neg_mul_add(u, d[1], moment[1]),
+        ];
+        for j in 0..TOGETHER {
+            for k in 0..N {
+                sums[k].add(l, w3[j][k], [v[0][j][k], v[1][j][k]]);
+            }
+        }
+        if SLOPE {
+            let w5 = b.mul(w3, w2);
+            let f = [b.mul(w5, d[0]), b.mul(w5, d[1])];
+            let u6 = b.mul(u, b.splat(1.0 / 6.0));
+            let z = [b.mul_add(u6, d[0], v[0]), b.mul_add(u6, d[1], v[1])];
+            for j in 0..TOGETHER {
+                for k in 0..N {
+                    let (z, f) = ([z[0][j][k], z[1][j][k]], [f[0][j][k], f[1][j][k]]);
+                    sums[k].add_slope(l, z, f, w5[j][k], s3[j][k]);
+                }
             }
         }
     }
-    sums.map(|sum| sum.field(l))
+    let mut fields = [Field {
+        x: l.splat(0.0),
+        y: l.splat(0.0),
+        slope: [l.splat(0.0); 3],
+    }; N];
+    for (field, sum) in fields.iter_mut().zip(&sums) {
+        *field = sum.field(l);
+    }
+    fields
+}
+
+/// The same pair of numbers in all lanes.
+#[inline(always)]
+pub fn pair_of<L: Arithmetic>(l: L, [x, y]: [f64; 2]) -> [L::F; 2] {
+    [l.splat(x), l.splat(y)]
 }
 
 /// Running sums over the sources.
 #[derive(Clone, Copy)]
 struct Sums<F> {
     a: [F; 2],
-    /// The xx and the xy element of the symmetric product of `v` and `r^-5 d`, halved on the
-    /// diagonal.
+    /// The xx and the xy element of the symmetric product of `z` and `f`, the former halved.
     outer: [F; 2],
     /// `3 r^-5 s`, the trace of the slope.
     trace: F,
@@ -93,7 +135,31 @@ struct Sums<F> {
 
 impl<F: Copy> Sums<F> {
     #[inline(always)]
-    fn field<L: Lanes<F = F>>(self, l: L) -> Field<F> {
+    fn zero<L: Arithmetic<F = F>>(l: L) -> Self {
+        let zero = l.splat(0.0);
+        Self {
+            a: [zero; 2],
+            outer: [zero; 2],
+            trace: zero,
+        }
+    }
+
+    #[inline(always)]
+    fn add<L: Arithmetic<F = F>>(&mut self, l: L, w3: F, v: [F; 2]) {
+        self.a[0] = l.mul_add(w3, v[0], self.a[0]);
+        self.a[1] = l.mul_add(w3, v[1], self.a[1]);
+    }
+
+    #[inline(always)]
+    fn add_slope<L: Arithmetic<F = F>>(&mut self, l: L, z: [F; 2], f: [F; 2], w5: F, s3: F) {
+        self.outer[0] = l.mul_add(z[0], f[0], self.outer[0]);
+        self.outer[1] = l.mul_add(z[0], f[1], self.outer[1]);
+        self.outer[1] = l.mul_add(z[1], f[0], self.outer[1]);
+        self.trace = l.mul_add(w5, s3, self.trace);
+    }
+
+    #[inline(always)]
+    fn field<L: Arithmetic<F = F>>(&self, l: L) -> Field<F> {
         let xx = l.neg_mul_add(l.splat(6.0), self.outer[0], l.sub(l.splat(0.0), self.trace));
         let xy = l.mul(l.splat(-3.0), self.outer[1]);
         let yy = l.sub(self.trace, xx);
@@ -117,7 +183,7 @@ pub struct Frame<F> {
 impl<F: Copy> Frame<F> {
     /// The place of a point given in the moving tile's frame.
     #[inline(always)]
-    pub fn place<L: Lanes<F = F>>(&self, l: L, point: [F; 2]) -> [F; 2] {
+    pub fn place<L: Arithmetic<F = F>>(&self, l: L, point: [F; 2]) -> [F; 2] {
         [
             l.mul_add(
                 self.cos,
@@ -129,7 +195,7 @@ impl<F: Copy> Frame<F> {
     }
 
     #[inline(always)]
-    fn rotate<L: Lanes<F = F>>(&self, l: L, v: [F; 2]) -> [F; 2] {
+    fn rotate<L: Arithmetic<F = F>>(&self, l: L, v: [F; 2]) -> [F; 2] {
         [
             l.neg_mul_add(self.sin, v[1], l.mul(self.cos, v[0])),
             l.mul_add(self.sin, v[0], l.mul(self.cos, v[1])),
@@ -151,7 +217,7 @@ pub struct Shares<F> {
 
 impl<F: Copy> Shares<F> {
     #[inline(always)]
-    pub fn zero<L: Lanes<F = F>>(l: L) -> Self {
+    pub fn zero<L: Arithmetic<F = F>>(l: L) -> Self {
         Self::from_array([l.splat(0.0); 5])
     }
 
@@ -171,7 +237,7 @@ impl<F: Copy> Shares<F> {
     }
 
     #[inline(always)]
-    pub fn add<L: Lanes<F = F>>(self, l: L, other: Self) -> Self {
+    pub fn add<L: Arithmetic<F = F>>(self, l: L, other: Self) -> Self {
         let (mut sum, other) = (self.to_array(), other.to_array());
         for (a, b) in sum.iter_mut().zip(other) {
             *a = l.add(*a, b);
@@ -182,7 +248,7 @@ impl<F: Copy> Shares<F> {
     /// Adds the share of the dipole of the given moment (in the moving tile's frame) at `place`,
     /// where the field is `field`.
     #[inline(always)]
-    pub fn gather<L: Lanes<F = F>, const SLOPE: bool>(
+    pub fn gather<L: Arithmetic<F = F>, const SLOPE: bool>(
         &mut self,
         l: L,
         frame: &Frame<F>,
@@ -209,7 +275,7 @@ impl<F: Copy> Shares<F> {
 
     /// The energy, and its gradient.
     #[inline(always)]
-    pub fn finish<L: Lanes<F = F>>(&self, l: L, frame: &Frame<F>) -> (F, [F; 3]) {
+    pub fn finish<L: Arithmetic<F = F>>(&self, l: L, frame: &Frame<F>) -> (F, [F; 3]) {
         let energy = l.neg_mul_add(frame.sin, self.across, l.mul(frame.cos, self.along));
         let turn = l.neg_mul_add(frame.sin, self.along, self.slope[2]);
         let turn = l.neg_mul_add(frame.cos, self.across, turn);

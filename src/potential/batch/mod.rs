@@ -3,46 +3,57 @@
 //!
 //! One configuration has its moving dipoles in the lanes, many configurations have one
 //! configuration in each lane; either way each configuration's numbers come out of the same
-//! operations in the same order. So all functions agree with one another bit for bit, whatever
-//! else is in a batch and wherever in it a configuration stands. Different instruction sets sum in
-//! different orders, and differ by some 1e-13 of the sum of the pairs' magnitudes, as do they all
-//! from the scalar formula of [`super::dipole`].
+//! operations in the same order. So energies and gradients are the same bits whichever function
+//! gives them, whatever else is in a batch and wherever in it a configuration stands. They are not
+//! the same on all machines: instruction sets sum in different orders, and makes of CPU have
+//! different estimates of `1 / sqrt`. All differ by at most some 1e-13 of the sum of the pairs'
+//! magnitudes from one another and from the scalar formula of [`super::dipole`].
 //!
 //! Edges: where dipoles coincide (or are within 1e-19 m) the energy is plus infinity and the
-//! gradient zero.
+//! gradient zero. Poses beyond 1e18 m are not supported.
 
+mod bundle;
+mod curvature;
 mod field;
 pub mod lanes;
-mod series;
+mod level;
+mod operations;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod sin_cos;
 mod tasks;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 use nalgebra::Vector3;
 
-pub use lanes::Level;
+pub use level::Level;
+pub use operations::Operations;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
-use field::Source;
-use tasks::{Curvature, Many, One};
+use curvature::Curvature;
+use field::{Source, TOGETHER};
+use tasks::{Many, One};
 
-/// The interaction energy of two sets of point dipoles, one in each tile, laid out for the instruction set they are used with.
+/// The interaction energy of two sets of point dipoles, one in each tile, laid out for the
+/// instruction set it is computed with.
 #[derive(Clone, Debug)]
 pub struct DipolePotential {
     level: Level,
-    fixed: Vec<Source>,
+    /// The fixed tile's dipoles, in groups of [`TOGETHER`].
+    sources: Vec<Source>,
+    /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
     /// The largest distance of a moving dipole from its tile's reference point (m).
     lever: f64,
 }
 
-/// The moving tile's dipoles, as a structure of arrays. It is filled up to a multiple of the
-/// number of lanes with copies of the last dipole that have no moment (a copy is where a dipole is
-/// anyway, so that it is infinite nowhere else).
+/// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
+/// (sqrt(J m^3)).
 #[derive(Clone, Debug)]
 struct Moving {
     /// How many there are before the filling.
@@ -51,7 +62,6 @@ struct Moving {
     y: Vec<f64>,
     moment_x: Vec<f64>,
     moment_y: Vec<f64>,
-    /// Magnitude of the scaled moment.
     magnitude: Vec<f64>,
 }
 
@@ -63,46 +73,44 @@ impl DipolePotential {
 
     /// Of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
-        let scale = (MU0 / (4.0 * std::f64::consts::PI)).sqrt();
-        let source = |dipole: &Dipole| {
-            let moment = dipole.moment * scale;
-            Source {
-                position: dipole.position.into(),
-                moment: moment.into(),
-                thrice: (moment * 3.0).into(),
-                magnitude: moment.norm(),
-            }
-        };
-        let length = moving.len().next_multiple_of(level.width());
-        let column = |value: &dyn Fn(&Dipole) -> f64, filling: f64| {
-            let last = moving.last().map_or(0.0, value);
-            let mut values: Vec<f64> = moving.iter().map(value).collect();
-            values.resize(length, last * filling);
-            values
-        };
+        let sources = scaled_and_filled(fixed, TOGETHER);
+        let lanes = scaled_and_filled(moving, level.width());
+        let column = |value: fn(&Dipole) -> f64| lanes.iter().map(value).collect();
         Self {
             level,
-            fixed: fixed.iter().map(source).collect(),
+            sources: sources.iter().map(Source::from).collect(),
             moving: Moving {
                 count: moving.len(),
-                x: column(&|d| d.position.x, 1.0),
-                y: column(&|d| d.position.y, 1.0),
-                moment_x: column(&|d| d.moment.x * scale, 0.0),
-                moment_y: column(&|d| d.moment.y * scale, 0.0),
-                magnitude: column(&|d| d.moment.norm() * scale, 0.0),
+                x: column(|d| d.position.x),
+                y: column(|d| d.position.y),
+                moment_x: column(|d| d.moment.x),
+                moment_y: column(|d| d.moment.y),
+                magnitude: column(|d| d.moment.norm()),
             },
             lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
         }
     }
 
+    /// The instruction set it is computed with.
     pub fn level(&self) -> Level {
         self.level
     }
+}
 
-    /// How many pairs of dipoles an energy sums over.
-    pub fn pairs(&self) -> usize {
-        self.fixed.len() * self.moving.count
+/// Dipoles with their moments scaled by `sqrt(mu0 / 4 pi)`, so that products of two are in J m^3,
+/// filled up to a multiple of `group` with copies of the last one that have no moment. (A copy is
+/// where a dipole is anyway, so no energy becomes infinite for it.)
+fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
+    let scale = (MU0 / (4.0 * std::f64::consts::PI)).sqrt();
+    let scaled = |dipole: &Dipole, scale| Dipole {
+        position: dipole.position,
+        moment: dipole.moment * scale,
+    };
+    let mut filled: Vec<_> = dipoles.iter().map(|d| scaled(d, scale)).collect();
+    if let Some(last) = dipoles.last() {
+        filled.resize(dipoles.len().next_multiple_of(group), scaled(last, 0.0));
     }
+    filled
 }
 
 impl Potential for DipolePotential {
@@ -146,12 +154,15 @@ impl Potential for DipolePotential {
     }
 }
 
-/// Infinity, and no gradient, in place of what is not a finite energy.
+/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
 fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
-    if energy.is_finite() {
+    if !energy.is_finite() {
+        return (f64::INFINITY, Vector3::zeros());
+    }
+    if gradient.iter().all(|slope| slope.is_finite()) {
         (energy, gradient)
     } else {
-        (f64::INFINITY, Vector3::zeros())
+        (energy, Vector3::zeros())
     }
 }
 

@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::lanes::{Lanes, MAX_WIDTH, Task};
 use super::*;
 use crate::potential::dipole::ScalarDipoles;
 
@@ -189,5 +190,79 @@ fn many_turns_change_little() {
             let size = magnitudes(&fixed, &moving, &q).0;
             assert!((kernel.energy(&q) - scalar.energy(&q)).abs() <= 1e-12 * size);
         }
+    }
+}
+
+/// A change of these numbers is a change of the kernel's speed; the bench measures how much.
+#[test]
+fn operations_a_pair() {
+    let count = |gradient| {
+        let Operations {
+            simple,
+            fused,
+            estimates,
+        } = Operations::per_pair(gradient, false);
+        (simple, fused, estimates)
+    };
+    assert_eq!(count(false), (9, 10, 1));
+    assert_eq!(count(true), (13, 16, 1));
+}
+
+/// The vector functions at one argument.
+struct Functions(f64);
+
+impl Task for Functions {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> [f64; 4] {
+        let x = l.splat(self.0);
+        let (sin, cos) = l.sin_cos(x);
+        let mut results = [0.0; 4];
+        for (result, lanes) in
+            results
+                .iter_mut()
+                .zip([sin, cos, l.reciprocal_sqrt(l.mul(x, x)), l.reciprocal(x)])
+        {
+            let mut values = [0.0; MAX_WIDTH];
+            l.store(lanes, &mut values);
+            assert!(
+                values[..L::WIDTH]
+                    .iter()
+                    .all(|v| v.to_bits() == values[0].to_bits())
+            );
+            *result = values[0];
+        }
+        results
+    }
+}
+
+#[test]
+fn vector_functions() {
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    for level in Level::available() {
+        for i in 0..20_000 {
+            let x = match i % 3 {
+                0 => rng.random_range(-PI..PI),
+                1 => rng.random_range(-1e5..1e5),
+                // Close to a multiple of pi / 4, where quarter turns are told apart.
+                _ => {
+                    let eighths =
+                        f64::from(rng.random_range(-40..40)) + 1e-12 * rng.random::<f64>();
+                    eighths * PI / 4.0
+                }
+            };
+            let [sin, cos, root, reciprocal] = level.run(Functions(x));
+            assert!((sin - x.sin()).abs() < 3e-16, "{level}: sin {x}");
+            assert!((cos - x.cos()).abs() < 3e-16, "{level}: cos {x}");
+            if x != 0.0 {
+                assert!(
+                    (root * x.abs() - 1.0).abs() < 1e-13,
+                    "{level}: 1 / sqrt {x}"
+                );
+                assert!((reciprocal * x - 1.0).abs() < 1e-13, "{level}: 1 / {x}");
+            }
+        }
+        assert_eq!(level.run(Functions(0.0))[..2], [0.0, 1.0]);
     }
 }

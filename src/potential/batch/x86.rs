@@ -4,8 +4,8 @@
 
 use std::arch::x86_64::*;
 
-use super::lanes::{Lanes, Task};
-use super::series::{Series, reciprocal_sqrt_from, sin_cos_from};
+use super::lanes::{Arithmetic, Lanes, Task};
+use super::sin_cos::{QuarterTurns, sin_cos};
 
 /// Four lanes. Only [`Avx2::detect`] makes one, so whoever holds one runs on a CPU that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,25 +57,13 @@ impl Avx512 {
     }
 }
 
-impl Lanes for Avx2 {
+impl Arithmetic for Avx2 {
     type F = __m256d;
-    const WIDTH: usize = 4;
+    const ESTIMATE_IS_EXACT: bool = false;
 
     #[inline(always)]
     fn splat(self, value: f64) -> __m256d {
         with!(self: _mm256_set1_pd(value))
-    }
-
-    #[inline(always)]
-    fn load(self, values: &[f64]) -> __m256d {
-        let values = &values[..Self::WIDTH];
-        with!(self: _mm256_loadu_pd(values.as_ptr()))
-    }
-
-    #[inline(always)]
-    fn store(self, lanes: __m256d, values: &mut [f64]) {
-        let values = &mut values[..Self::WIDTH];
-        with!(self: _mm256_storeu_pd(values.as_mut_ptr(), lanes))
     }
 
     #[inline(always)]
@@ -108,20 +96,41 @@ impl Lanes for Avx2 {
         with!(self: _mm256_min_pd(a, b))
     }
 
-    /// From the single-precision estimate, whose relative error is at most 1.5 / 2^12.
+    /// In single precision, with a relative error of at most 1.5 / 2^12.
     #[inline(always)]
-    fn reciprocal_sqrt(self, a: __m256d) -> __m256d {
-        let estimate = with!(self: _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(a))));
-        reciprocal_sqrt_from(self, a, estimate)
+    fn reciprocal_sqrt_estimate(self, a: __m256d) -> __m256d {
+        with!(self: _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(a))))
+    }
+
+    /// In single precision, with a relative error of at most 1.5 / 2^12.
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: __m256d) -> __m256d {
+        with!(self: _mm256_cvtps_pd(_mm_rcp_ps(_mm256_cvtpd_ps(a))))
+    }
+}
+
+impl Lanes for Avx2 {
+    const WIDTH: usize = 4;
+
+    #[inline(always)]
+    fn load(self, values: &[f64]) -> __m256d {
+        let values = &values[..Self::WIDTH];
+        with!(self: _mm256_loadu_pd(values.as_ptr()))
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: __m256d, values: &mut [f64]) {
+        let values = &mut values[..Self::WIDTH];
+        with!(self: _mm256_storeu_pd(values.as_mut_ptr(), lanes))
     }
 
     #[inline(always)]
     fn sin_cos(self, angle: __m256d) -> (__m256d, __m256d) {
-        sin_cos_from(self, angle)
+        sin_cos(self, angle)
     }
 }
 
-impl Series for Avx2 {
+impl QuarterTurns for Avx2 {
     #[inline(always)]
     fn turn(self, quarters: __m256d, sin: __m256d, cos: __m256d) -> (__m256d, __m256d) {
         with!(self: {
@@ -141,25 +150,13 @@ impl Series for Avx2 {
     }
 }
 
-impl Lanes for Avx512 {
+impl Arithmetic for Avx512 {
     type F = __m512d;
-    const WIDTH: usize = 8;
+    const ESTIMATE_IS_EXACT: bool = false;
 
     #[inline(always)]
     fn splat(self, value: f64) -> __m512d {
         with!(self: _mm512_set1_pd(value))
-    }
-
-    #[inline(always)]
-    fn load(self, values: &[f64]) -> __m512d {
-        let values = &values[..Self::WIDTH];
-        with!(self: _mm512_loadu_pd(values.as_ptr()))
-    }
-
-    #[inline(always)]
-    fn store(self, lanes: __m512d, values: &mut [f64]) {
-        let values = &mut values[..Self::WIDTH];
-        with!(self: _mm512_storeu_pd(values.as_mut_ptr(), lanes))
     }
 
     #[inline(always)]
@@ -192,20 +189,41 @@ impl Lanes for Avx512 {
         with!(self: _mm512_min_pd(a, b))
     }
 
-    /// From the estimate of `vrsqrt14pd`, whose relative error is at most 2^-14.
+    /// With a relative error of at most 1 / 2^14.
     #[inline(always)]
-    fn reciprocal_sqrt(self, a: __m512d) -> __m512d {
-        let estimate = with!(self: _mm512_rsqrt14_pd(a));
-        reciprocal_sqrt_from(self, a, estimate)
+    fn reciprocal_sqrt_estimate(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_rsqrt14_pd(a))
+    }
+
+    /// With a relative error of at most 1 / 2^14.
+    #[inline(always)]
+    fn reciprocal_estimate(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_rcp14_pd(a))
+    }
+}
+
+impl Lanes for Avx512 {
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn load(self, values: &[f64]) -> __m512d {
+        let values = &values[..Self::WIDTH];
+        with!(self: _mm512_loadu_pd(values.as_ptr()))
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: __m512d, values: &mut [f64]) {
+        let values = &mut values[..Self::WIDTH];
+        with!(self: _mm512_storeu_pd(values.as_mut_ptr(), lanes))
     }
 
     #[inline(always)]
     fn sin_cos(self, angle: __m512d) -> (__m512d, __m512d) {
-        sin_cos_from(self, angle)
+        sin_cos(self, angle)
     }
 }
 
-impl Series for Avx512 {
+impl QuarterTurns for Avx512 {
     #[inline(always)]
     fn turn(self, quarters: __m512d, sin: __m512d, cos: __m512d) -> (__m512d, __m512d) {
         with!(self: {

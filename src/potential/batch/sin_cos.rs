@@ -1,33 +1,20 @@
-//! Elementary functions by short series, for instruction sets with fused multiply-add.
+//! Sine and cosine, for instruction sets with fused multiply-add.
 
-use super::lanes::Lanes;
+use super::lanes::{Arithmetic, Lanes};
 
-/// What the series need beyond arithmetic.
-pub trait Series: Lanes {
+/// What they need beyond arithmetic.
+pub trait QuarterTurns: Lanes {
     /// The sine and cosine of an angle, given those of the angle less a number of quarter turns.
     /// That number, an integer, is `quarters` less 1.5 * 2^52, so that it can be read from the low
     /// bits.
     fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F);
 }
 
-/// `1 / sqrt(a)` from an estimate `y` of it: with `e = 1 - a y^2`,
-/// `a^(-1/2) = y (1 - e)^(-1/2) = y (1 + e/2 + 3 e^2/8 + 5 e^3/16 + ...)`.
-///
-/// The terms up to `e^3` leave a relative error of `35 e^4 / 128`: 8e-14 for an estimate good to
-/// 1.5 / 2^12 and 6e-17 for one good to 2^-14.
-#[inline(always)]
-pub fn reciprocal_sqrt_from<L: Lanes>(lanes: L, a: L::F, y: L::F) -> L::F {
-    let e = lanes.neg_mul_add(lanes.mul(a, y), y, lanes.splat(1.0));
-    let p = lanes.mul_add(e, lanes.splat(5.0 / 16.0), lanes.splat(3.0 / 8.0));
-    let p = lanes.mul_add(e, p, lanes.splat(0.5));
-    lanes.mul_add(lanes.mul(y, e), p, y)
-}
-
 /// Sine and cosine: the angle is brought within an eighth turn of 0 by subtracting quarter turns
 /// (in two parts, the first of which is exact), then come the Taylor series, cut where the next
 /// term is below 2^-56.
 #[inline(always)]
-pub fn sin_cos_from<L: Series>(lanes: L, angle: L::F) -> (L::F, L::F) {
+pub fn sin_cos<L: QuarterTurns>(lanes: L, angle: L::F) -> (L::F, L::F) {
     // 1.5 * 2^52: adding it rounds to an integer and leaves that integer in the low bits.
     const SHIFT: f64 = 6755399441055744.0;
     // pi/2 to twice the precision of f64.
@@ -42,18 +29,21 @@ pub fn sin_cos_from<L: Series>(lanes: L, angle: L::F) -> (L::F, L::F) {
     let x = lanes.neg_mul_add(quarters, lanes.splat(QUARTER[1]), x);
     let x2 = lanes.mul(x, x);
 
-    let polynomial = |c: [f64; 7]| {
-        let c = c.map(|c| lanes.splat(c));
-        let x4 = lanes.mul(x2, x2);
-        let low = lanes.mul_add(x2, c[1], c[0]);
-        let middle = lanes.mul_add(x2, c[3], c[2]);
-        let high = lanes.mul_add(x4, c[6], lanes.mul_add(x2, c[5], c[4]));
-        lanes.mul_add(x4, lanes.mul_add(x4, high, middle), low)
-    };
-    let sin = lanes.mul_add(lanes.mul(x, x2), polynomial(SIN), x);
-    let tail = lanes.mul(x2, polynomial(COS));
+    let sin = lanes.mul_add(lanes.mul(x, x2), polynomial(lanes, x2, &SIN), x);
+    let tail = lanes.mul(x2, polynomial(lanes, x2, &COS));
     let cos = lanes.mul_add(x2, lanes.sub(tail, lanes.splat(0.5)), lanes.splat(1.0));
     lanes.turn(shifted, sin, cos)
+}
+
+/// `c[0] + c[1] x + ... + c[6] x^6`, in a form that needs few operations one after the other.
+#[inline(always)]
+fn polynomial<L: Arithmetic>(l: L, x: L::F, c: &[f64; 7]) -> L::F {
+    let x2 = l.mul(x, x);
+    let low = l.mul_add(x, l.splat(c[1]), l.splat(c[0]));
+    let middle = l.mul_add(x, l.splat(c[3]), l.splat(c[2]));
+    let high = l.mul_add(x, l.splat(c[5]), l.splat(c[4]));
+    let high = l.mul_add(x2, l.splat(c[6]), high);
+    l.mul_add(x2, l.mul_add(x2, high, middle), low)
 }
 
 /// The coefficients `+-1/n!` for n = `first`, `first + 2`, ... of the Taylor series of the sine

@@ -1,0 +1,196 @@
+//! Cells: closed boxes of configurations, and quadratic forms bounded over them.
+
+use crate::configuration::Configuration;
+
+/// A closed box of configurations: every (x, y, theta) that differs from `centre` by at most
+/// `half` in each coordinate (theta modulo a full turn).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    pub centre: Configuration,
+    /// Half the size along x and y (m) and theta (rad).
+    pub half: [f64; 3],
+}
+
+impl Cell {
+    /// The cell spanned by two configurations, the shorter way round in theta.
+    pub fn spanned_by(a: &Configuration, b: &Configuration) -> Self {
+        let step = a.step_to(b);
+        let half = |d: f64| (d.abs() / 2.0).next_up() + 1e-15;
+        Self {
+            centre: a.interpolate(b, 0.5),
+            half: [half(step.x), half(step.y), half(step.z)],
+        }
+    }
+
+    /// The farthest the reference point gets from where it is at the centre (m).
+    pub fn travel(&self) -> f64 {
+        self.half[0].hypot(self.half[1])
+    }
+
+    /// The farthest a point of the moving tile at the distance `lever` (m) from its reference
+    /// point gets from where it is at the centre (m).
+    pub fn reach(&self, lever: f64) -> f64 {
+        self.travel() + lever * self.half[2]
+    }
+
+    /// Whether a configuration lies in the cell.
+    pub fn contains(&self, q: &Configuration) -> bool {
+        let step = self.centre.step_to(q);
+        (0..3).all(|i| step[i].abs() <= self.half[i])
+    }
+}
+
+/// Relative rounding error allowed for in sums of a few dozen terms (about 100 roundings).
+const ROUNDING: f64 = 1.2e-14;
+
+/// A quadratic form of the offset d = (dx, dy, dtheta) from a cell's centre:
+/// `value + gradient . d + d^T H d / 2`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quadratic {
+    pub value: f64,
+    pub gradient: [f64; 3],
+    /// H as (xx, yy, theta theta, xy, x theta, y theta).
+    pub hessian: [f64; 6],
+}
+
+/// Rows and columns of the off-diagonal entries 3, 4 and 5 of a stored Hessian.
+const OFF_DIAGONAL: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+impl Quadratic {
+    /// `self - factor * other`.
+    pub fn minus(&self, factor: f64, other: &Self) -> Self {
+        let mut out = *self;
+        out.value -= factor * other.value;
+        for (a, b) in out.gradient.iter_mut().zip(&other.gradient) {
+            *a -= factor * b;
+        }
+        for (a, b) in out.hessian.iter_mut().zip(&other.hessian) {
+            *a -= factor * b;
+        }
+        out
+    }
+
+    /// A guaranteed lower bound of the form over the box `|d_i| <= half_i`.
+    ///
+    /// Each product is bounded by squares, `2 |d_i d_j| <= d_i^2 half_j / half_i + d_j^2 half_i /
+    /// half_j`, after which the coordinates separate; at the corners of the box nothing is lost.
+    pub fn least(&self, half: &[f64; 3]) -> f64 {
+        let losses = self.losses(half);
+        self.value - losses[0] - losses[1] - losses[2] - self.rounding(half)
+    }
+
+    /// A guaranteed upper bound of the form over the box.
+    pub fn greatest(&self, half: &[f64; 3]) -> f64 {
+        -Self::default().minus(1.0, self).least(half)
+    }
+
+    /// By how much each coordinate lowers the bound of [`least`](Self::least).
+    pub fn losses(&self, half: &[f64; 3]) -> [f64; 3] {
+        let mut curvature = [
+            self.hessian[0] * half[0] * half[0],
+            self.hessian[1] * half[1] * half[1],
+            self.hessian[2] * half[2] * half[2],
+        ];
+        for (k, (i, j)) in OFF_DIAGONAL.into_iter().enumerate() {
+            let product = (self.hessian[3 + k] * half[i] * half[j]).abs();
+            curvature[i] -= product;
+            curvature[j] -= product;
+        }
+        // In units of half_i: the least of slope t + curvature t^2 / 2 over |t| <= 1.
+        std::array::from_fn(|i| {
+            let slope = (self.gradient[i] * half[i]).abs();
+            if curvature[i] > slope {
+                slope * slope / (2.0 * curvature[i])
+            } else {
+                slope - curvature[i] / 2.0
+            }
+        })
+    }
+
+    /// Bound of the rounding errors of `least` and of the sums that made the form.
+    pub fn rounding(&self, half: &[f64; 3]) -> f64 {
+        let slopes: f64 = (0..3).map(|i| (self.gradient[i] * half[i]).abs()).sum();
+        let squares: f64 = (0..3)
+            .map(|i| (self.hessian[i] * half[i] * half[i]).abs())
+            .sum();
+        let products: f64 = OFF_DIAGONAL
+            .into_iter()
+            .zip(&self.hessian[3..])
+            .map(|((i, j), h)| (h * half[i] * half[j]).abs())
+            .sum();
+        ROUNDING * (self.value.abs() + slopes + squares + products)
+    }
+
+    /// The largest value on the straight line from one corner of the box to the opposite one,
+    /// `d = t step / 2` with `t` from -1 to 1.
+    pub fn greatest_along(&self, step: &[f64; 3]) -> f64 {
+        let d = step.map(|s| s / 2.0);
+        let slope: f64 = (0..3).map(|i| self.gradient[i] * d[i]).sum();
+        let mut curvature: f64 = (0..3).map(|i| self.hessian[i] * d[i] * d[i]).sum();
+        for ((i, j), h) in OFF_DIAGONAL.into_iter().zip(&self.hessian[3..]) {
+            curvature += 2.0 * h * d[i] * d[j];
+        }
+        let rise = if -curvature > slope.abs() {
+            slope * slope / (-2.0 * curvature)
+        } else {
+            slope.abs() + curvature / 2.0
+        };
+        self.value + rise + self.rounding(&d.map(f64::abs))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    fn at(form: &Quadratic, d: [f64; 3]) -> f64 {
+        let [xx, yy, tt, xy, xt, yt] = form.hessian;
+        form.value
+            + (0..3).map(|i| form.gradient[i] * d[i]).sum::<f64>()
+            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
+            + xy * d[0] * d[1]
+            + xt * d[0] * d[2]
+            + yt * d[1] * d[2]
+    }
+
+    #[test]
+    fn no_point_of_the_box_lies_outside_the_bounds() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        for round in 0..300 {
+            let mut random = || rng.random_range(-1.0..1.0);
+            let mut form = Quadratic {
+                value: random(),
+                gradient: std::array::from_fn(|_| random()),
+                hessian: std::array::from_fn(|_| random()),
+            };
+            let half: [f64; 3] = std::array::from_fn(|_| random() + 1.01);
+            let steep = round % 2 == 0;
+            if steep {
+                form.gradient = std::array::from_fn(|i| form.hessian[i].signum() * 2.0 + 0.1);
+                form.hessian[3..].fill(0.0);
+            }
+            let (low, high) = (form.least(&half), form.greatest(&half));
+            let mut seen = [f64::INFINITY, f64::NEG_INFINITY];
+            for k in 0..9 * 9 * 9 {
+                let t = [k % 9, k / 9 % 9, k / 81].map(|i| i as f64 / 4.0 - 1.0);
+                let u = at(&form, std::array::from_fn(|i| t[i] * half[i]));
+                assert!(low <= u && u <= high);
+                seen = [seen[0].min(u), seen[1].max(u)];
+            }
+            if steep && (0..3).all(|i| half[i] < 2.0) {
+                // The extremes lie at corners of the box, and without products nothing is lost.
+                assert!(seen[0] - low < 1e-12 && high - seen[1] < 1e-12);
+            }
+            let step: [f64; 3] = std::array::from_fn(|i| 2.0 * half[i] * random().signum());
+            let along = (0..=100)
+                .map(|k| at(&form, step.map(|s| s * (k as f64 / 100.0 - 0.5))))
+                .fold(f64::NEG_INFINITY, f64::max);
+            assert!(
+                (form.greatest_along(&step) - along).abs() < 1e-3
+                    && along <= form.greatest_along(&step)
+            );
+        }
+    }
+}

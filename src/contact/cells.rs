@@ -1,0 +1,423 @@
+//! Contact over a cell of configurations: proved overlapping throughout, or left with conditions
+//! that every free configuration of the cell satisfies.
+//!
+//! A point of one tile that stays, throughout the cell, inside the other tile by more than the
+//! tolerance proves the cell *blocked*. A vertex whose reachable disc meets the other outline in
+//! one edge only (or in the two edges of a notch) must, where the tiles are free, lie on the outer
+//! side of the edge's line: a *cut*. Only necessary conditions of freedom are used, so a bound
+//! over the cuts' side of a cell holds for all its free configurations.
+//!
+//! All claims hold for configurations in which no point of a tile lies deeper than [`RELAXED`]
+//! inside the other, which includes every configuration that counts as free.
+
+use nalgebra::Vector2;
+
+use super::tree::{Below, Branch, CircleTree};
+use super::{Contact, TOUCH};
+use crate::cell::{Cell, Quadratic};
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+use crate::tile::outline::distance_to_segment;
+
+/// Depth (m) up to which an overlap is not used as a proof: touching, and rounding (coordinates
+/// of metres carry errors of 1e-15 m).
+pub const RELAXED: f64 = 2.0 * TOUCH;
+
+/// A necessary condition of freedom over a cell: `form(d) + slack >= 0` at every free
+/// configuration of the cell, d its offset from the centre. `form` approximates the signed
+/// distance (m) of a vertex from the line of an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    pub form: Quadratic,
+    pub slack: f64,
+}
+
+/// What contact says about a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CellContact {
+    /// No configuration of the cell is free.
+    Blocked,
+    /// The free configurations satisfy every one of `cuts` and at least one cut of each pair in
+    /// `corners`.
+    Open {
+        cuts: Vec<Cut>,
+        corners: Vec<[Cut; 2]>,
+        /// How deep (m) a probed point lies inside the other tile at the centre, where no cut
+        /// tells; 0 if none does.
+        depth: f64,
+    },
+}
+
+impl CellContact {
+    /// A cell that contact says nothing of.
+    pub fn open() -> Self {
+        Self::Open {
+            cuts: Vec::new(),
+            corners: Vec::new(),
+            depth: 0.0,
+        }
+    }
+}
+
+/// Inner points that are tried as witnesses of overlap, at most.
+const INNER: usize = 8;
+
+/// One tile, as the other one's cells see it.
+#[derive(Clone, Debug)]
+struct Side {
+    outline: Outline,
+    edges: CircleTree,
+    /// Points on the boundary that may lie inside the other tile: vertex i at 2 i, the middle of
+    /// edge i at 2 i + 1.
+    probes: Vec<Vector2<f64>>,
+    probe_tree: CircleTree,
+    /// Points deep inside.
+    inner: Vec<Vector2<f64>>,
+}
+
+impl Side {
+    fn new(outline: &Outline) -> Self {
+        let edges = (0..outline.vertices().len()).map(|i| outline.edge(i));
+        let circles: Vec<_> = edges
+            .clone()
+            .map(|(a, b)| ((a + b) / 2.0, (b - a).norm() / 2.0))
+            .collect();
+        let probes: Vec<_> = edges.flat_map(|(a, b)| [a, (a + b) / 2.0]).collect();
+        let points: Vec<_> = probes.iter().map(|p| (*p, 0.0)).collect();
+        let mut inner: Vec<_> = outline
+            .parts()
+            .iter()
+            .map(|part| part.points.iter().sum::<Vector2<f64>>() / part.points.len() as f64)
+            .collect();
+        inner.push(outline.centroid());
+        inner.retain(|p| outline.contains(*p));
+        inner.sort_by(|a, b| {
+            outline
+                .signed_distance(*a)
+                .total_cmp(&outline.signed_distance(*b))
+        });
+        inner.truncate(INNER);
+        Self {
+            outline: outline.clone(),
+            edges: CircleTree::new(&circles),
+            probes,
+            probe_tree: CircleTree::new(&points),
+            inner,
+        }
+    }
+
+    /// Whether no point of the boundary is within `distance` of a point.
+    fn boundary_is_beyond(&self, at: Vector2<f64>, distance: f64) -> bool {
+        self.edges.near(at, distance, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            distance_to_segment(at, a, b) > distance
+        })
+    }
+
+    /// Whether all points within `distance` of a point are inside.
+    fn holds_disc(&self, at: Vector2<f64>, distance: f64) -> bool {
+        at.norm() < self.outline.circumradius()
+            && self.boundary_is_beyond(at, distance)
+            && self.outline.contains(at)
+    }
+
+    /// What a point at `at` that gets no farther than `reach` (m) says, given that it may come
+    /// near the boundary.
+    fn verdict(&self, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
+        let n = self.outline.vertices().len();
+        let mut near = Vec::new();
+        let mut depth = f64::INFINITY;
+        self.edges.near(at, reach, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            let distance = distance_to_segment(at, a, b);
+            if distance <= reach {
+                near.push(i);
+                depth = depth.min(distance);
+            }
+            true
+        });
+        near.sort_unstable();
+        let inside = || self.outline.contains(at);
+        match near[..] {
+            [] if inside() => Verdict::Blocked,
+            [] => Verdict::Nothing,
+            [edge] if vertex => Verdict::Edges([edge, edge]),
+            [i, j] if vertex && (i + 1 == j || (i == 0 && j + 1 == n)) => {
+                let corner = if i + 1 == j { j } else { 0 };
+                if self.outline.convex_vertices()[corner] {
+                    Verdict::Corner([i, j])
+                } else {
+                    Verdict::Edges([i, j])
+                }
+            }
+            _ if inside() => Verdict::Inside(depth),
+            _ => Verdict::Nothing,
+        }
+    }
+}
+
+/// What one point of one tile says about a cell.
+enum Verdict {
+    Nothing,
+    Blocked,
+    /// Inside at the centre, this deep (m), but too near to several edges to say more.
+    Inside(f64),
+    /// Must be on the outer side of these edges (twice the same, if it is one).
+    Edges([usize; 2]),
+    /// Must be on the outer side of one of these edges.
+    Corner([usize; 2]),
+}
+
+/// Contact of two outlines, cell by cell.
+#[derive(Clone, Debug)]
+pub struct ContactCells {
+    fixed: Side,
+    moving: Side,
+}
+
+/// What is found out about a cell, bit by bit.
+#[derive(Default)]
+struct Findings {
+    cuts: Vec<Cut>,
+    corners: Vec<[Cut; 2]>,
+    depth: f64,
+}
+
+impl ContactCells {
+    pub fn new(contact: &Contact) -> Self {
+        Self {
+            fixed: Side::new(contact.fixed()),
+            moving: Side::new(contact.moving()),
+        }
+    }
+
+    /// What contact says about a cell.
+    pub fn classify(&self, cell: &Cell) -> CellContact {
+        let q = &cell.centre;
+        let (fixed, moving) = (&self.fixed.outline, &self.moving.outline);
+        let apart = q.x.hypot(q.y) - fixed.circumradius() - moving.circumradius();
+        if apart > cell.travel() + RELAXED {
+            return CellContact::open();
+        }
+        let turn = q.rotation();
+        let position = q.position();
+        let mut findings = Findings::default();
+        let moving_reach =
+            |p: Vector2<f64>, radius: f64| cell.reach(p.norm() + radius) + radius + RELAXED;
+        let moving_in_fixed = Sweeping {
+            probes: &self.moving,
+            other: &self.fixed,
+            place: &|p| position + turn * p,
+            reach: &moving_reach,
+            cut: &|v, edge| fixed_edge_cut(fixed, edge, turn * v, q, cell),
+        };
+        let fixed_reach = |p: Vector2<f64>, radius: f64| {
+            let lever = (p - position).norm() + radius + cell.travel();
+            cell.reach(lever) + radius + RELAXED
+        };
+        let fixed_in_moving = Sweeping {
+            probes: &self.fixed,
+            other: &self.moving,
+            place: &|p| turn.inverse() * (p - position),
+            reach: &fixed_reach,
+            cut: &|w, edge| moving_edge_cut(moving, edge, w - position, q, cell),
+        };
+        if moving_in_fixed.look(&mut findings) && fixed_in_moving.look(&mut findings) {
+            findings.conclude(cell)
+        } else {
+            CellContact::Blocked
+        }
+    }
+}
+
+/// Looks at the points of one tile inside the other.
+struct Sweeping<'a> {
+    probes: &'a Side,
+    other: &'a Side,
+    /// Where a point is at the cell's centre, in the frame of the other tile.
+    place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
+    /// How far (m) a point anywhere in a circle gets from the circle's centre as placed.
+    reach: &'a dyn Fn(Vector2<f64>, f64) -> f64,
+    cut: &'a dyn Fn(Vector2<f64>, usize) -> Cut,
+}
+
+impl Sweeping<'_> {
+    /// Notes what the points say; false where the cell is blocked.
+    fn look(&self, findings: &mut Findings) -> bool {
+        let blocks = |p: &Vector2<f64>| {
+            self.other
+                .holds_disc((self.place)(*p), (self.reach)(*p, 0.0))
+        };
+        !self.probes.inner.iter().any(blocks)
+            && self.look_below(&self.probes.probe_tree.root(), findings)
+    }
+
+    fn look_below(&self, branch: &Branch, findings: &mut Findings) -> bool {
+        let at = (self.place)(branch.centre);
+        let reach = (self.reach)(branch.centre, branch.radius);
+        if at.norm() > self.other.outline.circumradius() + reach {
+            return true;
+        }
+        if self.other.boundary_is_beyond(at, reach) {
+            return !self.other.outline.contains(at);
+        }
+        match self.probes.probe_tree.below(branch) {
+            Below::Branches(branches) => branches
+                .iter()
+                .all(|branch| self.look_below(branch, findings)),
+            Below::Pieces(pieces) => pieces.iter().all(|&k| self.look_at(k, findings)),
+        }
+    }
+
+    fn look_at(&self, k: usize, findings: &mut Findings) -> bool {
+        let p = self.probes.probes[k];
+        let reach = (self.reach)(p, 0.0);
+        match self.other.verdict((self.place)(p), reach, k % 2 == 0) {
+            Verdict::Blocked => return false,
+            Verdict::Inside(depth) => findings.depth = findings.depth.max(depth),
+            Verdict::Edges([i, j]) => {
+                findings.cuts.push((self.cut)(p, i));
+                if i != j {
+                    findings.cuts.push((self.cut)(p, j));
+                }
+            }
+            Verdict::Corner(edges) => findings.corners.push(edges.map(|edge| (self.cut)(p, edge))),
+            Verdict::Nothing => {}
+        }
+        true
+    }
+}
+
+impl Findings {
+    fn conclude(self, cell: &Cell) -> CellContact {
+        let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
+        if self.cuts.iter().any(violated)
+            || self.corners.iter().any(|pair| pair.iter().all(violated))
+        {
+            return CellContact::Blocked;
+        }
+        CellContact::Open {
+            cuts: self.cuts,
+            corners: self.corners,
+            depth: self.depth,
+        }
+    }
+}
+
+/// The cut of a vertex of the moving tile, `arm` from its reference point, against an edge of the
+/// fixed one: `n . (p + R v - e) >= 0` with the edge's normal n and start e.
+fn fixed_edge_cut(
+    fixed: &Outline,
+    edge: usize,
+    arm: Vector2<f64>,
+    q: &Configuration,
+    cell: &Cell,
+) -> Cut {
+    let n = fixed.normals()[edge];
+    let start = fixed.vertices()[edge];
+    let turning = Vector2::new(-arm.y, arm.x);
+    let w = cell.half[2];
+    Cut {
+        form: Quadratic {
+            value: n.dot(&(q.position() + arm - start)),
+            gradient: [n.x, n.y, n.dot(&turning)],
+            hessian: [0.0, 0.0, -n.dot(&arm), 0.0, 0.0, 0.0],
+        },
+        slack: arm.norm() * w * w * w / 6.0 + RELAXED,
+    }
+}
+
+/// The cut of a vertex of the fixed tile, `from` the moving tile's reference point, against an
+/// edge of the moving tile: `R n . (w - p) - n . e >= 0`.
+///
+/// Along a straight motion with the steps s and t of position and angle, the third derivative of
+/// `R n . (w - p)` is at most `|w - p| t^3 + 3 s t^2`.
+fn moving_edge_cut(
+    moving: &Outline,
+    edge: usize,
+    from: Vector2<f64>,
+    q: &Configuration,
+    cell: &Cell,
+) -> Cut {
+    let local = moving.normals()[edge];
+    let start = moving.vertices()[edge];
+    let n = q.rotation() * local;
+    let turned = Vector2::new(-n.y, n.x);
+    let (s, t) = (cell.travel(), cell.half[2]);
+    Cut {
+        form: Quadratic {
+            value: n.dot(&from) - local.dot(&start),
+            gradient: [-n.x, -n.y, turned.dot(&from)],
+            hessian: [0.0, 0.0, -n.dot(&from), 0.0, -turned.x, -turned.y],
+        },
+        slack: ((from.norm() + s) * t * t * t + 3.0 * s * t * t) / 6.0 + RELAXED,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{saw, square};
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    fn value(form: &Quadratic, d: [f64; 3]) -> f64 {
+        let [xx, yy, tt, xy, xt, yt] = form.hessian;
+        form.value
+            + (0..3).map(|i| form.gradient[i] * d[i]).sum::<f64>()
+            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
+            + xy * d[0] * d[1]
+            + xt * d[0] * d[2]
+            + yt * d[1] * d[2]
+    }
+
+    #[test]
+    fn no_free_configuration_is_blocked_or_cut_off() {
+        let mut rng = ChaCha8Rng::seed_from_u64(5);
+        for (a, b) in [
+            (square(0.43), square(0.43)),
+            (saw(false), saw(true)),
+            (saw(true), saw(false)),
+        ] {
+            let contact = Contact::new(&a, &b);
+            let cells = ContactCells::new(&contact);
+            let (mut blocked, mut cut, mut cut_off, mut cornered) = (0, 0, 0, 0);
+            for _ in 0..2000 {
+                let size = 10f64.powf(rng.random_range(-3.5..-0.7));
+                let cell = Cell {
+                    centre: Configuration::new(
+                        rng.random_range(-0.6..0.6),
+                        rng.random_range(-0.6..0.6),
+                        rng.random_range(-3.1..3.1),
+                    ),
+                    half: std::array::from_fn(|_| size * rng.random_range(0.05..1.0)),
+                };
+                let verdict = cells.classify(&cell);
+                for _ in 0..20 {
+                    let d: [f64; 3] =
+                        std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
+                    let free = contact.is_free(&cell.centre.moved(d.into()));
+                    match &verdict {
+                        CellContact::Blocked => {
+                            blocked += 1;
+                            assert!(!free, "{cell:?} {d:?}");
+                        }
+                        CellContact::Open { cuts, corners, .. } => {
+                            let holds = |c: &Cut| value(&c.form, d) + c.slack >= 0.0;
+                            let allowed = cuts.iter().all(holds)
+                                && corners.iter().all(|pair| pair.iter().any(holds));
+                            assert!(allowed || !free, "{cell:?} {d:?}");
+                            cut += usize::from(!cuts.is_empty());
+                            cornered += usize::from(!corners.is_empty());
+                            cut_off += usize::from(!allowed);
+                        }
+                    }
+                }
+            }
+            assert!(
+                blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5,
+                "{blocked} {cut} {cut_off} {cornered}"
+            );
+        }
+    }
+}

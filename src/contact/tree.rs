@@ -1,0 +1,213 @@
+//! A tree of circles around the pieces of an outline: which of them are near a point, or near the
+//! pieces of another outline.
+
+use nalgebra::Vector2;
+
+/// Pieces in a leaf, at most.
+const LEAF: usize = 4;
+
+#[derive(Clone, Debug)]
+struct Node {
+    centre: Vector2<f64>,
+    radius: f64,
+    /// The pieces below it, as a range of `order`.
+    first: usize,
+    end: usize,
+    /// The second child; the first follows its parent. 0 for a leaf.
+    second: usize,
+}
+
+/// A binary tree over pieces, each within a circle.
+#[derive(Clone, Debug)]
+pub(super) struct CircleTree {
+    nodes: Vec<Node>,
+    order: Vec<usize>,
+}
+
+/// A node of a tree and the circle around all its pieces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Branch {
+    node: usize,
+    pub centre: Vector2<f64>,
+    pub radius: f64,
+}
+
+/// What lies below a branch.
+pub(super) enum Below<'a> {
+    Branches([Branch; 2]),
+    Pieces(&'a [usize]),
+}
+
+impl CircleTree {
+    /// A tree over circles (centre, radius), of which there is at least one.
+    pub fn new(circles: &[(Vector2<f64>, f64)]) -> Self {
+        let mut tree = Self {
+            nodes: Vec::new(),
+            order: (0..circles.len()).collect(),
+        };
+        tree.build(circles, 0, circles.len());
+        tree
+    }
+
+    fn build(&mut self, circles: &[(Vector2<f64>, f64)], first: usize, end: usize) {
+        let pieces = &mut self.order[first..end];
+        let centres = || pieces.iter().map(|&k| circles[k].0);
+        let low = centres().fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
+        let high = centres().fold(Vector2::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
+        let centre = (low + high) / 2.0;
+        let radius = pieces
+            .iter()
+            .map(|&k| (circles[k].0 - centre).norm() + circles[k].1)
+            .fold(0.0, f64::max);
+        let axis = (high - low).imax();
+        pieces.sort_by(|&a, &b| circles[a].0[axis].total_cmp(&circles[b].0[axis]));
+        let node = self.nodes.len();
+        self.nodes.push(Node {
+            centre,
+            radius,
+            first,
+            end,
+            second: 0,
+        });
+        if end - first > LEAF {
+            let middle = (first + end) / 2;
+            self.build(circles, first, middle);
+            self.nodes[node].second = self.nodes.len();
+            self.build(circles, middle, end);
+        }
+    }
+
+    pub fn root(&self) -> Branch {
+        self.branch(0)
+    }
+
+    fn branch(&self, node: usize) -> Branch {
+        Branch {
+            node,
+            centre: self.nodes[node].centre,
+            radius: self.nodes[node].radius,
+        }
+    }
+
+    pub fn below(&self, branch: &Branch) -> Below<'_> {
+        let node = &self.nodes[branch.node];
+        if node.second == 0 {
+            Below::Pieces(&self.order[node.first..node.end])
+        } else {
+            Below::Branches([self.branch(branch.node + 1), self.branch(node.second)])
+        }
+    }
+
+    /// Calls `found` for pieces that may come within `distance` of a point, until it says stop by
+    /// returning false; returns whether it never did.
+    pub fn near(
+        &self,
+        p: Vector2<f64>,
+        distance: f64,
+        found: &mut impl FnMut(usize) -> bool,
+    ) -> bool {
+        self.near_below(&self.root(), p, distance, found)
+    }
+
+    fn near_below(
+        &self,
+        branch: &Branch,
+        p: Vector2<f64>,
+        distance: f64,
+        found: &mut impl FnMut(usize) -> bool,
+    ) -> bool {
+        let most = distance + branch.radius;
+        if (p - branch.centre).norm_squared() > most * most {
+            return true;
+        }
+        match self.below(branch) {
+            Below::Pieces(pieces) => pieces.iter().all(|&k| found(k)),
+            Below::Branches(branches) => branches
+                .iter()
+                .all(|branch| self.near_below(branch, p, distance, found)),
+        }
+    }
+
+    /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
+    /// `place`, that may come within `distance` of each other, until it returns false; returns
+    /// whether it never did.
+    pub fn near_pairs(
+        &self,
+        other: &Self,
+        place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
+        distance: f64,
+        found: &mut impl FnMut(usize, usize) -> bool,
+    ) -> bool {
+        let mut open = vec![(self.root(), other.root())];
+        while let Some((a, b)) = open.pop() {
+            let most = distance + a.radius + b.radius;
+            if (a.centre - place(b.centre)).norm_squared() > most * most {
+                continue;
+            }
+            match (self.below(&a), other.below(&b)) {
+                (Below::Pieces(ours), Below::Pieces(theirs)) => {
+                    for &i in ours {
+                        for &j in theirs {
+                            if !found(i, j) {
+                                return false;
+                            }
+                        }
+                    }
+                }
+                (Below::Branches(ours), theirs)
+                    if a.radius >= b.radius || matches!(theirs, Below::Pieces(_)) =>
+                {
+                    open.extend(ours.map(|a| (a, b)));
+                }
+                (_, Below::Branches(theirs)) => open.extend(theirs.map(|b| (a, b))),
+                (Below::Branches(ours), Below::Pieces(_)) => open.extend(ours.map(|a| (a, b))),
+            }
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn no_near_piece_and_no_near_pair_is_missed() {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        let mut circles = |n: usize| -> Vec<(Vector2<f64>, f64)> {
+            (0..n)
+                .map(|_| {
+                    let mut random = || rng.random_range(-1.0..1.0);
+                    (
+                        Vector2::new(random(), random()),
+                        0.05 * (random() as f64).abs(),
+                    )
+                })
+                .collect()
+        };
+        for n in [1, 3, 5, 60] {
+            let (a, b) = (circles(n), circles(40));
+            let (ta, tb) = (CircleTree::new(&a), CircleTree::new(&b));
+            let shift = Vector2::new(0.4, -0.2);
+            let gap = |i: usize, j: usize| (a[i].0 - b[j].0 - shift).norm() - a[i].1 - b[j].1;
+            let mut pairs = Vec::new();
+            ta.near_pairs(&tb, &|p| p + shift, 0.1, &mut |i, j| {
+                pairs.push((i, j));
+                true
+            });
+            for i in 0..n {
+                let p = b[i % 40].0;
+                let mut found = Vec::new();
+                ta.near(p, 0.1, &mut |k| {
+                    found.push(k);
+                    true
+                });
+                assert!((0..n).all(|k| (a[k].0 - p).norm() - a[k].1 > 0.1 || found.contains(&k)));
+                assert!((0..40).all(|j| gap(i, j) > 0.1 || pairs.contains(&(i, j))));
+            }
+            assert!(pairs.len() < n * 40 || n < 5);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The lower bound of the energy over the free part of one cell.
+
+use crate::cell::{Cell, Quadratic};
+use crate::contact::cells::{CellContact, ContactCells, Cut};
+use crate::potential::bounds::{CellBounds, Enclosure};
+
+/// What is known of a cell that is not proved blocked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Assessment {
+    /// No free configuration of the cell has a lower energy (J).
+    pub lower: f64,
+    /// A guess of the energy (J) at the free configuration nearest to the centre; it steers the
+    /// search and proves nothing.
+    pub estimate: f64,
+    /// How deep the tiles overlap at the centre, as a share of how far the cell moves them; 0 where
+    /// they do not. Another guess that only steers.
+    pub overlap: f64,
+    /// The coordinate along which to halve the cell.
+    pub axis: usize,
+}
+
+/// Estimate of a cell whose centre lies deep in overlap: above every energy, the more so the
+/// deeper it lies.
+const OVERLAPPING: f64 = 1e30;
+
+/// Assesses a cell; `None` where it is proved blocked. `lever` (m) says how far a turn by one
+/// radian moves the tile.
+pub(super) fn assess(
+    bounds: &dyn CellBounds,
+    contact: Option<&ContactCells>,
+    lever: f64,
+    cell: &Cell,
+) -> Option<Assessment> {
+    let verdict = contact.map_or_else(CellContact::open, |contact| contact.classify(cell));
+    let CellContact::Open {
+        cuts,
+        corners,
+        depth,
+    } = verdict
+    else {
+        return None;
+    };
+    let enclosure = bounds.enclose(cell);
+    let mut tight = Lagrangian::new(&enclosure, &cell.half, &cuts);
+    for pair in &corners {
+        let [a, b] = pair.map(|cut| {
+            let mut cuts = cuts.clone();
+            cuts.push(cut);
+            Lagrangian::new(&enclosure, &cell.half, &cuts)
+        });
+        let weaker = if a.lower < b.lower { a } else { b };
+        if weaker.lower > tight.lower {
+            tight = weaker;
+        }
+    }
+    let deepest = cuts
+        .iter()
+        .map(|cut| cut.form.value)
+        .chain(corners.iter().map(|[a, b]| a.form.value.max(b.form.value)))
+        .fold(depth, |deepest, gap| deepest.max(-gap));
+    let estimate = if depth > 0.0 {
+        OVERLAPPING * (1.0 + depth / cell.reach(lever))
+    } else {
+        enclosure.form.value + pushed_out(&enclosure.form, &cuts, &corners, lever)
+    };
+    Some(Assessment {
+        lower: tight.lower,
+        estimate,
+        overlap: deepest / cell.reach(lever)
+            + std::env::var("BETA").map_or(1.0, |a| a.parse().unwrap()) * cell.reach(lever) / lever,
+        axis: widest(&tight.form, &enclosure, cell, lever),
+    })
+}
+
+/// Change of the energy (J), to first order, on the shortest way from the centre to where the
+/// most violated cut is satisfied.
+fn pushed_out(energy: &Quadratic, cuts: &[Cut], corners: &[[Cut; 2]], lever: f64) -> f64 {
+    let easier = corners
+        .iter()
+        .map(|[a, b]| if a.form.value > b.form.value { a } else { b });
+    let Some(cut) = cuts
+        .iter()
+        .chain(easier)
+        .min_by(|a, b| a.form.value.total_cmp(&b.form.value))
+    else {
+        return 0.0;
+    };
+    if cut.form.value >= 0.0 {
+        return 0.0;
+    }
+    let weights = [1.0, 1.0, 1.0 / (lever * lever)];
+    let product =
+        |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| a[i] * b[i] * weights[i]).sum::<f64>();
+    let out = cut.form.gradient;
+    -cut.form.value * product(&energy.gradient, &out) / product(&out, &out)
+}
+
+/// The coordinate that lowers the bound most.
+fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> usize {
+    let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
+    let total: f64 = sizes.iter().sum();
+    let losses = form.losses(&cell.half);
+    let known = enclosure.low.is_finite();
+    let share = |i: usize| {
+        if known {
+            losses[i] - enclosure.low * sizes[i] / total
+        } else {
+            sizes[i]
+        }
+    };
+    (0..3)
+        .max_by(|&i, &j| share(i).total_cmp(&share(j)))
+        .unwrap_or(0)
+}
+
+/// A lower bound by weak duality: where `cut + slack >= 0`, the energy is at least
+/// `energy - multiplier (cut + slack)` for any multiplier >= 0, which is bounded over the whole
+/// box. Any choice of multipliers gives a bound; good ones make the reduced slope vanish.
+///
+/// Rounding: the energy's own is subtracted with the sizes its terms have before the cuts are
+/// taken off. The cuts' slack has a spare 1e-9 m, a million times the rounding of their terms.
+struct Lagrangian {
+    lower: f64,
+    form: Quadratic,
+}
+
+impl Lagrangian {
+    fn new(enclosure: &Enclosure, half: &[f64; 3], cuts: &[Cut]) -> Self {
+        let rounding = enclosure.form.rounding(half);
+        let bound = |form: &Quadratic, penalty: f64| {
+            form.value - form.losses(half).iter().sum::<f64>() - penalty
+        };
+        let mut form = enclosure.form;
+        let mut best = bound(&form, 0.0);
+        let mut penalty = 0.0;
+        let mut multipliers = vec![0.0; cuts.len()];
+        let passes = if cuts.len() > 1 { 2 } else { 1 };
+        for _ in 0..passes {
+            for (cut, multiplier) in cuts.iter().zip(&mut multipliers) {
+                let mut change = 0.0;
+                for i in 0..3 {
+                    let candidate = form.gradient[i] / cut.form.gradient[i];
+                    if !candidate.is_finite() || *multiplier + candidate < 0.0 {
+                        continue;
+                    }
+                    let value = bound(
+                        &form.minus(candidate, &cut.form),
+                        penalty + candidate * cut.slack,
+                    );
+                    if value > best {
+                        (best, change) = (value, candidate);
+                    }
+                }
+                if change != 0.0 {
+                    form = form.minus(change, &cut.form);
+                    penalty += change * cut.slack;
+                    *multiplier += change;
+                }
+            }
+        }
+        Self {
+            lower: best - rounding + enclosure.low,
+            form,
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! The leaves of a subdivision of the configuration space, and which of them touch.
+
+use std::f64::consts::PI;
+
+use super::lower::Assessment;
+use crate::cell::Cell;
+use crate::configuration::{Configuration, ConfigurationSpace};
+
+/// Every coordinate is divided into this many units, the smallest size a cell can have.
+const UNITS: u32 = 1 << 30;
+
+/// Cells along x, y and theta at the start.
+const FIRST: [u32; 3] = [8, 8, 16];
+
+/// Where a cell lies: its lower corner and its size, in units of each coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    low: [u32; 3],
+    size: [u32; 3],
+}
+
+impl Key {
+    /// The two halves along a coordinate; `None` where the cell cannot be halved.
+    pub fn halves(&self, axis: usize) -> Option<[Self; 2]> {
+        if self.size[axis] < 2 {
+            return None;
+        }
+        let mut lower = *self;
+        lower.size[axis] /= 2;
+        let mut upper = lower;
+        upper.low[axis] += lower.size[axis];
+        Some([lower, upper])
+    }
+
+    /// Whether two closed cells share a point. The angle is periodic.
+    fn touches(&self, other: &Self) -> bool {
+        let meet = |i: usize| {
+            self.low[i] <= other.low[i] + other.size[i]
+                && other.low[i] <= self.low[i] + self.size[i]
+        };
+        let around = |a: &Self, b: &Self| a.low[2] == 0 && b.low[2] + b.size[2] == UNITS;
+        meet(0) && meet(1) && (meet(2) || around(self, other) || around(other, self))
+    }
+}
+
+/// A cell of the subdivision that is neither subdivided nor blocked.
+#[derive(Clone, Debug)]
+pub(super) struct Leaf {
+    pub key: Key,
+    pub known: Assessment,
+    /// The leaves that touch it.
+    pub neighbours: Vec<u32>,
+    /// Whether it still is a leaf.
+    pub live: bool,
+}
+
+/// The leaves. Those of the table's whole configuration space that are not among them are blocked.
+#[derive(Clone, Debug)]
+pub(super) struct Store {
+    half_size: [f64; 2],
+    leaves: Vec<Leaf>,
+}
+
+impl Store {
+    pub fn new(space: &ConfigurationSpace) -> Self {
+        Self {
+            half_size: space.half_size,
+            leaves: Vec::new(),
+        }
+    }
+
+    /// The cells to begin with.
+    pub fn first_keys() -> Vec<Key> {
+        let size = FIRST.map(|n| UNITS / n);
+        let mut keys = Vec::new();
+        for i in 0..FIRST[0] {
+            for j in 0..FIRST[1] {
+                for k in 0..FIRST[2] {
+                    keys.push(Key {
+                        low: [i * size[0], j * size[1], k * size[2]],
+                        size,
+                    });
+                }
+            }
+        }
+        keys
+    }
+
+    /// The box of a key. Cells with a common face compute it from the same units, and every box is
+    /// widened by more than its rounding, so that the boxes cover the table without gaps.
+    pub fn cell(&self, key: &Key) -> Cell {
+        let scale = [self.half_size[0], self.half_size[1], PI];
+        let at =
+            |i: usize, units: u32| scale[i] * (f64::from(units) * (2.0 / f64::from(UNITS)) - 1.0);
+        let ends: [[f64; 2]; 3] =
+            std::array::from_fn(|i| [at(i, key.low[i]), at(i, key.low[i] + key.size[i])]);
+        let middle = ends.map(|[a, b]| (a + b) / 2.0);
+        Cell {
+            centre: Configuration::new(middle[0], middle[1], middle[2]),
+            half: std::array::from_fn(|i| {
+                (ends[i][1] - ends[i][0]) / 2.0 + 4.0 * f64::EPSILON * scale[i]
+            }),
+        }
+    }
+
+    pub fn leaf(&self, id: u32) -> &Leaf {
+        &self.leaves[id as usize]
+    }
+
+    /// Number of leaves that are or ever were.
+    pub fn len(&self) -> usize {
+        self.leaves.len()
+    }
+
+    pub fn live(&self) -> impl Iterator<Item = (u32, &Leaf)> {
+        (0..).zip(&self.leaves).filter(|(_, leaf)| leaf.live)
+    }
+
+    /// Adds the first cells.
+    pub fn fill(&mut self, cells: &[(Key, Assessment)]) {
+        self.add(cells, &[]);
+    }
+
+    /// Puts the parts of a leaf that are not blocked in its place.
+    pub fn replace(&mut self, id: u32, parts: &[(Key, Assessment)]) {
+        let leaf = &mut self.leaves[id as usize];
+        leaf.live = false;
+        let around = std::mem::take(&mut leaf.neighbours);
+        for &n in &around {
+            let list = &mut self.leaves[n as usize].neighbours;
+            if let Some(place) = list.iter().position(|&k| k == id) {
+                list.swap_remove(place);
+            }
+        }
+        self.add(parts, &around);
+    }
+
+    /// Adds leaves that touch each other and the leaves `around` only.
+    fn add(&mut self, parts: &[(Key, Assessment)], around: &[u32]) {
+        let first = self.leaves.len() as u32;
+        for (id, &(key, known)) in (first..).zip(parts) {
+            let neighbours: Vec<u32> = around
+                .iter()
+                .copied()
+                .chain(first..id)
+                .filter(|&n| self.leaves[n as usize].key.touches(&key))
+                .collect();
+            for &n in &neighbours {
+                self.leaves[n as usize].neighbours.push(id);
+            }
+            self.leaves.push(Leaf {
+                key,
+                known,
+                neighbours,
+                live: true,
+            });
+        }
+    }
+
+    /// The middle of what two touching leaves have in common.
+    pub fn between(&self, a: u32, b: u32) -> Configuration {
+        let (a, b) = (self.cell(&self.leaf(a).key), self.cell(&self.leaf(b).key));
+        let step = a.centre.step_to(&b.centre);
+        // In the frame of a: the interval [-a, a] and the one about `step`.
+        let middle = |i: usize| {
+            let low = (-a.half[i]).max(step[i] - b.half[i]);
+            let high = a.half[i].min(step[i] + b.half[i]);
+            (low + high) / 2.0
+        };
+        a.centre.moved([middle(0), middle(1), middle(2)].into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    const KNOWN: Assessment = Assessment {
+        lower: 0.0,
+        estimate: 0.0,
+        overlap: 0.0,
+        axis: 0,
+    };
+
+    #[test]
+    fn neighbours_are_exactly_the_leaves_that_touch() {
+        let space = ConfigurationSpace {
+            half_size: [1.0, 0.7],
+            rho: 0.2,
+            free_distance: 0.9,
+        };
+        let mut store = Store::new(&space);
+        store.fill(
+            &Store::first_keys()
+                .iter()
+                .map(|k| (*k, KNOWN))
+                .collect::<Vec<_>>(),
+        );
+        let mut rng = ChaCha8Rng::seed_from_u64(2);
+        for _ in 0..200 {
+            let id = rng.random_range(0..store.len() as u32);
+            if !store.leaf(id).live {
+                continue;
+            }
+            let mut parts = vec![store.leaf(id).key];
+            for axis in 0..3 {
+                parts = parts.iter().flat_map(|k| k.halves(axis).unwrap()).collect();
+            }
+            parts.remove(rng.random_range(0..8));
+            store.replace(id, &parts.iter().map(|k| (*k, KNOWN)).collect::<Vec<_>>());
+        }
+        let live: Vec<u32> = store.live().map(|(id, _)| id).collect();
+        for &a in live.iter().step_by(7) {
+            let mut listed = store.leaf(a).neighbours.clone();
+            listed.sort_unstable();
+            // Touching, judged from the boxes alone.
+            let box_a = store.cell(&store.leaf(a).key);
+            let touching: Vec<u32> = live
+                .iter()
+                .copied()
+                .filter(|&b| {
+                    let box_b = store.cell(&store.leaf(b).key);
+                    let step = box_a.centre.step_to(&box_b.centre);
+                    b != a && (0..3).all(|i| step[i].abs() <= box_a.half[i] + box_b.half[i] + 1e-12)
+                })
+                .collect();
+            assert_eq!(listed, touching);
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The upper bound: a pathway proved free and bounded in energy between its points too.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::cell::Cell;
+use crate::configuration::Configuration;
+use crate::contact::sweep::Sweep;
+use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
+use crate::potential::bounds::CellBounds;
+
+/// How far (m) inner points of a pathway are lifted off contact, so that a chord between two of
+/// them does not cut into it.
+const LIFT: f64 = 1e-6;
+
+/// Clearance (m) asked of a lifted stretch: more than rounding, so that it is truly free.
+const STRICT: f64 = -1e-12;
+
+/// A stretch is halved at most this often.
+const DEPTH: usize = 24;
+
+/// A pathway proved free throughout, and the proved bound of its energy.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ProvedPath {
+    /// No configuration on the pathway has a higher energy (J).
+    pub upper: f64,
+    /// The highest point met.
+    pub peak: Configuration,
+    pub points: Vec<Configuration>,
+}
+
+pub(super) struct PathProof<'a> {
+    pub bounds: &'a dyn CellBounds,
+    pub contact: Option<(&'a Contact, &'a Sweep)>,
+    /// Metric length (m) of one radian.
+    pub rho: f64,
+}
+
+impl PathProof<'_> {
+    /// Proves a pathway through the given points: straight stretches, lifted off contact between
+    /// the two ends and refined where needed. The energy's bound is sharpened until it exceeds the
+    /// highest energy met by no more than `tolerance` (J).
+    ///
+    /// # Errors
+    /// The number of a point before which the pathway cannot be proved free, or rises above
+    /// `give_up` (J).
+    pub fn prove(
+        &self,
+        path: &[Configuration],
+        tolerance: f64,
+        give_up: f64,
+    ) -> Result<ProvedPath, usize> {
+        let (Some(first), Some(last)) = (path.first(), path.last()) else {
+            return Err(0);
+        };
+        let mut points = vec![*first];
+        let mut owners = vec![0];
+        for (k, q) in path.iter().enumerate().skip(1) {
+            let next = if k + 1 == path.len() {
+                *last
+            } else {
+                self.lifted(q).ok_or(k)?
+            };
+            if self.value(&next).0 > give_up {
+                return Err(k);
+            }
+            let end = k == 1 || k + 1 == path.len();
+            self.join(&mut points, &next, end, DEPTH).ok_or(k)?;
+            owners.resize(points.len(), k);
+        }
+        let (upper, peak) = self
+            .highest(&points, tolerance, give_up)
+            .map_err(|stretch| owners[stretch + 1])?;
+        Ok(ProvedPath {
+            upper,
+            peak,
+            points,
+        })
+    }
+
+    /// Appends a proved free way from the last point to `to`.
+    fn join(
+        &self,
+        points: &mut Vec<Configuration>,
+        to: &Configuration,
+        end: bool,
+        depth: usize,
+    ) -> Option<()> {
+        let from = *points.last()?;
+        let Some((_, sweep)) = self.contact else {
+            points.push(*to);
+            return Some(());
+        };
+        // The pathway's ends may touch; all else is strictly free.
+        let allowed = if end { TOUCH } else { STRICT };
+        if sweep.is_free(&from, to, allowed) {
+            points.push(*to);
+            return Some(());
+        }
+        if depth == 0 {
+            return None;
+        }
+        let middle = self.lifted(&from.interpolate(to, 0.5))?;
+        self.join(points, &middle, end, depth - 1)?;
+        self.join(points, to, end, depth - 1)
+    }
+
+    /// The configuration moved off contact until the tiles are [`LIFT`] apart.
+    pub fn lifted(&self, q: &Configuration) -> Option<Configuration> {
+        let Some((contact, _)) = self.contact else {
+            return Some(*q);
+        };
+        let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.rho * self.rho));
+        let mut at = *q;
+        for _ in 0..12 {
+            if contact.clearance_bound(&at) >= LIFT {
+                return Some(at);
+            }
+            let clearance = contact.clearance(&at);
+            if clearance >= 0.5 * LIFT {
+                return Some(at);
+            }
+            let margin = 2.0 * clearance.abs() + 1e-3;
+            let constraints: Vec<Constraint> = contact
+                .constraints(&at, margin)
+                .into_iter()
+                .map(|c| Constraint {
+                    gap: c.gap - LIFT,
+                    ..c
+                })
+                .collect();
+            let (step, _) = closest_admissible(Vector3::zeros(), &metric, &constraints)?;
+            at = at.moved(step);
+        }
+        None
+    }
+
+    /// The energy (J) of one configuration, and its rounding.
+    pub fn value(&self, q: &Configuration) -> (f64, f64) {
+        let known = self.bounds.enclose(&Cell {
+            centre: *q,
+            half: [0.0; 3],
+        });
+        (
+            known.form.value,
+            known.high.max(-known.low) + known.form.rounding(&[0.0; 3]),
+        )
+    }
+
+    /// The proved highest energy on the straight stretches between the points, and the highest
+    /// point met; or the number of a stretch that rises above `give_up`.
+    fn highest(
+        &self,
+        points: &[Configuration],
+        tolerance: f64,
+        give_up: f64,
+    ) -> Result<(f64, Configuration), usize> {
+        let mut floor = f64::NEG_INFINITY;
+        let mut peak = points[0];
+        let mut raise = |q: &Configuration| {
+            let (value, rounding) = self.value(q);
+            if value + rounding > floor {
+                floor = value + rounding;
+                peak = *q;
+            }
+            floor
+        };
+        let mut level = points
+            .iter()
+            .map(&mut raise)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let mut upper = level;
+        let mut open: Vec<(Configuration, Configuration, usize, usize)> = points
+            .windows(2)
+            .enumerate()
+            .map(|(k, w)| (w[0], w[1], k, 0))
+            .collect();
+        while let Some((a, b, stretch, depth)) = open.pop() {
+            let known = self.bounds.enclose(&Cell::spanned_by(&a, &b));
+            let highest = known.form.greatest_along(&a.step_to(&b).into()) + known.high;
+            if highest <= level + tolerance || depth == DEPTH {
+                if highest > give_up {
+                    return Err(stretch);
+                }
+                upper = upper.max(highest);
+                continue;
+            }
+            let middle = a.interpolate(&b, 0.5);
+            level = raise(&middle);
+            if level > give_up {
+                return Err(stretch);
+            }
+            open.push((a, middle, stretch, depth + 1));
+            open.push((middle, b, stretch, depth + 1));
+        }
+        Ok((upper, peak))
+    }
+}

@@ -1,0 +1,99 @@
+//! The bound of the energy's curvature, the moving dipoles in the lanes.
+
+use super::DipolePotential;
+use super::bundle::Bundle;
+use super::field::{Frame, TOGETHER};
+use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
+use super::tasks::frame_of_one;
+use crate::configuration::Configuration;
+
+/// The sum over all pairs of `K [24 / r^5 + 18 w / r^4 + 2 w^2 / r^3]`, with r the pair's distance
+/// less `reach` and w the reciprocal of the moving dipoles' largest lever; infinite where an r is
+/// not positive.
+pub struct Curvature<'a> {
+    pub potential: &'a DipolePotential,
+    pub q: &'a Configuration,
+    pub reach: f64,
+}
+
+impl Task for Curvature<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> f64 {
+        let frame = frame_of_one(l, self.q);
+        let mut sums = Sums {
+            bound: l.splat(0.0),
+            nearest: l.splat(f64::INFINITY),
+        };
+        let length = self.potential.moving.x.len();
+        let mut first = 0;
+        while first + 2 * L::WIDTH <= length {
+            self.block::<L, 2>(l, &frame, first, &mut sums);
+            first += 2 * L::WIDTH;
+        }
+        if first < length {
+            self.block::<L, 1>(l, &frame, first, &mut sums);
+        }
+
+        let mut nearest = [f64::INFINITY; MAX_WIDTH];
+        l.store(sums.nearest, &mut nearest);
+        let bound = l.sum(sums.bound);
+        if bound.is_finite() && nearest.iter().all(|r| *r > 0.0) {
+            bound
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// What the pairs are summed to.
+struct Sums<F> {
+    bound: F,
+    /// The smallest distance less the reach (m).
+    nearest: F,
+}
+
+impl Curvature<'_> {
+    /// The pairs of `N` vectors of moving dipoles from the dipole `first` on.
+    #[inline(always)]
+    fn block<L: Lanes, const N: usize>(
+        &self,
+        l: L,
+        frame: &Frame<L::F>,
+        first: usize,
+        sums: &mut Sums<L::F>,
+    ) {
+        let b = Bundle::<L, N, TOGETHER>(l);
+        let DipolePotential { moving, lever, .. } = self.potential;
+        let turn = if *lever > 0.0 { 1.0 / lever } else { 0.0 };
+        let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
+        for (k, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
+            let i = first + k * L::WIDTH;
+            [*x, *y] = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
+        }
+        let mut shares = [l.splat(0.0); N];
+        for pair in self.potential.sources.as_chunks::<TOGETHER>().0 {
+            let dx = b.sub([x; TOGETHER], b.rows(pair.map(|s| s.position[0])));
+            let dy = b.sub([y; TOGETHER], b.rows(pair.map(|s| s.position[1])));
+            let r2 = b.mul_add(dx, dx, b.mul(dy, dy));
+            let distance = b.mul(r2, b.reciprocal_sqrt(r2));
+            let r = b.sub(distance, b.splat(self.reach));
+            let w1 = b.reciprocal(r);
+            let p = b.mul_add(b.splat(24.0), w1, b.splat(18.0 * turn));
+            let p = b.mul_add(p, w1, b.splat(2.0 * turn * turn));
+            let p = b.mul(b.mul(w1, b.mul(w1, w1)), p);
+            for j in 0..TOGETHER {
+                let magnitude = l.splat(pair[j].magnitude);
+                for k in 0..N {
+                    sums.nearest = l.min(r[j][k], sums.nearest);
+                    shares[k] = l.mul_add(p[j][k], magnitude, shares[k]);
+                }
+            }
+        }
+        for (k, share) in shares.iter().enumerate() {
+            let magnitude = l.load(&moving.magnitude[first + k * L::WIDTH..]);
+            sums.bound = l.mul_add(*share, magnitude, sums.bound);
+        }
+    }
+}

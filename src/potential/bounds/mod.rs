@@ -1,0 +1,23 @@
+//! Guaranteed bounds of the energy over cells of configurations.
+
+mod dipole;
+
+pub use dipole::DipoleBounds;
+
+use crate::cell::{Cell, Quadratic};
+
+/// What is known of the energy over a cell: for every *free* configuration of the cell at the
+/// offset d from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Enclosure {
+    pub form: Quadratic,
+    pub low: f64,
+    pub high: f64,
+}
+
+/// An energy that can be bounded over cells.
+pub trait CellBounds: Sync {
+    /// Encloses U over the free configurations of a cell. Where nothing is known `low` is minus
+    /// infinity and `high` plus infinity; no entry is ever NaN.
+    fn enclose(&self, cell: &Cell) -> Enclosure;
+}

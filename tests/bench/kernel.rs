@@ -1,0 +1,278 @@
+//! How fast the dipole kernel is, and how close to what the core can do.
+//!
+//! The ceiling is measured in the same run: a loop does as many simple and fused vector operations
+//! and estimates of `1 / sqrt` as the pairs take, but none that waits for another. A kernel's share
+//! of it is that loop's time over its own; so what it does besides the pairs (sines and cosines,
+//! rotations, sums) counts as loss. Times are the least, shares the median of many rounds, in each
+//! of which everything is measured once.
+//!
+//! `cargo bench --bench kernel`
+
+use std::f64::consts::FRAC_PI_2;
+use std::hint::black_box;
+use std::time::Instant;
+
+use nalgebra::{Vector2, Vector3};
+use tilebind::Configuration;
+use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use tilebind::potential::batch::{Level, Operations};
+use tilebind::potential::dipole::{Dipole, ScalarDipoles};
+use tilebind::potential::{DipolePotential, Potential};
+
+const ROUNDS: usize = 40;
+const CONFIGURATIONS: usize = 2048;
+
+fn main() {
+    let tile = paper_tile();
+    let qs = configurations();
+    println!("16 x 16 dipoles, {CONFIGURATIONS} configurations, one core");
+    let scalar = ScalarDipoles::new(&tile, &tile);
+    report("scalar formula", &mut kernels(&scalar, &qs), None);
+    for level in Level::available() {
+        let potential = DipolePotential::with_level(&tile, &tile, level);
+        let name = format!("{level}, {} lanes", level.width());
+        report(&name, &mut kernels(&potential, &qs), Some(level));
+    }
+}
+
+/// The tile of the paper: four magnets a face, NNNS counter-clockwise, 43 cm square.
+fn paper_tile() -> Vec<Dipole> {
+    let face = |face: usize| {
+        let (sin, cos) = (face as f64 * FRAC_PI_2).sin_cos();
+        let (normal, along) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+        [1.0, 1.0, 1.0, -1.0]
+            .into_iter()
+            .enumerate()
+            .map(move |(k, pole)| Dipole {
+                position: normal * 0.21 + along * (0.04 * (k as f64 - 1.5)),
+                moment: normal * (pole * 0.2865),
+            })
+    };
+    (0..4).flat_map(face).collect()
+}
+
+/// Poses around contact.
+fn configurations() -> Vec<Configuration> {
+    (0..CONFIGURATIONS)
+        .map(|i| {
+            let t = i as f64;
+            let (x, y) = (0.5 + 0.07 * (0.7 * t).sin(), 0.2 * (1.3 * t).cos());
+            Configuration::new(x, y, 3.1 * (0.37 * t).sin())
+        })
+        .collect()
+}
+
+/// Something to be timed.
+struct Work<'a> {
+    name: &'static str,
+    /// How often a call does it.
+    times: usize,
+    /// Whether it computes gradients; nothing where it computes neither energies nor gradients.
+    gradient: Option<bool>,
+    call: Box<dyn FnMut() + 'a>,
+}
+
+/// Times (s) of doing it once, a row for each round.
+fn measure(works: &mut [Work]) -> Vec<Vec<f64>> {
+    let round = |_| {
+        let mut row = Vec::new();
+        for work in works.iter_mut() {
+            let start = Instant::now();
+            (work.call)();
+            row.push(start.elapsed().as_secs_f64() / work.times as f64);
+        }
+        row
+    };
+    (0..ROUNDS).map(round).collect()
+}
+
+fn kernels<'a>(potential: &'a dyn Potential, qs: &'a [Configuration]) -> Vec<Work<'a>> {
+    let work = |name, gradient, call| Work {
+        name,
+        times: qs.len(),
+        gradient,
+        call,
+    };
+    let mut energies = vec![0.0; qs.len()];
+    let mut both = vec![(0.0, Vector3::zeros()); qs.len()];
+    let each = move |f: &dyn Fn(&Configuration) -> f64| {
+        for q in qs {
+            black_box(f(q));
+        }
+    };
+    vec![
+        work(
+            "energies",
+            Some(false),
+            Box::new(move || {
+                potential.energies(qs, black_box(&mut energies));
+            }),
+        ),
+        work(
+            "energies_and_gradients",
+            Some(true),
+            Box::new(move || {
+                potential.energies_and_gradients(qs, black_box(&mut both));
+            }),
+        ),
+        work(
+            "energy",
+            Some(false),
+            Box::new(move || each(&|q| potential.energy(q))),
+        ),
+        work(
+            "energy_and_gradient",
+            Some(true),
+            Box::new(move || {
+                each(&|q| potential.energy_and_gradient(q).1.z);
+            }),
+        ),
+        work(
+            "curvature_bound",
+            None,
+            Box::new(move || {
+                each(&|q| potential.curvature_bound(q, 0.002));
+            }),
+        ),
+    ]
+}
+
+/// As many vector operations as `CHAINS` vectors of pairs of dipoles take, over and over, in
+/// chains that are independent of one another and few enough to stay in registers.
+#[derive(Clone, Copy)]
+struct Mix<const CHAINS: usize> {
+    a_pair: Operations,
+    /// Plain reciprocals in place of estimates of `1 / sqrt`.
+    reciprocals: bool,
+}
+
+impl<const CHAINS: usize> Mix<CHAINS> {
+    const LENGTH: usize = 32_000 / CHAINS;
+}
+
+impl<const CHAINS: usize> Task for Mix<CHAINS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let mut chains = [l.splat(black_box(1.5)); CHAINS];
+        let mut sums = [l.splat(black_box(1.5)); 2];
+        let (a, b) = (l.splat(black_box(0.5)), l.splat(black_box(1.01)));
+        for _ in 0..Self::LENGTH {
+            for _ in 0..self.a_pair.simple {
+                for x in &mut chains {
+                    *x = l.mul(*x, b);
+                }
+            }
+            // Each estimate below comes with a fused operation.
+            for _ in self.a_pair.estimates..self.a_pair.fused {
+                for x in &mut chains {
+                    *x = l.mul_add(*x, a, b);
+                }
+            }
+            for _ in 0..self.a_pair.estimates {
+                for (i, x) in chains.iter().enumerate() {
+                    let estimate = if self.reciprocals {
+                        l.reciprocal_estimate(*x)
+                    } else {
+                        l.reciprocal_sqrt_estimate(*x)
+                    };
+                    sums[i % 2] = l.mul_add(estimate, a, sums[i % 2]);
+                }
+            }
+        }
+        for x in chains.into_iter().chain(sums) {
+            let mut values = [0.0; MAX_WIDTH];
+            l.store(x, &mut values);
+            black_box(values);
+        }
+    }
+}
+
+/// The ceilings of energies and of energies with gradients, then the core's rates at a few kinds
+/// of operation.
+fn ceilings(level: Level) -> Vec<Work<'static>> {
+    let exact = level == Level::PORTABLE;
+    let work = |name, gradient, a_pair, reciprocals| Work {
+        name,
+        times: 32_000 * level.width(),
+        gradient,
+        call: if exact {
+            Box::new(move || {
+                level.run(Mix::<4> {
+                    a_pair,
+                    reciprocals,
+                })
+            }) as Box<dyn FnMut()>
+        } else {
+            Box::new(move || {
+                level.run(Mix::<8> {
+                    a_pair,
+                    reciprocals,
+                })
+            })
+        },
+    };
+    let of = |simple, fused, estimates| Operations {
+        simple,
+        fused,
+        estimates,
+    };
+    vec![
+        work(
+            "a pair",
+            Some(false),
+            Operations::per_pair(false, exact),
+            false,
+        ),
+        work(
+            "a pair with gradient",
+            Some(true),
+            Operations::per_pair(true, exact),
+            false,
+        ),
+        work("16 fused operations", None, of(0, 16, 0), false),
+        work("2 fused and a 1/sqrt", None, of(0, 2, 1), false),
+        work("2 fused and a 1/x", None, of(0, 2, 1), true),
+    ]
+}
+
+fn report(name: &str, kernels: &mut Vec<Work>, level: Option<Level>) {
+    let mut works = level.map_or(vec![], ceilings);
+    let first = works.len();
+    works.append(kernels);
+    let rounds = measure(&mut works);
+    let over_rounds = |f: &dyn Fn(&Vec<f64>) -> f64| {
+        let mut values: Vec<f64> = rounds.iter().map(f).collect();
+        values.sort_by(f64::total_cmp);
+        (values[0], values[values.len() / 2])
+    };
+
+    println!("\n{name}");
+    for (i, work) in works.iter().enumerate().take(first) {
+        let time = over_rounds(&|round| round[i]).0;
+        println!("  the core: {} {:.4} ns a lane", work.name, time * 1e9);
+    }
+    println!(
+        "  {:24} {:>9} {:>12} {:>10} {:>8}",
+        "", "ns", "per second", "pairs/s", "share"
+    );
+    for (i, work) in works.iter().enumerate().skip(first) {
+        let time = over_rounds(&|round| round[i]).0;
+        let share = match (level, work.gradient) {
+            (Some(_), Some(gradient)) => {
+                let pair = usize::from(gradient);
+                let share = over_rounds(&|round| 256.0 * round[pair] / round[i]).1;
+                format!("{:.0} %", 100.0 * share)
+            }
+            _ => String::new(),
+        };
+        println!(
+            "  {:24} {:9.1} {:12.3e} {:10.2e} {share:>8}",
+            work.name,
+            time * 1e9,
+            1.0 / time,
+            256.0 / time
+        );
+    }
+}
