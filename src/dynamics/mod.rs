@@ -18,6 +18,7 @@
 
 mod body;
 mod collision;
+pub mod docking;
 mod flight;
 mod force;
 mod settings;

@@ -99,7 +99,9 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     }
     let energy_at = |t: f64| {
         let s = t * length;
-        let i = along.partition_point(|a| *a < s).clamp(1, along.len().max(2) - 1);
+        let i = along
+            .partition_point(|a| *a < s)
+            .clamp(1, along.len().max(2) - 1);
         let (a, b) = (along[i - 1], along[i]);
         let share = if b > a { (s - a) / (b - a) } else { 1.0 };
         energies[i - 1] + (energies[i] - energies[i - 1]) * share
