@@ -17,6 +17,7 @@
 //! leapfrog method.
 
 mod body;
+pub mod check;
 mod collision;
 pub mod docking;
 mod flight;

@@ -25,8 +25,10 @@ pub struct MotionSettings {
     pub longest_step: f64,
     /// Contact begins at this clearance (m) and ends at twice as much.
     pub contact_range: f64,
-    /// Step in contact (s).
+    /// Longest step in contact (s).
     pub contact_step: f64,
+    /// Longest way (m) of any point of the tile in one step in contact.
+    pub contact_travel: f64,
 }
 
 impl Default for MotionSettings {
@@ -41,7 +43,8 @@ impl Default for MotionSettings {
             tolerance: 1e-8,
             longest_step: 0.1,
             contact_range: 1e-3,
-            contact_step: 2e-4,
+            contact_step: 1e-3,
+            contact_travel: 1e-4,
         }
     }
 }
@@ -73,6 +76,7 @@ impl MotionSettings {
         positive("the longest step", self.longest_step)?;
         positive("the contact range", self.contact_range)?;
         positive("the contact step", self.contact_step)?;
+        positive("the way of a contact step", self.contact_travel)?;
         for fan in &self.fans {
             positive("a fan's width", fan.width)?;
         }

