@@ -10,6 +10,7 @@ pub mod landscape;
 pub mod pipeline;
 pub mod potential;
 pub mod problem;
+pub mod query;
 pub mod report;
 pub mod roadmap;
 pub mod tile;

@@ -52,6 +52,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         &symmetries,
         settings,
         settings.seed,
+        &[],
         &mut clock,
     );
     clock.start("states and barriers", 0.6);
@@ -70,6 +71,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
             &symmetries,
             settings,
             settings.seed + repeat,
+            &[],
             &mut clock,
         );
         let other = inventory::take(design, &problem, &symmetries, &again.survey, settings);
@@ -103,18 +105,21 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     }
 }
 
-struct Surveyed {
-    survey: Survey,
-    counts: Counts,
+/// A survey, and how much was done for it.
+pub(crate) struct Surveyed {
+    pub survey: Survey,
+    pub counts: Counts,
 }
 
-/// One roadmap and what is found from it.
-fn survey(
+/// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
+/// besides those that the faces suggest.
+pub(crate) fn survey(
     design: &Design,
     problem: &Problem,
     symmetries: &[Symmetry],
     settings: &Settings,
     seed: u64,
+    guesses: &[Configuration],
     clock: &mut Clock,
 ) -> Surveyed {
     let depth = energy_scale(design, problem);
@@ -151,7 +156,7 @@ fn survey(
     let survey = Survey::new(
         problem,
         &Roadmap { milestones, edges },
-        &guesses(design, problem),
+        &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {
             edge: edge_settings,
@@ -168,13 +173,13 @@ fn survey(
 /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
 /// of the flush meetings of two faces where the bound one does not attract.
 pub fn energy_scale(design: &Design, problem: &Problem) -> f64 {
-    guesses(design, problem)
+    flush_meetings(design, problem)
         .iter()
         .map(|q| problem.energy(q).abs())
         .fold(f64::MIN_POSITIVE, f64::max)
 }
 
-fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
+pub(crate) fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
     EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -187,7 +192,7 @@ fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
 
 /// Where minima may be expected: the bound configuration, and every pair of faces set flush
 /// against each other, pushed out into contact where their shapes overlap.
-fn guesses(design: &Design, problem: &Problem) -> Vec<Configuration> {
+fn flush_meetings(design: &Design, problem: &Problem) -> Vec<Configuration> {
     let mut all = vec![design.bound];
     for fixed in &design.fixed.faces {
         for moving in &design.moving.faces {
@@ -207,7 +212,7 @@ fn guesses(design: &Design, problem: &Problem) -> Vec<Configuration> {
 }
 
 /// Measures the stages.
-struct Clock<'a> {
+pub(crate) struct Clock<'a> {
     problem: &'a Problem,
     observer: &'a dyn Observer,
     stages: Vec<Stage>,
@@ -215,7 +220,7 @@ struct Clock<'a> {
 }
 
 impl<'a> Clock<'a> {
-    fn new(problem: &'a Problem, observer: &'a dyn Observer) -> Self {
+    pub fn new(problem: &'a Problem, observer: &'a dyn Observer) -> Self {
         Self {
             problem,
             observer,

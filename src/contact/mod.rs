@@ -19,6 +19,7 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
 
+use self::tree::CircleTree;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::{Bounds, ConvexPart};
@@ -34,6 +35,8 @@ pub struct Contact {
     moving: Outline,
     fixed_shape: Compound,
     moving_shape: Compound,
+    fixed_tree: CircleTree,
+    moving_tree: CircleTree,
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
@@ -44,6 +47,8 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
+            fixed_tree: sweep::tree(fixed),
+            moving_tree: sweep::tree(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
@@ -94,7 +99,8 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH || self.overlap_depth(q) <= TOUCH
+        self.clearance_bound(q) >= -TOUCH
+            || self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -107,17 +113,37 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        for part in self.moving.parts() {
-            let bounds = part.placed_bounds(q);
-            let mut placed = None;
-            for (other, other_bounds) in self.fixed.parts().iter().zip(&self.fixed_bounds) {
-                if !bounds.apart(other_bounds) {
-                    let placed = placed.get_or_insert_with(|| part.placed(q));
-                    deepest = deepest.max(-separation(other, placed));
-                }
-            }
-        }
+        self.close_parts(q, |fixed, moving| {
+            deepest = deepest.max(-separation(fixed, moving));
+            true
+        });
         deepest
+    }
+
+    /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
+    /// overlap; stops at the first for which it does not.
+    fn close_parts(
+        &self,
+        q: &Configuration,
+        mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
+    ) -> bool {
+        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
+        let rotation = q.rotation();
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| q.position() + rotation * p,
+            0.0,
+            &mut |i, j| {
+                let (_, bounds, part) = match &mut placed {
+                    Some(known) if known.0 == j => known,
+                    other => {
+                        let part = self.moving.parts()[j].placed(q);
+                        other.insert((j, part.bounds(), part))
+                    }
+                };
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
+            },
+        )
     }
 }
 
@@ -128,12 +154,23 @@ pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 
+/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
+/// so.
+fn separated(a: &ConvexPart, b: &ConvexPart, least: f64) -> bool {
+    let mut all = separations(a, b).chain(separations(b, a));
+    all.any(|separation| separation >= least)
+}
+
 fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
+    separations(of, from).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How far (m) one polygon lies outside each edge of another.
+fn separations<'a>(of: &'a ConvexPart, from: &'a ConvexPart) -> impl Iterator<Item = f64> + 'a {
     of.points
         .iter()
         .zip(&of.normals)
         .map(|(point, normal)| support(from, normal) - normal.dot(point))
-        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Least coordinate of a polygon along a direction.

@@ -69,7 +69,8 @@ impl Sweep {
     }
 }
 
-fn tree(outline: &Outline) -> CircleTree {
+/// The tree of an outline's convex parts.
+pub(super) fn tree(outline: &Outline) -> CircleTree {
     let circles: Vec<_> = outline
         .parts()
         .iter()

@@ -98,6 +98,43 @@ impl CircleTree {
         }
     }
 
+    /// One of a branch's pieces: the one with the lowest number.
+    pub fn first(&self, branch: &Branch) -> usize {
+        let node = &self.nodes[branch.node];
+        let pieces = &self.order[node.first..node.end];
+        pieces.iter().copied().min().unwrap_or_default()
+    }
+
+    /// The least distance of a piece from a point, `distance` telling each piece's.
+    pub fn nearest(&self, p: Vector2<f64>, distance: &impl Fn(usize) -> f64) -> f64 {
+        self.nearest_below(&self.root(), p, distance, f64::INFINITY)
+    }
+
+    fn nearest_below(
+        &self,
+        branch: &Branch,
+        p: Vector2<f64>,
+        distance: &impl Fn(usize) -> f64,
+        best: f64,
+    ) -> f64 {
+        let least = |branch: &Branch| (p - branch.centre).norm() - branch.radius;
+        if least(branch) >= best {
+            return best;
+        }
+        match self.below(branch) {
+            Below::Pieces(pieces) => pieces.iter().map(|&k| distance(k)).fold(best, f64::min),
+            Below::Branches([a, b]) => {
+                let (first, second) = if least(&a) <= least(&b) {
+                    (a, b)
+                } else {
+                    (b, a)
+                };
+                let best = self.nearest_below(&first, p, distance, best);
+                self.nearest_below(&second, p, distance, best)
+            }
+        }
+    }
+
     /// Calls `found` for pieces that may come within `distance` of a point, until it says stop by
     /// returning false; returns whether it never did.
     pub fn near(
@@ -138,10 +175,26 @@ impl CircleTree {
         distance: f64,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
+        let apart = |between: Vector2<f64>, radii: f64| {
+            let most = distance + radii;
+            between.norm_squared() > most * most
+        };
+        self.pairs(other, place, &apart, found)
+    }
+
+    /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
+    /// `place`, until it returns false; returns whether it never did. Circles are passed over
+    /// where `apart`, told the vector between their centres and the sum of their radii, says so.
+    pub fn pairs(
+        &self,
+        other: &Self,
+        place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
+        apart: &impl Fn(Vector2<f64>, f64) -> bool,
+        found: &mut impl FnMut(usize, usize) -> bool,
+    ) -> bool {
         let mut open = vec![(self.root(), other.root())];
         while let Some((a, b)) = open.pop() {
-            let most = distance + a.radius + b.radius;
-            if (a.centre - place(b.centre)).norm_squared() > most * most {
+            if apart(a.centre - place(b.centre), a.radius + b.radius) {
                 continue;
             }
             match (self.below(&a), other.below(&b)) {
@@ -204,6 +257,9 @@ mod tests {
                     found.push(k);
                     true
                 });
+                let distance = |k: usize| (a[k].0 - p).norm() - a[k].1;
+                let nearest = (0..n).map(distance).fold(f64::INFINITY, f64::min);
+                assert_eq!(ta.nearest(p, &distance), nearest);
                 assert!((0..n).all(|k| (a[k].0 - p).norm() - a[k].1 > 0.1 || found.contains(&k)));
                 assert!((0..40).all(|j| gap(i, j) > 0.1 || pairs.contains(&(i, j))));
             }

@@ -1,5 +1,6 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
+pub mod approach;
 pub mod capture;
 pub mod certificate;
 pub mod inventory;

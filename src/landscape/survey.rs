@@ -166,7 +166,7 @@ impl Survey {
     }
 
     /// The node in which a descent ended, made if need be.
-    fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
+    pub(crate) fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
             Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
             Outcome::Free => {

@@ -1,5 +1,6 @@
 //! The interaction energy U(x, y, theta) of two tiles, its gradient, and bounds of its curvature.
 
+pub mod analytic;
 pub mod batch;
 pub mod bounds;
 pub mod dipole;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::cell::Cell;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::sweep::Sweep;
 use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
 use crate::potential::bounds::CellBounds;
@@ -31,8 +31,7 @@ pub(super) struct ProvedPath {
 pub(super) struct PathProof<'a> {
     pub bounds: &'a dyn CellBounds,
     pub contact: Option<(&'a Contact, &'a Sweep)>,
-    /// Metric length (m) of one radian.
-    pub rho: f64,
+    pub space: &'a ConfigurationSpace,
 }
 
 impl PathProof<'_> {
@@ -60,7 +59,7 @@ impl PathProof<'_> {
             } else {
                 self.lifted(q).ok_or(k)?
             };
-            if self.value(&next).0 > give_up {
+            if !self.space.contains(&next) || self.value(&next).0 > give_up {
                 return Err(k);
             }
             let end = k == 1 || k + 1 == path.len();
@@ -109,7 +108,7 @@ impl PathProof<'_> {
         let Some((contact, _)) = self.contact else {
             return Some(*q);
         };
-        let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.rho * self.rho));
+        let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.space.rho.powi(2)));
         let mut at = *q;
         for _ in 0..12 {
             if contact.clearance_bound(&at) >= LIFT {
@@ -134,15 +133,16 @@ impl PathProof<'_> {
         None
     }
 
-    /// The energy (J) of one configuration, and its rounding.
+    /// Lower and upper bound of the energy (J) of one configuration; they differ by rounding only.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
         let known = self.bounds.enclose(&Cell {
             centre: *q,
             half: [0.0; 3],
         });
+        let rounding = known.form.rounding(&[0.0; 3]);
         (
-            known.form.value,
-            known.high.max(-known.low) + known.form.rounding(&[0.0; 3]),
+            known.form.value + known.low - rounding,
+            known.form.value + known.high + rounding,
         )
     }
 
@@ -157,9 +157,9 @@ impl PathProof<'_> {
         let mut floor = f64::NEG_INFINITY;
         let mut peak = points[0];
         let mut raise = |q: &Configuration| {
-            let (value, rounding) = self.value(q);
-            if value + rounding > floor {
-                floor = value + rounding;
+            let value = self.value(q).1;
+            if value > floor {
+                floor = value;
                 peak = *q;
             }
             floor
