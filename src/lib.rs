@@ -6,6 +6,7 @@ pub mod certification;
 pub mod configuration;
 pub mod contact;
 pub mod design;
+pub mod dynamics;
 pub mod landscape;
 pub mod pipeline;
 pub mod potential;
