@@ -203,6 +203,12 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
             writeln!(text, "no way at all from far apart into the bond, proved")
         }
         None => writeln!(text, "no way from far apart into the bond was found"),
+        Some(way) if way.caged => {
+            writeln!(
+                text,
+                "proved: no way leads from far apart into the bond, nor out of it"
+            )
+        }
         Some(way) if way.pathway.is_empty() => {
             writeln!(text, "no way from far apart into the bond was found")
         }

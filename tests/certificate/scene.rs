@@ -71,7 +71,7 @@ impl Scene {
         Configuration::new(
             rng.random_range(-x..x),
             rng.random_range(-y..y),
-            rng.random_range(-3.14..3.14),
+            rng.random_range(-3.1..3.1),
         )
     }
 
