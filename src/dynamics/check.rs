@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::docking::{minimum_below, stream};
-use super::simulation::normal;
+use super::trajectory::normal;
 use super::{Body, Motion, MotionSettings, Sample, SettingsError, Simulation};
 use crate::configuration::Configuration;
 use crate::landscape::{Barrier, Place, State};
@@ -14,6 +14,8 @@ use crate::problem::Problem;
 
 /// A tile this close (m, metric of the space) to a state is in it.
 const ARRIVED: f64 = 2e-3;
+/// A tile is away at this multiple of the distance at which the tiles are free of each other.
+const AWAY: f64 = 1.5;
 /// Starts below a barrier have at most this share of it to go.
 const CLOSE_BELOW: f64 = 0.05;
 /// Energies of kicks that are tried, in barriers.
@@ -243,10 +245,17 @@ impl Checker<'_> {
         }
     }
 
+    /// Whether the tile has left the other's reach. Where the tiles have only just become free of
+    /// each other, they may still attract by some µJ, and a tile with less energy than at infinity
+    /// comes back from there.
+    fn is_away(&self, q: &Configuration) -> bool {
+        q.position().norm() >= AWAY * self.problem.space.free_distance
+    }
+
     fn is_at(&self, place: Place, sample: &Sample) -> bool {
         let q = &sample.motion.configuration;
         match place {
-            Place::Free => self.problem.space.is_far(q),
+            Place::Free => self.is_away(q),
             Place::State(id) => self
                 .states
                 .iter()
@@ -258,13 +267,15 @@ impl Checker<'_> {
     /// The place that slow motion leads to.
     fn place_below(&self, sample: &Sample) -> Option<Place> {
         let q = &sample.motion.configuration;
-        if self.problem.space.is_far(q) {
+        if self.is_away(q) {
             return Some(Place::Free);
         }
-        let found = minimum_below(self.problem, q)?;
-        self.states
-            .iter()
-            .find(|state| self.problem.space.distance(&state.configuration, &found) < ARRIVED)
+        let state_at = |q: &Configuration| {
+            let distance = |s: &State| self.problem.space.distance(&s.configuration, q);
+            self.states.iter().find(|state| distance(state) < ARRIVED)
+        };
+        state_at(q)
+            .or_else(|| state_at(&minimum_below(self.problem, q)?))
             .map(|state| Place::State(state.id))
     }
 
@@ -283,7 +294,7 @@ impl Checker<'_> {
             let run = self
                 .settling
                 .run(&start, self.settings.settling, &mut rng, &mut |sample| {
-                    far = self.problem.space.is_far(&sample.motion.configuration);
+                    far = self.is_away(&sample.motion.configuration);
                     far
                 });
             if far {

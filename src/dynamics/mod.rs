@@ -24,6 +24,7 @@ mod flight;
 mod force;
 mod settings;
 mod simulation;
+mod trajectory;
 
 pub use body::{Body, Motion};
 pub use force::Fan;

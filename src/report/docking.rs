@@ -237,7 +237,7 @@ pub fn summary(design: &Design, docking: &Docking, map: &DockingMap) -> String {
             q.theta,
             si(trap.energy, "J", 4),
             if is_bond {
-                ": the bond, held short of it by friction"
+                ": the bond, not reached yet or held short of it by friction"
             } else {
                 ""
             }

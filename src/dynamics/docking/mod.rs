@@ -24,6 +24,8 @@ use crate::problem::Problem;
 
 /// Two resting places closer than this (m, metric of the space) lie in the same trap.
 const SAME_TRAP: f64 = 5e-3;
+/// Tiles that overlap a little are set apart by this much more than that (m).
+const CLEAR: f64 = 1e-6;
 /// Steps in contact between two looks at whether the tiles are matched.
 const STEPS_BETWEEN_LOOKS: usize = 5;
 
@@ -344,7 +346,7 @@ pub(super) fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Conf
     let mut q = *q;
     if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {
         let away = q.position().normalize();
-        let position = q.position() + away * contact.lift(&q, away);
+        let position = q.position() + away * (contact.lift(&q, away) + CLEAR);
         q = Configuration::new(position.x, position.y, q.theta);
     }
     match drift(problem, &q) {

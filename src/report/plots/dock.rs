@@ -8,8 +8,7 @@ use super::marks::{View, outline, polyline, seamed_line, tile};
 use super::picture::{Area, Bitmap, Picture, PictureError, Underlay};
 use super::scale::colour;
 use super::style::{
-    Axis, BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, Text, VERMILLION, chart, pixel,
-    title, units,
+    Axis, FIXED_FILL, GREEN, INK, LABEL, MOVING_FILL, SMALL, SOFT, Text, chart, pixel, title, units,
 };
 use crate::configuration::Configuration;
 use crate::design::Design;
@@ -23,6 +22,8 @@ const MARGIN: [f64; 4] = [54.0, 150.0, 62.0, 84.0];
 /// Chances with contours.
 const LEVELS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.24];
 const COLOURS: usize = 200;
+/// Pixels of the embedded image across a cell, so that cells keep their edges.
+const SHARP: usize = 16;
 
 /// The chance of a match over relative orientation and speed, with contours of the chances
 /// averaged over neighbouring cells.
@@ -57,10 +58,13 @@ pub fn map(design: &Design, map: &DockingMap) -> Result<Picture, PictureError> {
         let palette: Vec<_> = (0..COLOURS).map(palette).collect();
         underlays.push(Underlay {
             bitmap: Bitmap {
-                width: columns,
+                width: columns * SHARP,
                 palette: palette.clone(),
-                pixels: (0..rows * columns)
-                    .map(|k| shade(share(k % columns, rows - 1 - k / columns)))
+                pixels: (0..rows * columns * SHARP * SHARP)
+                    .map(|k| {
+                        let (i, j) = (k % (columns * SHARP), k / (columns * SHARP));
+                        shade(share(i / SHARP, rows - 1 - j / SHARP))
+                    })
                     .collect(),
             },
             rectangle: frame.map(units),
@@ -195,9 +199,9 @@ pub fn trajectories(
         .map(|s| s.motion.configuration.position().amax())
         .fold(0.5, f64::max)
         * 1.08;
-    Picture::draw((SIDE + 160, SIDE), |root, underlays| {
+    Picture::draw((SIDE + 160, SIDE - 24), |root, underlays| {
         title(root, &format!("{}: sampled trajectories", design.name))?;
-        let margin = [54.0, f64::from(SIDE) + 160.0 - PLOT - 84.0, 86.0, 84.0];
+        let margin = [54.0, f64::from(SIDE) + 160.0 - PLOT - 84.0, 62.0, 84.0];
         let axis = |name: &str| Axis::linear(-reach..reach, 8, name);
         let chart = chart(root, margin, &axis("x (m)"), &axis("y (m)"), true)?;
         let view = View {
@@ -225,11 +229,11 @@ pub fn trajectories(
             }
         }
         let mut entries = vec![
-            (Key::Colour(BLUE), "path, ends bound"),
-            (Key::Colour(VERMILLION), "path, ends misbound"),
+            (Key::Colour(GREEN), "path, ends bound"),
+            (Key::Colour(INK), "path, ends misbound"),
             (Key::Colour(FAINT), "path, ends free"),
         ];
-        entries.extend(POLE_KEYS.map(|(key, name)| (key, name)));
+        entries.extend(POLE_KEYS);
         keys(root, underlays, (84.0 + PLOT + 24.0, 90.0), &entries)?;
         Ok(())
     })
@@ -240,8 +244,8 @@ const FAINT: RGBColor = RGBColor(150, 150, 150);
 
 fn look(end: &End) -> (RGBColor, f64) {
     match end {
-        End::Bound { .. } => (BLUE, 2.2),
-        End::Misbound { .. } => (VERMILLION, 1.6),
+        End::Bound { .. } => (GREEN, 2.4),
+        End::Misbound { .. } => (INK, 1.4),
         End::Free => (FAINT, 1.0),
     }
 }
