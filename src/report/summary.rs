@@ -140,7 +140,10 @@ fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
         match class.escape.and_then(|way| way.lower.zip(way.upper)) {
             None if caged() => "no way out".to_owned(),
             None => String::new(),
-            Some((lower, upper)) => si_range(lower - energy, upper - energy, "J", DIGITS),
+            // No barrier is negative.
+            Some((lower, upper)) => {
+                si_range((lower - energy).max(0.0), upper - energy, "J", DIGITS)
+            }
         },
         format!(
             "{}, {}",
