@@ -17,7 +17,7 @@
 //!
 //! **Search.** Two floods rise from the two ends over the cells with lower bounds of at most E, the
 //! target just below the best upper bound. Where they would meet is a divide, and only its cells
-//! are subdivided (see [`flood`]): wrong guesses cost time, never the proof. The lowest pass
+//! are subdivided (see `flood`): wrong guesses cost time, never the proof. The lowest pass
 //! between the floods suggests a pathway; where one along it can be proved, the upper bound falls.
 //! Where no chain is left at E = infinity the start is caged.
 //!
