@@ -374,6 +374,7 @@ mod tests {
         // A barrier that is said to be higher than it is does not stand the check.
         let mut wrong = slid[0].clone();
         wrong.saddle_energy += 10e-3;
+        wrong.lower = wrong.lower.map(|lower| lower + 10e-3);
         let found = check(&problem, body, &analysis.states, &[wrong], &settings).unwrap();
         assert!(found[0].crossed > 0 && found[0].is_contradicted());
         assert!(found[0].example.is_some());
