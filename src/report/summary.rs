@@ -106,7 +106,7 @@ const HEADER: [&str; 6] = [
     "energy",
     "escape barrier",
     "certified",
-    "x, y (mm), theta, faces in contact",
+    "x, y (mm), theta, faces",
 ];
 
 fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
