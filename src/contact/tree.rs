@@ -175,26 +175,10 @@ impl CircleTree {
         distance: f64,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
-        let apart = |between: Vector2<f64>, radii: f64| {
-            let most = distance + radii;
-            between.norm_squared() > most * most
-        };
-        self.pairs(other, place, &apart, found)
-    }
-
-    /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
-    /// `place`, until it returns false; returns whether it never did. Circles are passed over
-    /// where `apart`, told the vector between their centres and the sum of their radii, says so.
-    pub fn pairs(
-        &self,
-        other: &Self,
-        place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
-        apart: &impl Fn(Vector2<f64>, f64) -> bool,
-        found: &mut impl FnMut(usize, usize) -> bool,
-    ) -> bool {
         let mut open = vec![(self.root(), other.root())];
         while let Some((a, b)) = open.pop() {
-            if apart(a.centre - place(b.centre), a.radius + b.radius) {
+            let most = distance + a.radius + b.radius;
+            if (a.centre - place(b.centre)).norm_squared() > most * most {
                 continue;
             }
             match (self.below(&a), other.below(&b)) {

@@ -440,16 +440,6 @@ pub(crate) mod tests {
         )
     }
 
-    fn value(form: &Quadratic, d: [f64; 3]) -> f64 {
-        let [xx, yy, tt, xy, xt, yt] = form.hessian;
-        form.value
-            + (0..3).map(|i| form.gradient[i] * d[i]).sum::<f64>()
-            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
-            + xy * d[0] * d[1]
-            + xt * d[0] * d[2]
-            + yt * d[1] * d[2]
-    }
-
     #[test]
     fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
         let (a, b) = paper_tiles();
@@ -477,7 +467,7 @@ pub(crate) mod tests {
                 if !contact.is_free(&q) {
                     continue;
                 }
-                let rest = potential.energy(&q) - value(&enclosure.form, d);
+                let rest = potential.energy(&q) - enclosure.form.at(d);
                 tested += 1;
                 near += usize::from(size > 0.01);
                 assert!(
