@@ -9,7 +9,6 @@ pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
-pub(crate) mod sweep;
 mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
@@ -50,8 +49,8 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
-            fixed_tree: sweep::tree(fixed),
-            moving_tree: sweep::tree(moving),
+            fixed_tree: CircleTree::of_parts(fixed),
+            moving_tree: CircleTree::of_parts(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
@@ -133,21 +132,22 @@ impl Contact {
         q: &Configuration,
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
-        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
-        let rotation = q.rotation();
+        let (rotation, position) = (q.rotation(), q.position());
+        let mut part = ConvexPart::default();
+        let mut placed = None;
         self.fixed_tree.near_pairs(
             &self.moving_tree,
-            &|p| q.position() + rotation * p,
+            &|p| position + rotation * p,
             0.0,
             &mut |i, j| {
-                let (_, bounds, part) = match &mut placed {
-                    Some(known) if known.0 == j => known,
-                    other => {
-                        let part = self.moving.parts()[j].placed(q);
-                        other.insert((j, part.bounds(), part))
+                let bounds = match placed {
+                    Some((k, bounds)) if k == j => bounds,
+                    _ => {
+                        part.place(&self.moving.parts()[j], &rotation, &position);
+                        placed.insert((j, part.bounds())).1
                     }
                 };
-                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], &part)
             },
         )
     }
