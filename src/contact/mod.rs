@@ -103,9 +103,14 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH
-            || (separated(&self.fixed_core, &self.moving_core.placed(q), -TOUCH)
-                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH)))
+        self.overlaps_at_most(q, TOUCH)
+    }
+
+    /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
+    fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
+        self.clearance_bound(q) >= -depth
+            || (separated(&self.fixed_core, &self.moving_core.placed(q), -depth)
+                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -depth)))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.

@@ -17,22 +17,39 @@ impl Contact {
     /// [stays separated](Self::stays_separated); otherwise it is halved, and the motion refused at
     /// the first configuration that overlaps.
     pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
+        self.motion_overlaps_at_most(a, b, TOUCH)
+    }
+
+    /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
+    /// along the motion, which both ends are taken to fulfil.
+    pub fn motion_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        allowed: f64,
+    ) -> bool {
         let step = a.step_to(b);
         let reach = step.xy().norm() + self.moving().circumradius() * step.z.abs();
         if self.clearance_bound(a) >= reach || self.clearance_bound(b) >= reach {
             return true;
         }
-        self.stretch_is_free(a, b, reach)
+        self.stretch_overlaps_at_most(a, b, reach, allowed)
     }
 
-    fn stretch_is_free(&self, a: &Configuration, b: &Configuration, reach: f64) -> bool {
-        if reach <= SHORTEST || self.stays_separated(a, b, TOUCH) {
+    fn stretch_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        reach: f64,
+        allowed: f64,
+    ) -> bool {
+        if reach <= SHORTEST || self.stays_separated(a, b, allowed) {
             return true;
         }
         let middle = a.interpolate(b, 0.5);
-        self.is_free(&middle)
-            && self.stretch_is_free(a, &middle, reach / 2.0)
-            && self.stretch_is_free(&middle, b, reach / 2.0)
+        self.overlaps_at_most(&middle, allowed)
+            && self.stretch_overlaps_at_most(a, &middle, reach / 2.0, allowed)
+            && self.stretch_overlaps_at_most(&middle, b, reach / 2.0, allowed)
     }
 
     /// Whether every pair of convex parts is proved to stay separated by the line of one of their
