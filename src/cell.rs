@@ -57,6 +57,15 @@ pub struct Quadratic {
 const OFF_DIAGONAL: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Quadratic {
+    /// The value at an offset.
+    pub fn at(&self, d: [f64; 3]) -> f64 {
+        let [xx, yy, tt, xy, xt, yt] = self.hessian;
+        let slopes: f64 = (0..3).map(|i| self.gradient[i] * d[i]).sum();
+        let squares = xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2];
+        let products = xy * d[0] * d[1] + xt * d[0] * d[2] + yt * d[1] * d[2];
+        self.value + slopes + 0.5 * squares + products
+    }
+
     /// `self - factor * other`.
     pub fn minus(&self, factor: f64, other: &Self) -> Self {
         let mut out = *self;
@@ -145,16 +154,6 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    fn at(form: &Quadratic, d: [f64; 3]) -> f64 {
-        let [xx, yy, tt, xy, xt, yt] = form.hessian;
-        form.value
-            + (0..3).map(|i| form.gradient[i] * d[i]).sum::<f64>()
-            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
-            + xy * d[0] * d[1]
-            + xt * d[0] * d[2]
-            + yt * d[1] * d[2]
-    }
-
     #[test]
     fn no_point_of_the_box_lies_outside_the_bounds() {
         let mut rng = ChaCha8Rng::seed_from_u64(3);
@@ -175,7 +174,7 @@ mod tests {
             let mut seen = [f64::INFINITY, f64::NEG_INFINITY];
             for k in 0..9 * 9 * 9 {
                 let t = [k % 9, k / 9 % 9, k / 81].map(|i| i as f64 / 4.0 - 1.0);
-                let u = at(&form, std::array::from_fn(|i| t[i] * half[i]));
+                let u = form.at(std::array::from_fn(|i| t[i] * half[i]));
                 assert!(low <= u && u <= high);
                 seen = [seen[0].min(u), seen[1].max(u)];
             }
@@ -185,7 +184,7 @@ mod tests {
             }
             let step: [f64; 3] = std::array::from_fn(|i| 2.0 * half[i] * random().signum());
             let along = (0..=100)
-                .map(|k| at(&form, step.map(|s| s * (k as f64 / 100.0 - 0.5))))
+                .map(|k| form.at(step.map(|s| s * (k as f64 / 100.0 - 0.5))))
                 .fold(f64::NEG_INFINITY, f64::max);
             assert!(
                 (form.greatest_along(&step) - along).abs() < 1e-3

@@ -375,16 +375,6 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    fn value(form: &Quadratic, d: [f64; 3]) -> f64 {
-        let [xx, yy, tt, xy, xt, yt] = form.hessian;
-        form.value
-            + (0..3).map(|i| form.gradient[i] * d[i]).sum::<f64>()
-            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
-            + xy * d[0] * d[1]
-            + xt * d[0] * d[2]
-            + yt * d[1] * d[2]
-    }
-
     #[test]
     fn no_free_configuration_is_blocked_or_cut_off() {
         let mut rng = ChaCha8Rng::seed_from_u64(5);
@@ -417,7 +407,7 @@ mod tests {
                             assert!(!free, "{cell:?} {d:?}");
                         }
                         CellContact::Open { cuts, corners, .. } => {
-                            let holds = |c: &Cut| value(&c.form, d) + c.slack >= 0.0;
+                            let holds = |c: &Cut| c.form.at(d) + c.slack >= 0.0;
                             let allowed = cuts.iter().all(holds)
                                 && corners.iter().all(|pair| pair.iter().any(holds));
                             assert!(allowed || !free, "{cell:?} {d:?}");

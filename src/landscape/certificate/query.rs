@@ -18,7 +18,7 @@ const SPLIT_SHARE: usize = 16;
 const BATCH: usize = 512;
 
 /// A pathway's energy is bounded to this share of the tolerance.
-const SHARPNESS: f64 = 0.05;
+const SHARPNESS: f64 = 0.002;
 
 /// A new pathway is looked for where the pass lies below the best one by the first share of the
 /// tolerance, and taken where it is lower by the second.
