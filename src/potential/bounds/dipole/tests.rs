@@ -132,7 +132,7 @@ fn a_cell_of_no_size_gives_the_energy_and_its_gradient() {
             );
         }
     }
-    assert!(enclosure.high < 1e-10 * energy.abs(), "{}", enclosure.high);
+    assert!(enclosure.high < 1e-11, "{}", enclosure.high);
 }
 
 /// A number as the unevaluated sum of two, good to some 30 digits (Dekker 1971,
