@@ -2,9 +2,11 @@
 
 pub mod analysis;
 pub mod cell;
+pub mod certification;
 pub mod configuration;
 pub mod contact;
 pub mod design;
+pub mod dynamics;
 pub mod landscape;
 pub mod pipeline;
 pub mod potential;

@@ -3,13 +3,14 @@
 use std::time::Instant;
 
 use crate::analysis::{Analysis, Counts, Settings, Stage};
+use crate::certification;
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, MagnetModel};
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
 use crate::landscape::symmetry::Symmetry;
-use crate::potential::DipolePotential;
+use crate::potential::{CuboidPotential, DipolePotential, Potential};
 use crate::problem::Problem;
 use crate::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, edge, milestone,
@@ -20,6 +21,9 @@ use crate::roadmap::{
 pub trait Observer: Sync {
     /// A stage begins; `share` of the whole time (0 to 1) is behind.
     fn stage(&self, name: &'static str, share: f64);
+
+    /// Of a stage that has `count` parts, `done` are done.
+    fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
 }
 
 /// An observer that looks away.
@@ -31,16 +35,16 @@ impl Observer for Silent {
 
 /// The problem that a design poses.
 pub fn problem(design: &Design) -> Problem {
-    let potential = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
-    Problem::of_tiles(
-        design.space(),
-        &design.fixed,
-        &design.moving,
-        Box::new(potential),
-    )
+    let (fixed, moving) = (&design.fixed, &design.moving);
+    let potential: Box<dyn Potential + Send> = match design.model {
+        MagnetModel::Dipole => Box::new(DipolePotential::new(&fixed.magnets, &moving.magnets)),
+        MagnetModel::Cuboid => Box::new(CuboidPotential::new(&fixed.magnets, &moving.magnets)),
+    };
+    Problem::of_tiles(design.space(), fixed, moving, potential)
 }
 
-/// The main job. The same design and settings give the same result on any number of threads.
+/// The main job. The same design and settings give the same result on any number of threads, as
+/// long as the certificate keeps within its time.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     let problem = problem(design);
     let symmetries = Symmetry::all(&design.fixed, &design.moving);
@@ -77,6 +81,9 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         let other = inventory::take(design, &problem, &symmetries, &again.survey, settings);
         inventory.widen_spread(&problem, &other);
     }
+    weigh_blocks(design, &mut inventory);
+    clock.start("certificate", 0.75);
+    let cells = certification::certify(design, &problem, &mut inventory, settings, observer);
     let stages = clock.stop();
     let Inventory {
         states,
@@ -99,9 +106,22 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         ring: capture::ring(&problem),
         counts: Counts {
             energy_evaluations: problem.evaluations(),
+            cells,
             ..first.counts
         },
         stages,
+    }
+}
+
+/// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
+/// there, so that nobody takes the dipoles' depth for the real one.
+fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
+    if design.model == MagnetModel::Cuboid {
+        return;
+    }
+    let blocks = CuboidPotential::new(&design.fixed.magnets, &design.moving.magnets);
+    for state in &mut inventory.states {
+        state.block_energy = Some(blocks.energy(&state.configuration));
     }
 }
 

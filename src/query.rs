@@ -5,11 +5,11 @@ use std::time::Duration;
 
 use crate::analysis::Settings;
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Certifier, CertifyError, Effort, End};
 use crate::landscape::minimum::descend;
 use crate::landscape::network::{Link, Way};
-use crate::landscape::survey::Survey;
+use crate::landscape::survey::{Survey, same_link};
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Pathway, pathway};
 use crate::pipeline::{self, Clock, Observer};
@@ -108,7 +108,8 @@ pub fn barrier(
         pathway: find_way(design, &problem, query, &ends, observer),
     };
     answer.rate();
-    if !query.certify.is_zero() {
+    // Bounds over cells are known for point dipoles only.
+    if !query.certify.is_zero() && design.model == MagnetModel::Dipole {
         observer.stage("certificate", 0.8);
         certify(design, &problem, query, &mut answer);
     }
@@ -226,6 +227,11 @@ fn attach(
             costs: found.costs,
             way: Way::Straight,
         });
+    }
+    if problem.space.is_far(q) {
+        let link = same_link(node, survey.free, problem.energy(q));
+        survey.network.add_link(link);
+        return node;
     }
     let descent = descend(problem, q);
     if let Some(end) = survey.arrive(problem, &descent) {

@@ -5,23 +5,31 @@ use std::time::Instant;
 
 use clap::Args;
 use tilebind::analysis::Settings;
+use tilebind::design::MagnetModel;
 use tilebind::pipeline::{self, Observer};
-use tilebind::report::json::Report;
-use tilebind::report::{summary, writer};
+use tilebind::report::summary;
+use tilebind::report::writer::{self, Extent, WriteError};
 
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
 /// Find the states, traps, barriers and pathways of a design, and draw them
 #[derive(Args)]
-#[command(after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 Examples:
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
-  tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'")]
+  tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'"
+)]
 pub struct Analyse {
     /// The design file
     design: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    model: Option<MagnetModel>,
 
     /// Folder for the results; made if need be
     #[arg(long, value_name = "DIR")]
@@ -61,9 +69,21 @@ pub struct Analyse {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     thermal_energy: Option<f64>,
 
+    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the bond]
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    tolerance: Option<f64>,
+
+    /// Seconds after which the certificate keeps the bounds it has; 0 for no certificate
+    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
+    certify_seconds: f64,
+
     /// Threads [default: all cores]; the results do not depend on them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+
+    /// Leave out PNG pictures and the pathways of symmetric copies: for results that are kept
+    #[arg(long)]
+    compact: bool,
 
     /// Print report.json instead of the summary
     #[arg(long)]
@@ -77,7 +97,7 @@ pub struct Analyse {
 impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
-        let design = input::load(&self.design)?;
+        let design = input::load_as(&self.design, self.model)?;
         check_folder(&self.out)?;
         input::use_threads(self.threads)?;
         interrupt::prepare()?;
@@ -85,14 +105,17 @@ impl Analyse {
         let progress = Progress::new(self.quiet);
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);
         progress.stage("pictures", 0.95);
-        let mut files = writer::files(&design, &analysis).map_err(writer::WriteError::from)?;
-        let report = Report::new(&design, &analysis, start.elapsed().as_secs_f64()).to_text();
-        files.insert(writer::REPORT.to_owned(), report.clone().into_bytes());
+        let extent = if self.compact {
+            Extent::Compact
+        } else {
+            Extent::Full
+        };
+        let files = writer::files(&design, &analysis, extent, start).map_err(WriteError::from)?;
         interrupt::without(|| writer::write(&self.out, &files))?;
         progress.finish();
 
         if self.json {
-            print(&report)
+            print(&String::from_utf8_lossy(&files[writer::REPORT]))
         } else if self.quiet {
             Ok(())
         } else {
@@ -111,6 +134,8 @@ impl Analyse {
             settled: self.settled,
             far_starts: self.far_starts as usize,
             repeats: self.repeats as usize,
+            tolerance: self.tolerance,
+            certify_seconds: self.certify_seconds,
             ..Settings::default()
         }
     }

@@ -16,12 +16,15 @@ use super::{Failure, input, interrupt, print};
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
-#[command(after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 The barrier is the lowest possible value of the highest energy on the way, over all ways.
 
 Examples:
   tilebind barrier shapes/paper-tile.toml --from 0.43,0.04,0 --to 0.43,0,0
-  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv")]
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv"
+)]
 pub struct Barrier {
     /// The design file
     design: PathBuf,

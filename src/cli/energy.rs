@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
+use tilebind::design::MagnetModel;
 use tilebind::report::json;
 use tilebind::{Configuration, Problem, pipeline};
 
@@ -17,6 +18,10 @@ Example:
 pub struct Energy {
     /// The design file
     design: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    model: Option<MagnetModel>,
 
     /// Pose of the moving tile in the fixed tile's frame (m, m, rad); may be repeated
     #[arg(
@@ -46,7 +51,8 @@ struct Entry {
 
 impl Energy {
     pub fn run(self) -> Result<(), Failure> {
-        let problem = pipeline::problem(&input::load(&self.design)?);
+        let design = input::load_as(&self.design, self.model)?;
+        let problem = pipeline::problem(&design);
         let entries: Vec<Entry> = self.poses.iter().map(|q| entry(&problem, q)).collect();
         print(&json::text(&entries))
     }

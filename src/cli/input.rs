@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tilebind::Configuration;
-use tilebind::design::Design;
+use tilebind::design::{Design, MagnetModel};
 
 use super::Failure;
 
@@ -14,6 +14,22 @@ pub fn load(path: &Path) -> Result<Design, Failure> {
         eprintln!("warning: {warning}");
     }
     Ok(design)
+}
+
+/// A design with its magnets modelled as `model` says, if it says so.
+pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
+    let mut design = load(path)?;
+    design.model = model.unwrap_or(design.model);
+    Ok(design)
+}
+
+/// A magnet model by the name that design files use.
+pub fn model(text: &str) -> Result<MagnetModel, String> {
+    MagnetModel::NAMES
+        .into_iter()
+        .find(|(name, _)| *name == text)
+        .map(|(_, model)| model)
+        .ok_or_else(|| "a model is dipole or cuboid".to_owned())
 }
 
 /// A pose as `X,Y,THETA` (m, m, rad).

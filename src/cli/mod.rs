@@ -3,6 +3,7 @@
 pub mod analyse;
 pub mod barrier;
 pub mod completions;
+pub mod dock;
 pub mod energy;
 mod failure;
 mod input;

@@ -31,6 +31,12 @@ impl Progress {
         Self(bar)
     }
 
+    /// Shows what is being done and which share of it (0 to 1) is behind.
+    pub fn share(&self, name: &'static str, share: f64) {
+        self.0.set_position((share * STEPS as f64) as u64);
+        self.0.set_message(name);
+    }
+
     /// Takes the bar off the terminal.
     pub fn finish(&self) {
         self.0.finish_and_clear();
@@ -39,7 +45,11 @@ impl Progress {
 
 impl Observer for Progress {
     fn stage(&self, name: &'static str, share: f64) {
-        self.0.set_position((share * STEPS as f64) as u64);
-        self.0.set_message(name);
+        self.share(name, share);
+    }
+
+    fn part(&self, name: &'static str, done: usize, count: usize) {
+        self.0
+            .set_message(format!("{name}, {done} of {count} done"));
     }
 }

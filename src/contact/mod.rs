@@ -40,6 +40,9 @@ pub struct Contact {
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
+    /// The largest convex part of each tile, most likely to be in the way.
+    fixed_core: ConvexPart,
+    moving_core: ConvexPart,
 }
 
 impl Contact {
@@ -52,6 +55,8 @@ impl Contact {
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
+            fixed_core: core(fixed),
+            moving_core: core(moving),
             fixed: fixed.clone(),
             moving: moving.clone(),
         }
@@ -100,7 +105,8 @@ impl Contact {
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
         self.clearance_bound(q) >= -TOUCH
-            || self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH))
+            || (separated(&self.fixed_core, &self.moving_core.placed(q), -TOUCH)
+                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH)))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -179,6 +185,12 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
         .iter()
         .map(|p| direction.dot(p))
         .fold(f64::INFINITY, f64::min)
+}
+
+fn core(outline: &Outline) -> ConvexPart {
+    let parts = outline.parts().iter();
+    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
+    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 
 fn compound(outline: &Outline) -> Compound {

@@ -4,16 +4,14 @@
 //! overlapping tiles could have. Grids are computed row by row in parallel and gathered in order:
 //! the same numbers come out on any number of threads.
 
-use std::f64::consts::TAU;
-
 use nalgebra::{Rotation2, Vector2};
 use rayon::prelude::*;
 
-use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::{Contact, TOUCH};
+use super::orientation::{Found, Search};
+use crate::configuration::Configuration;
+use crate::contact::Contact;
 use crate::potential::Potential;
-use crate::tile::symmetry::rotations;
-use crate::tile::{Face, Tile};
+use crate::tile::Tile;
 
 /// The pair of tiles that a section is taken of.
 #[derive(Clone, Copy)]
@@ -79,9 +77,9 @@ pub struct EnergyMap {
     pub window: Window,
     /// The sample of lowest energy at each grid point.
     pub lowest: Grid<Sample>,
-    /// Largest clearance over theta (m) at the grid points beside the border of the blocked
-    /// region; elsewhere only its sign means something. It tells where between two grid points the
-    /// border runs.
+    /// How far (m) each grid point lies from the border of the blocked region towards the nearest
+    /// of its neighbours across it, negative on the blocked side; plus or minus the grid's spacing
+    /// where all of them are alike.
     pub room: Vec<f64>,
 }
 
@@ -94,22 +92,40 @@ impl EnergyMap {
         let x = evenly(window.low[0], window.high[0], columns);
         let y = evenly(window.low[1], window.high[1], rows);
         let search = Search::new(pair, orientations);
-        let values: Vec<_> = y
+        let found = y
             .par_iter()
             .flat_map_iter(|&y| {
                 let places: Vec<_> = x.iter().map(|&x| window.place(x, y)).collect();
-                search.lowest(&places)
+                search.find(&places)
             })
             .collect();
-        let lowest = Grid { x, y, values };
-        let room = room_beside_border(&search, window, &lowest);
+        let mut field = Field {
+            search,
+            window,
+            x,
+            y,
+            found,
+        };
+        field.find_narrow_ranges();
+        let room = field.room();
+        let values = field.found.iter().map(|found| found.map(|f| f.sample));
+        let values = values.collect();
         Self {
             window: *window,
-            lowest,
+            lowest: Grid {
+                x: field.x,
+                y: field.y,
+                values,
+            },
             room,
         }
     }
 }
+
+/// How many rows of points beside the blocked region are looked at again.
+const NARROW: usize = 3;
+/// Halvings of the way between a free and a blocked point in search of the border.
+const HALVINGS: usize = 4;
 
 /// `count` numbers from `low` to `high`, both included.
 pub(super) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
@@ -117,207 +133,6 @@ pub(super) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count)
         .map(|i| low + (high - low) * i as f64 / last)
         .collect()
-}
-
-/// Halvings of the step between orientations in search of the lowest energy.
-const REFINEMENTS: i32 = 6;
-/// Halvings of the step between a free and a blocked orientation in search of contact.
-const BISECTIONS: usize = 7;
-
-/// The search for the lowest energy over theta.
-struct Search<'a> {
-    pair: &'a Pair<'a>,
-    /// Orientations repeat after this angle (rad).
-    period: f64,
-    /// Ascending, in [0, period).
-    thetas: Vec<f64>,
-    /// Largest step between two orientations (rad).
-    step: f64,
-    /// Free in any orientation where the reference points are at least this far apart (m).
-    outer: f64,
-    /// Blocked in every orientation where they are closer than this (m).
-    inner: f64,
-}
-
-impl<'a> Search<'a> {
-    fn new(pair: &'a Pair<'a>, orientations: usize) -> Self {
-        let period = TAU / rotations(pair.moving).len() as f64;
-        let count = (orientations as f64 * period / TAU).ceil() as usize;
-        let (fixed, moving) = (&pair.fixed.outline, &pair.moving.outline);
-        let origin = Vector2::zeros();
-        let (a, b) = (
-            fixed.signed_distance(origin),
-            moving.signed_distance(origin),
-        );
-        Self {
-            pair,
-            period,
-            thetas: orientations_within(period, count, pair.fixed, pair.moving),
-            step: period / count as f64,
-            outer: fixed.circumradius() + moving.circumradius(),
-            // Discs inside the tiles, about their reference points, overlap. With a reference
-            // point outside its tile nothing is known.
-            inner: if a < 0.0 && b < 0.0 {
-                -a - b - 2.0 * TOUCH
-            } else {
-                0.0
-            },
-        }
-    }
-
-    fn is_free(&self, q: &Configuration) -> bool {
-        let distance = q.x.hypot(q.y);
-        distance >= self.outer || (distance >= self.inner && self.pair.contact.is_free(q))
-    }
-
-    /// The lowest sample at each place.
-    fn lowest(&self, places: &[Vector2<f64>]) -> Vec<Option<Sample>> {
-        let candidates: Vec<_> = places.iter().map(|p| self.free_orientations(*p)).collect();
-        let mut best = vec![None; places.len()];
-        self.take_lower(&mut best, &candidates);
-        for k in 1..=REFINEMENTS {
-            let turn = self.step / f64::from(1 << k);
-            let turned: Vec<_> = best.iter().map(|q| self.turned(q.as_ref(), turn)).collect();
-            self.take_lower(&mut best, &turned);
-        }
-        best
-    }
-
-    /// Replaces each sample by the lowest of its candidates where that is lower.
-    fn take_lower(&self, best: &mut [Option<Sample>], candidates: &[Vec<Configuration>]) {
-        let all = with_energies(self.pair.potential, &candidates.concat());
-        let mut rest = all.as_slice();
-        for (best, candidates) in best.iter_mut().zip(candidates) {
-            let (own, others) = rest.split_at(candidates.len());
-            rest = others;
-            for sample in own {
-                if best.is_none_or(|lowest| sample.energy < lowest.energy) {
-                    *best = Some(*sample);
-                }
-            }
-        }
-    }
-
-    /// The free orientations at a place, those in contact between them and blocked ones, and those
-    /// in gaps narrower than a step.
-    fn free_orientations(&self, place: Vector2<f64>) -> Vec<Configuration> {
-        let distance = place.norm();
-        if distance < self.inner {
-            return Vec::new();
-        }
-        let at = |theta: f64| Configuration::new(place.x, place.y, wrap_angle(theta));
-        if distance >= self.outer {
-            return self.thetas.iter().map(|&theta| at(theta)).collect();
-        }
-        let count = self.thetas.len();
-        let rooms: Vec<_> = self
-            .thetas
-            .iter()
-            .map(|&t| self.room_or_free(&at(t)))
-            .collect();
-        let mut found = Vec::new();
-        for i in 0..count {
-            let (theta, room) = (self.thetas[i], rooms[i]);
-            let next = (i + 1) % count;
-            let theta_next = self.thetas[next] + if next == 0 { self.period } else { 0.0 };
-            match (room >= 0.0, rooms[next] >= 0.0) {
-                (true, false) => found.push(at(self.contact_between(place, theta, theta_next))),
-                (false, true) => found.push(at(self.contact_between(place, theta_next, theta))),
-                _ => {}
-            }
-            if room >= 0.0 {
-                found.push(at(theta));
-            } else if room >= rooms[next].max(rooms[(i + count - 1) % count])
-                && -room < self.pair.moving.outline.circumradius() * self.step
-            {
-                let (room, theta) = self.widest(place, room, theta);
-                if room >= -TOUCH {
-                    found.push(at(theta));
-                }
-            }
-        }
-        found
-    }
-
-    /// Plus infinity for a free configuration, minus the depth of the overlap (m) for a blocked
-    /// one.
-    fn room_or_free(&self, q: &Configuration) -> f64 {
-        if self.is_free(q) {
-            f64::INFINITY
-        } else {
-            self.pair.contact.clearance(q)
-        }
-    }
-
-    /// The free orientation (rad) in contact between a free and a blocked one.
-    fn contact_between(&self, place: Vector2<f64>, mut free: f64, mut blocked: f64) -> f64 {
-        for _ in 0..BISECTIONS {
-            let middle = (free + blocked) / 2.0;
-            if self.is_free(&Configuration::new(place.x, place.y, wrap_angle(middle))) {
-                free = middle;
-            } else {
-                blocked = middle;
-            }
-        }
-        free
-    }
-
-    /// The largest clearance (m) over theta at a place.
-    fn room(&self, place: Vector2<f64>) -> f64 {
-        let sampled = self.thetas.iter().map(|&theta| {
-            let q = Configuration::new(place.x, place.y, wrap_angle(theta));
-            (self.pair.contact.clearance(&q), theta)
-        });
-        let most = sampled.max_by(|a, b| a.0.total_cmp(&b.0));
-        most.map_or(f64::NEG_INFINITY, |(room, theta)| {
-            self.widest(place, room, theta).0
-        })
-    }
-
-    /// The largest clearance (m) near an orientation and the orientation (rad) that has it, by
-    /// steps that halve.
-    fn widest(&self, place: Vector2<f64>, mut room: f64, mut theta: f64) -> (f64, f64) {
-        for k in 1..=REFINEMENTS {
-            let turn = self.step / f64::from(1 << k);
-            for turned in [theta - turn, theta + turn] {
-                let q = Configuration::new(place.x, place.y, wrap_angle(turned));
-                let found = self.pair.contact.clearance(&q);
-                if found > room {
-                    (room, theta) = (found, turned);
-                }
-            }
-        }
-        (room, theta)
-    }
-
-    /// A sample's configuration turned to either side, where that is free.
-    fn turned(&self, sample: Option<&Sample>, turn: f64) -> Vec<Configuration> {
-        let Some(sample) = sample else {
-            return Vec::new();
-        };
-        let q = sample.configuration;
-        [-turn, turn]
-            .map(|turn| Configuration::new(q.x, q.y, wrap_angle(q.theta + turn)))
-            .into_iter()
-            .filter(|q| self.is_free(q))
-            .collect()
-    }
-}
-
-/// Evenly spread orientations together with those that lay two faces flush, in [0, period).
-fn orientations_within(period: f64, count: usize, fixed: &Tile, moving: &Tile) -> Vec<f64> {
-    let spread = (0..count).map(|k| k as f64 * period / count as f64);
-    let direction = |face: &Face| face.normal().y.atan2(face.normal().x);
-    let flush = fixed.faces.iter().flat_map(|to| {
-        moving
-            .faces
-            .iter()
-            .map(move |from| (direction(to) - direction(from) + TAU / 2.0).rem_euclid(period))
-    });
-    let mut thetas: Vec<f64> = spread.chain(flush).collect();
-    thetas.sort_by(f64::total_cmp);
-    thetas.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-    thetas
 }
 
 pub(super) fn with_energies(potential: &dyn Potential, free: &[Configuration]) -> Vec<Sample> {
@@ -332,26 +147,93 @@ pub(super) fn with_energies(potential: &dyn Potential, free: &[Configuration]) -
         .collect()
 }
 
-/// The largest clearance over theta at each grid point that has a neighbour on the other side of
-/// the blocked region's border; elsewhere plus or minus the grid's spacing.
-fn room_beside_border(search: &Search, window: &Window, grid: &Grid<Sample>) -> Vec<f64> {
-    let (columns, rows) = (grid.x.len(), grid.y.len());
-    let spacing = grid.x[1] - grid.x[0];
-    (0..columns * rows)
-        .into_par_iter()
-        .map(|index| {
-            let (column, row) = (index % columns, index / columns);
-            let free = grid.values[index].is_some();
-            let near = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
-            let at_border = near(row, rows)
-                .any(|r| near(column, columns).any(|c| grid.value(c, r).is_some() != free));
-            if !at_border {
-                return if free { spacing } else { -spacing };
-            }
-            let room = search.room(window.place(grid.x[column], grid.y[row]));
-            // Where only an orientation between the sampled ones is free, that one touches.
-            let room = if free { room.max(0.0) } else { room };
-            room.clamp(-2.0 * spacing, 2.0 * spacing)
+/// What is free at each point of a grid.
+struct Field<'a> {
+    search: Search<'a>,
+    window: &'a Window,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    found: Vec<Option<Found>>,
+}
+
+impl Field<'_> {
+    fn place(&self, index: usize) -> Vector2<f64> {
+        let columns = self.x.len();
+        self.window
+            .place(self.x[index % columns], self.y[index / columns])
+    }
+
+    /// The points beside a point, itself among them; `corners` tells whether diagonally too.
+    fn beside(&self, index: usize, corners: bool) -> impl Iterator<Item = usize> + '_ {
+        let (columns, rows) = (self.x.len(), self.y.len());
+        let (column, row) = (index % columns, index / columns);
+        let near = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
+        near(row, rows).flat_map(move |r| {
+            near(column, columns)
+                .filter(move |&c| corners || c == column || r == row)
+                .map(move |c| r * columns + c)
         })
-        .collect()
+    }
+
+    /// Looks again at blocked points beside free ones, with the orientations that are free there:
+    /// a range of free orientations narrower than a step is missed by the sampled ones.
+    fn find_narrow_ranges(&mut self) {
+        for _ in 0..NARROW {
+            let more: Vec<_> = (0..self.found.len())
+                .into_par_iter()
+                .filter(|&index| self.found[index].is_none())
+                .filter_map(|index| {
+                    let free = self.beside(index, true).filter_map(|i| self.found[i]);
+                    let guesses: Vec<f64> = free
+                        .flat_map(|found| [found.middle, found.sample.configuration.theta])
+                        .collect();
+                    let found = self.search.find_near(self.place(index), &guesses)?;
+                    Some((index, found))
+                })
+                .collect();
+            for (index, found) in more {
+                self.found[index] = Some(found);
+            }
+        }
+    }
+
+    /// See [`EnergyMap::room`].
+    fn room(&self) -> Vec<f64> {
+        let spacing = self.x[1] - self.x[0];
+        (0..self.found.len())
+            .into_par_iter()
+            .map(|index| {
+                let free = self.found[index].is_some();
+                let across = self
+                    .beside(index, false)
+                    .filter(|&i| self.found[i].is_some() != free);
+                if free {
+                    let rooms = across.map(|blocked| spacing * self.free_share(index, blocked));
+                    rooms.fold(spacing, f64::min)
+                } else {
+                    let rooms = across.map(|free| spacing * (self.free_share(free, index) - 1.0));
+                    rooms.fold(-spacing, f64::max)
+                }
+            })
+            .collect()
+    }
+
+    /// How much of the way from a free point to a blocked one is free.
+    fn free_share(&self, free: usize, blocked: usize) -> f64 {
+        let Some(found) = self.found[free] else {
+            return 0.0;
+        };
+        let thetas = [found.middle, found.sample.configuration.theta];
+        let (from, to) = (self.place(free), self.place(blocked));
+        let (mut reached, mut missed) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let share = (reached + missed) / 2.0;
+            if self.search.any_is_free(from.lerp(&to, share), &thetas) {
+                reached = share;
+            } else {
+                missed = share;
+            }
+        }
+        reached
+    }
 }

@@ -8,6 +8,7 @@ pub mod map;
 pub mod meeting;
 pub mod minimum;
 pub mod network;
+mod orientation;
 pub mod pathway;
 pub mod results;
 pub mod slide;

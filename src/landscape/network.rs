@@ -248,7 +248,8 @@ impl Network {
         !matches!(link.way, Way::Same)
             || [link.from, link.to]
                 .iter()
-                .any(|node| *node == from || goals.contains(node))
+                .filter(|&&node| self.nodes[node].is_none())
+                .any(|free| *free == from || goals.contains(free))
     }
 
     fn cheapest_link(

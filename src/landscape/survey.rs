@@ -454,7 +454,7 @@ fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Desce
 }
 
 /// A link that identifies a far configuration with `free`.
-fn same_link(from: usize, to: usize, energy: f64) -> Link {
+pub(crate) fn same_link(from: usize, to: usize, energy: f64) -> Link {
     Link {
         from,
         to,

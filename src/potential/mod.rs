@@ -3,13 +3,17 @@
 pub mod analytic;
 pub mod batch;
 pub mod bounds;
+pub mod cuboid;
 pub mod dipole;
+pub mod shielding;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
+pub use cuboid::CuboidPotential;
+pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.
 ///

@@ -17,7 +17,9 @@ const PATHWAY: &str = "s,x,y,theta,energy_J,clearance_m";
 
 /// How far (m, and rad) a dropped point of a pathway may lie from the straight motion between its
 /// neighbours in the file.
-const POSE_TOLERANCE: f64 = 2e-6;
+const POSE_TOLERANCE: f64 = 1e-5;
+/// How far the clearance may be off there beyond that, as a fraction of itself.
+const CLEARANCE_TOLERANCE: f64 = 1e-3;
 /// How far the energy may be off there, as a fraction of the range of energies on the pathway.
 const ENERGY_TOLERANCE: f64 = 1e-3;
 
@@ -60,20 +62,26 @@ pub fn barriers(barriers: &[Barrier], pathway_file: impl Fn(&Barrier) -> String)
     let mut table = String::from(BARRIERS);
     for barrier in barriers {
         let optional = |value: Option<f64>| value.map(number).unwrap_or_default();
+        // Without a way the barrier is infinite: an empty cell.
+        let finite = |value: f64| optional(Some(value).filter(|value| value.is_finite()));
         let _ = write!(
             table,
             "\n{},{},{},{},{},{},{},{},{},{},{}",
             place_name(barrier.from),
             place_name(barrier.to),
-            number(barrier.saddle_energy),
+            finite(barrier.saddle_energy),
             optional(barrier.lower),
             optional(barrier.upper),
-            number(barrier.forward()),
-            number(barrier.reverse()),
+            finite(barrier.forward()),
+            finite(barrier.reverse()),
             optional(barrier.spread.map(|spread| spread.0)),
             optional(barrier.spread.map(|spread| spread.1)),
             pose(&barrier.saddle),
-            pathway_file(barrier),
+            if barrier.pathway.is_empty() {
+                String::new()
+            } else {
+                pathway_file(barrier)
+            },
         );
     }
     table.push('\n');
@@ -135,7 +143,7 @@ fn is_between(pathway: &Pathway, start: usize, between: usize, end: usize, allow
     let straight = a.configuration.interpolate(&b.configuration, t);
     t.is_finite()
         && straight.step_to(&p.configuration).amax() <= POSE_TOLERANCE
-        && linear(|p| p.clearance).abs() <= POSE_TOLERANCE
+        && linear(|p| p.clearance).abs() <= POSE_TOLERANCE + CLEARANCE_TOLERANCE * p.clearance
         && linear(|p| p.energy).abs() <= allowed
 }
 
@@ -143,12 +151,12 @@ fn pose(q: &Configuration) -> String {
     q.to_array().map(number).join(",")
 }
 
-/// A number with twelve significant digits at most.
+/// A number with ten significant digits at most.
 fn number(value: f64) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     let rounded = positive_zero(rounded);
     let plain = rounded.to_string();
     let scientific = format!("{rounded:e}");
@@ -173,11 +181,11 @@ mod tests {
     }
 
     #[test]
-    fn numbers_keep_twelve_digits() {
+    fn numbers_keep_ten_digits() {
         assert_eq!(number(-0.0), "0");
         assert_eq!(number(0.43), "0.43");
         assert_eq!(number(0.1 + 0.2), "0.3");
-        assert_eq!(number(-1.234_567_890_123_4e-9), "-1.23456789012e-9");
+        assert_eq!(number(-1.234_567_890_123_4e-9), "-1.23456789e-9");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::analysis::{Alternative, Analysis, Counts, PathwayCost, Settings, Stage};
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
 use crate::pipeline;
 use crate::roadmap::neighbour;
@@ -58,6 +58,9 @@ pub struct SettingsEntry {
     pub least_depth: f64,
     pub far_starts: usize,
     pub repeats: usize,
+    /// Width to which certified bounds are narrowed; null for a hundredth of the bond.
+    pub tolerance_J: Option<f64>,
+    pub certify_s: f64,
 }
 
 /// The configuration in which the target faces coincide.
@@ -78,6 +81,9 @@ pub struct StateEntry {
     pub kind: &'static str,
     pub pose: [f64; 3],
     pub energy_J: f64,
+    /// Energy of uniformly magnetised blocks in this pose, where `energy_J` is that of point
+    /// dipoles; null otherwise.
+    pub block_energy_J: Option<f64>,
     /// Lowest id among the states that symmetries of the tiles map onto this one.
     pub class: usize,
     /// How many states there are in the class.
@@ -121,12 +127,15 @@ pub struct BarrierEntry {
     pub saddle_pose: [f64; 3],
     pub lower_J: Option<f64>,
     pub upper_J: Option<f64>,
+    /// Proved that there is no way at all; `saddle_energy_J` is then null.
+    pub caged: bool,
     pub forward_J: f64,
     pub reverse_J: f64,
     /// Lowest and highest saddle energy over repeated runs; null for a single run.
     pub spread_J: Option<[f64; 2]>,
-    /// File of the pathway, relative to the report.
-    pub pathway: String,
+    /// File of the pathway, relative to the report; null where no way is known, or its file was
+    /// not asked for.
+    pub pathway: Option<String>,
 }
 
 /// A pathway by another cost than the highest energy.
@@ -153,6 +162,8 @@ pub struct CountsEntry {
     /// Minima left out because next to nothing keeps them.
     pub shallow_minima: usize,
     pub energy_evaluations: u64,
+    /// Cells of the certificate.
+    pub cells: usize,
 }
 
 /// How long it took.
@@ -209,12 +220,23 @@ impl Report {
                 transition_states: analysis.counts.transition_states,
                 shallow_minima: analysis.shallow,
                 energy_evaluations: analysis.counts.energy_evaluations,
+                cells: analysis.counts.cells,
             },
             timing: TimingEntry {
                 total_wall_s: total_wall,
                 stages: analysis.stages.iter().map(StageEntry::from).collect(),
             },
         }
+    }
+
+    /// Names no pathway for the escapes of states that are copies of another one.
+    pub fn without_copies(mut self) -> Self {
+        for state in self.states.iter_mut().filter(|s| s.id != s.class) {
+            if let Some(escape) = &mut state.escape {
+                escape.pathway = None;
+            }
+        }
+        self
     }
 
     /// The text of `report.json`.
@@ -288,10 +310,7 @@ impl SettingsEntry {
     fn new(design: &Design, settings: &Settings, counts: &Counts) -> Self {
         let problem = pipeline::problem(design);
         Self {
-            model: match design.model {
-                MagnetModel::Dipole => "dipole",
-                _ => "cuboid",
-            },
+            model: design.model.name(),
             milestones: settings.milestones,
             neighbours: settings
                 .neighbours
@@ -304,6 +323,8 @@ impl SettingsEntry {
             least_depth: settings.least_depth,
             far_starts: settings.far_starts,
             repeats: settings.repeats,
+            tolerance_J: settings.tolerance,
+            certify_s: settings.certify_seconds,
         }
     }
 }
@@ -315,6 +336,7 @@ impl StateEntry {
             kind: kind(state.kind),
             pose: pose(&state.configuration),
             energy_J: positive_zero(state.energy),
+            block_energy_J: state.block_energy,
             class: state.class,
             copies: copies(state, all),
             faces: face_names(design, state),
@@ -361,10 +383,11 @@ impl BarrierEntry {
             saddle_pose: pose(&barrier.saddle),
             lower_J: barrier.lower,
             upper_J: barrier.upper,
+            caged: barrier.caged,
             forward_J: positive_zero(barrier.forward()),
             reverse_J: positive_zero(barrier.reverse()),
             spread_J: barrier.spread.map(|(low, high)| [low, high]),
-            pathway: pathway_file(barrier),
+            pathway: (!barrier.pathway.is_empty()).then(|| pathway_file(barrier)),
         }
     }
 }

@@ -41,12 +41,18 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
 
     let mut text = String::new();
     write_captures(&mut text, design, analysis, bond, &traps);
-    write_bond(&mut text, design, analysis, bond);
-    write_traps(&mut text, design, &traps);
+    let listed = bond.into_iter().chain(traps.iter().take(LISTED).copied());
+    let mut rows = vec![HEADER.map(str::to_owned)];
+    rows.extend(listed.map(|class| row(design, analysis, class)));
+    write_table(&mut text, &rows);
+    if traps.len() > LISTED {
+        write_rest(&mut text, &traps[LISTED..]);
+    }
+    write_bond(&mut text, analysis, bond);
     write_deepest(&mut text, bond, &traps);
     let _ = writeln!(
         text,
-        "results   {folder}: report.json, states.csv, barriers.csv, pathways/, pictures/"
+        "results in {folder}: report.json, states.csv, barriers.csv, pathways/, pictures/"
     );
     text
 }
@@ -85,122 +91,126 @@ fn write_captures(
     let [inner, outer] = analysis.ring;
     let _ = writeln!(
         text,
-        "{}: of {of} far starts {} end bound, {} in traps, {} nowhere",
+        "{}: of {of} far starts {} end bound, {} in traps, {} nowhere\n\
+         (overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)",
         design.name,
         percent(&Proportion::new(bound, of)),
         percent(&Proportion::new(trapped, of)),
         percent(&analysis.uncaptured),
     );
+}
+
+const HEADER: [&str; 6] = [
+    "state",
+    "copies",
+    "captures",
+    "energy",
+    "escape barrier",
+    "one copy: x, y, theta, faces in contact",
+];
+
+fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
+    [
+        state_name(class.state),
+        class.copies.to_string(),
+        percent(&class.captured),
+        si(class.state.energy, "J", DIGITS),
+        match class.escape {
+            None => "none found".to_owned(),
+            Some(way) => {
+                let to = match way.to {
+                    Place::Free => "free".to_owned(),
+                    Place::State(id) => state_name(&analysis.states[id]),
+                };
+                format!("{} to {to}", si(way.forward(), "J", DIGITS))
+            }
+        },
+        format!(
+            "{}, {}",
+            pose(&class.state.configuration),
+            faces(design, class)
+        ),
+    ]
+}
+
+fn state_name(state: &State) -> String {
+    match state.kind {
+        StateKind::Bound => "bound".to_owned(),
+        StateKind::Misbound => format!("trap {}", state.id),
+    }
+}
+
+/// Rows with their columns aligned.
+fn write_table<const N: usize>(text: &mut String, rows: &[[String; N]]) {
+    let widths: [usize; N] = std::array::from_fn(|column| {
+        let lengths = rows.iter().map(|row| row[column].chars().count());
+        lengths.max().unwrap_or(0)
+    });
+    for row in rows {
+        let cells = row.iter().zip(widths);
+        let line: Vec<String> = cells
+            .map(|(cell, width)| format!("{cell:<width$}"))
+            .collect();
+        let _ = writeln!(text, "{}", line.join("  ").trim_end());
+    }
+}
+
+fn write_rest(text: &mut String, rest: &[&Class]) {
+    let deepest = rest.iter().map(|t| t.state.energy).fold(0.0, f64::min);
+    let captured: usize = rest.iter().map(|t| t.captured.count).sum();
     let _ = writeln!(
         text,
-        "          (overdamped, from {inner:.2} to {outer:.2} m away at any angle; in brackets \
-         the 95 % interval)"
+        "and {} more kinds of trap down to {} that capture {} together",
+        rest.len(),
+        si(deepest, "J", DIGITS),
+        percent(&Proportion::new(captured, rest[0].captured.of)),
     );
 }
 
-fn write_bond(text: &mut String, design: &Design, analysis: &Analysis, bond: Option<&Class>) {
+/// How far starts may get into the bond at best.
+fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
     let Some(bond) = bond else {
         let energy = si(analysis.bound.1, "J", DIGITS);
         let _ = writeln!(
             text,
-            "bond      does not hold: the target faces meet at {energy}, where nothing keeps them"
+            "no bond: where the target faces coincide ({energy}) nothing holds the tile"
         );
         return;
     };
-    let _ = writeln!(
-        text,
-        "bond      {} at {}, {}; escape {}{}",
-        si(bond.state.energy, "J", DIGITS),
-        pose(&bond.state.configuration),
-        faces(design, bond),
-        escape(bond),
-        copies(bond),
-    );
-    if let Some(way) = bond.escape.filter(|way| way.to == Place::Free) {
-        let docking = if way.saddle_energy <= 0.0 {
-            "docking   no barrier on the best way from far apart into the bond".to_owned()
-        } else {
-            format!(
-                "docking   over a barrier of {} on the best way from far apart",
-                si(way.saddle_energy, "J", DIGITS)
+    let to_free = analysis
+        .barriers
+        .iter()
+        .find(|way| way.from == Place::State(bond.state.id) && way.to == Place::Free);
+    let _ = match to_free {
+        None => writeln!(text, "no way from far apart into the bond was found"),
+        Some(way) if way.saddle_energy <= 0.0 => {
+            writeln!(
+                text,
+                "no barrier on the best way from far apart into the bond"
             )
-        };
-        let _ = writeln!(text, "{docking}");
-    }
-}
-
-fn write_traps(text: &mut String, design: &Design, traps: &[&Class]) {
-    for (row, trap) in traps.iter().take(LISTED).enumerate() {
-        let _ = writeln!(
+        }
+        Some(way) => writeln!(
             text,
-            "{:<9} {:>4}  {:>10}  escape {:<22}  captures {:<14}  {}, {}{}",
-            if row == 0 { "traps" } else { "" },
-            trap.state.id,
-            si(trap.state.energy, "J", DIGITS),
-            escape(trap),
-            percent(&trap.captured),
-            pose(&trap.state.configuration),
-            faces(design, trap),
-            copies(trap),
-        );
-    }
-    if traps.len() > LISTED {
-        let rest = &traps[LISTED..];
-        let deepest = rest.iter().map(|t| t.state.energy).fold(0.0, f64::min);
-        let captured: usize = rest.iter().map(|t| t.captured.count).sum();
-        let _ = writeln!(
-            text,
-            "          and {} more, at most {} deep, that capture {} together",
-            rest.len(),
-            si(deepest, "J", DIGITS),
-            percent(&Proportion::new(captured, rest[0].captured.of)),
-        );
-    }
+            "a barrier of {} on the best way from far apart into the bond",
+            si(way.saddle_energy, "J", DIGITS)
+        ),
+    };
 }
 
 fn write_deepest(text: &mut String, bond: Option<&Class>, traps: &[&Class]) {
     let deepest = traps
         .iter()
         .min_by(|a, b| a.state.energy.total_cmp(&b.state.energy));
-    let Some(deepest) = deepest else {
-        let _ = writeln!(text, "traps     none");
-        return;
-    };
-    let selectivity = match bond {
-        Some(bond) => format!(
-            "; selectivity {:.3} (bond over deepest trap)",
-            bond.state.energy / deepest.state.energy
+    let _ = match (deepest, bond) {
+        (None, _) => writeln!(text, "no traps"),
+        (Some(deepest), None) => writeln!(text, "deepest: {}", state_name(deepest.state)),
+        (Some(deepest), Some(bond)) => writeln!(
+            text,
+            "deepest: {}; selectivity {:.3} (energy of the bond over that of the deepest trap)",
+            state_name(deepest.state),
+            bond.state.energy / deepest.state.energy,
         ),
-        None => String::new(),
     };
-    let _ = writeln!(
-        text,
-        "deepest   trap {} with {}{selectivity}",
-        deepest.state.id,
-        si(deepest.state.energy, "J", DIGITS),
-    );
-}
-
-/// `15.19 mJ to 0`.
-fn escape(class: &Class) -> String {
-    match class.escape {
-        None => "none found".to_owned(),
-        Some(way) => {
-            let to = match way.to {
-                Place::Free => "free".to_owned(),
-                Place::State(id) => id.to_string(),
-            };
-            format!("{} to {to}", si(way.forward(), "J", DIGITS))
-        }
-    }
-}
-
-fn copies(class: &Class) -> String {
-    if class.copies > 1 {
-        format!(" (x{})", class.copies)
-    } else {
-        String::new()
-    }
 }
 
 /// Names of the faces in contact: `east-west`.
@@ -210,7 +220,7 @@ fn faces(design: &Design, class: &Class) -> String {
         .map(|pair| pair.join("-"))
         .collect();
     if pairs.is_empty() {
-        "not touching".to_owned()
+        "no contact".to_owned()
     } else {
         pairs.join(" ")
     }
@@ -229,13 +239,16 @@ fn tenths(value: f64) -> String {
 /// `56 % (53-59)`, with the interval.
 fn percent(proportion: &Proportion) -> String {
     if proportion.of == 0 {
-        return "? %".to_owned();
+        return "not counted".to_owned();
     }
-    let whole = |x: f64| (100.0 * x).round();
-    format!(
-        "{} % ({}-{})",
-        whole(proportion.share()),
-        whole(proportion.low),
-        whole(proportion.high)
-    )
+    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
+        let percent = 100.0 * x;
+        // Whole percents, but 0 only for none and 100 only for all.
+        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
+            format!("{percent:.1}")
+        } else {
+            format!("{percent:.0}")
+        }
+    });
+    format!("{share} % ({low}-{high})")
 }

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use super::plots::{self, PictureError, Scene};
+use super::json::Report;
+use super::plots::{self, NamedPicture, PictureError, Scene};
 use super::{csv, json};
 use crate::analysis::Analysis;
 use crate::contact::Contact;
 use crate::design::Design;
+use crate::landscape::Barrier;
 use crate::landscape::map::Pair;
 use crate::pipeline;
 
@@ -27,11 +30,40 @@ pub enum WriteError {
     Picture(#[from] PictureError),
 }
 
-/// All files of an analysis but the report: tables, pathways and pictures.
+/// How much is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    Full,
+    /// Without the pathways of copies, and pictures as SVG only: for results that are kept.
+    Compact,
+}
+
+/// All files of an analysis begun at `start`: report, tables, pathways and pictures.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
-pub fn files(design: &Design, analysis: &Analysis) -> Result<Files, PictureError> {
+pub fn files(
+    design: &Design,
+    analysis: &Analysis,
+    extent: Extent,
+    start: Instant,
+) -> Result<Files, PictureError> {
+    let mut files = tables(design, analysis, extent);
+    for NamedPicture { name, picture } in pictures(design, analysis)? {
+        files.insert(format!("pictures/{name}.svg"), picture.svg.into());
+        if extent == Extent::Full {
+            files.insert(format!("pictures/{name}.png"), picture.png);
+        }
+    }
+    let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
+    if extent == Extent::Compact {
+        report = report.without_copies();
+    }
+    files.insert(REPORT.to_owned(), report.to_text().into_bytes());
+    Ok(files)
+}
+
+fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     let mut files = Files::new();
     let mut add = |name: String, content: String| {
         files.insert(name, content.into_bytes());
@@ -41,7 +73,13 @@ pub fn files(design: &Design, analysis: &Analysis) -> Result<Files, PictureError
         "barriers.csv".into(),
         csv::barriers(&analysis.barriers, json::pathway_file),
     );
-    for barrier in analysis.escapes.iter().flatten().chain(&analysis.barriers) {
+    let escapes = analysis
+        .states
+        .iter()
+        .filter(|state| extent == Extent::Full || state.id == state.class)
+        .filter_map(|state| analysis.escapes[state.id].as_ref());
+    let barriers = escapes.chain(&analysis.barriers);
+    for barrier in barriers.filter(|barrier| !barrier.pathway.is_empty()) {
         add(json::pathway_file(barrier), csv::pathway(&barrier.pathway));
     }
     for alternative in &analysis.alternatives {
@@ -50,19 +88,17 @@ pub fn files(design: &Design, analysis: &Analysis) -> Result<Files, PictureError
             csv::pathway(&alternative.pathway),
         );
     }
-    for picture in pictures(design, analysis)? {
-        let name = picture.name;
-        files.insert(format!("pictures/{name}.svg"), picture.picture.svg.into());
-        files.insert(format!("pictures/{name}.png"), picture.picture.png);
-    }
-    Ok(files)
+    files
 }
 
-fn pictures(
-    design: &Design,
-    analysis: &Analysis,
-) -> Result<Vec<plots::NamedPicture>, PictureError> {
+fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, PictureError> {
     let problem = pipeline::problem(design);
+    let passable: Vec<Barrier> = analysis
+        .barriers
+        .iter()
+        .filter(|barrier| !barrier.pathway.is_empty())
+        .cloned()
+        .collect();
     let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
     plots::draw_all(&Scene {
         name: &design.name,
@@ -77,7 +113,7 @@ fn pictures(
         target: design.target,
         states: &analysis.states,
         escapes: &analysis.escapes,
-        barriers: &analysis.barriers,
+        barriers: &passable,
     })
 }
 

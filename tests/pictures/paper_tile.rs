@@ -95,6 +95,7 @@ impl Pair {
                         faces: vec![(side, (2 + 4 - turn) % 4)],
                         attracting: 4,
                         repelling: 0,
+                        block_energy: None,
                         capture: None,
                     });
                 }
@@ -160,6 +161,7 @@ impl Pair {
             saddle: saddle.configuration,
             lower: margin.map(|m| saddle.energy - 40.0 * m),
             upper: margin.map(|m| saddle.energy + m),
+            caged: false,
             from_energy: self.states[from].energy,
             to_energy: match to {
                 Place::Free => 0.0,

@@ -84,6 +84,21 @@ pub trait Lanes: Arithmetic {
     /// The sine and the cosine of angles up to [`MAX_ANGLE`] in magnitude, each to 2e-16.
     fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F);
 
+    fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    fn sqrt(self, a: Self::F) -> Self::F;
+    /// `a` where the sign bit of `condition` is clear, else `b`.
+    fn select(self, condition: Self::F, a: Self::F, b: Self::F) -> Self::F;
+    /// For a positive normal number `m 2^e` with m in [1, 2): m and e.
+    fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F);
+
+    /// The least of the lanes.
+    #[inline(always)]
+    fn least(self, lanes: Self::F) -> f64 {
+        let mut values = [f64::INFINITY; MAX_WIDTH];
+        self.store(lanes, &mut values);
+        values.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// The first lane.
     #[inline(always)]
     fn first(self, lanes: Self::F) -> f64 {

@@ -15,7 +15,7 @@
 mod bundle;
 mod curvature;
 mod field;
-pub mod lanes;
+pub(crate) mod lanes;
 mod level;
 mod operations;
 mod portable;

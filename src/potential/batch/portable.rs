@@ -80,4 +80,34 @@ impl Lanes for Portable {
     fn sin_cos(self, angle: [f64; 4]) -> ([f64; 4], [f64; 4]) {
         (angle.map(f64::sin), angle.map(f64::cos))
     }
+
+    #[inline(always)]
+    fn div(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        Self::zip(a, b, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: [f64; 4]) -> [f64; 4] {
+        a.map(f64::sqrt)
+    }
+
+    #[inline(always)]
+    fn select(self, condition: [f64; 4], a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|i| {
+            if condition[i].is_sign_positive() {
+                a[i]
+            } else {
+                b[i]
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: [f64; 4]) -> ([f64; 4], [f64; 4]) {
+        const MANTISSA: u64 = (1 << 52) - 1;
+        (
+            a.map(|a| f64::from_bits(a.to_bits() & MANTISSA | 1.0f64.to_bits())),
+            a.map(|a| (a.to_bits() >> 52) as f64 - 1023.0),
+        )
+    }
 }

@@ -128,6 +128,44 @@ impl Lanes for Avx2 {
     fn sin_cos(self, angle: __m256d) -> (__m256d, __m256d) {
         sin_cos(self, angle)
     }
+
+    #[inline(always)]
+    fn least(self, lanes: __m256d) -> f64 {
+        with!(self: {
+            let pair = _mm_min_pd(_mm256_castpd256_pd128(lanes), _mm256_extractf128_pd(lanes, 1));
+            _mm_cvtsd_f64(_mm_min_sd(pair, _mm_unpackhi_pd(pair, pair)))
+        })
+    }
+
+    #[inline(always)]
+    fn div(self, a: __m256d, b: __m256d) -> __m256d {
+        with!(self: _mm256_div_pd(a, b))
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: __m256d) -> __m256d {
+        with!(self: _mm256_sqrt_pd(a))
+    }
+
+    #[inline(always)]
+    fn select(self, condition: __m256d, a: __m256d, b: __m256d) -> __m256d {
+        with!(self: _mm256_blendv_pd(a, b, condition))
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: __m256d) -> (__m256d, __m256d) {
+        // An integer up to 2^52 with the bits of 2^52 above it is, as a number, 2^52 plus it.
+        const SHIFT: f64 = 4503599627370496.0;
+        with!(self: {
+            let exponent = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
+            let exponent = _mm256_or_pd(exponent, _mm256_set1_pd(SHIFT));
+            let fraction = _mm256_set1_pd(f64::from_bits((1 << 52) - 1));
+            (
+                _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0)),
+                _mm256_sub_pd(exponent, _mm256_set1_pd(SHIFT + 1023.0)),
+            )
+        })
+    }
 }
 
 impl QuarterTurns for Avx2 {
@@ -220,6 +258,38 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn sin_cos(self, angle: __m512d) -> (__m512d, __m512d) {
         sin_cos(self, angle)
+    }
+
+    #[inline(always)]
+    fn least(self, lanes: __m512d) -> f64 {
+        with!(self: _mm512_reduce_min_pd(lanes))
+    }
+
+    #[inline(always)]
+    fn div(self, a: __m512d, b: __m512d) -> __m512d {
+        with!(self: _mm512_div_pd(a, b))
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_sqrt_pd(a))
+    }
+
+    #[inline(always)]
+    fn select(self, condition: __m512d, a: __m512d, b: __m512d) -> __m512d {
+        with!(self: {
+            let sign = _mm512_set1_epi64(i64::MIN);
+            let negative = _mm512_test_epi64_mask(_mm512_castpd_si512(condition), sign);
+            _mm512_mask_blend_pd(negative, a, b)
+        })
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: __m512d) -> (__m512d, __m512d) {
+        with!(self: (
+            _mm512_getmant_pd::<_MM_MANT_NORM_1_2, _MM_MANT_SIGN_ZERO>(a),
+            _mm512_getexp_pd(a),
+        ))
     }
 }
 

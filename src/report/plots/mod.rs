@@ -13,6 +13,7 @@
 mod approach;
 mod canvas;
 mod disconnectivity;
+pub mod dock;
 mod energy_map;
 mod film;
 mod heat;

@@ -1,0 +1,220 @@
+//! The far form of one moving block with several fixed ones at once, in vectors.
+
+use nalgebra::{Complex, Vector2};
+
+use super::multipole::{Coefficients, ROOM, index};
+use crate::potential::batch::lanes::Lanes;
+
+/// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
+#[derive(Clone, Copy)]
+pub struct Sums<F> {
+    pub energy: F,
+    /// dU/dx, dU/dy and dU/dtheta.
+    pub gradient: [F; 3],
+}
+
+impl<F: Copy> Sums<F> {
+    #[inline(always)]
+    pub fn zero<L: Lanes<F = F>>(l: L) -> Self {
+        let zero = l.splat(0.0);
+        Self {
+            energy: zero,
+            gradient: [zero; 3],
+        }
+    }
+}
+
+impl<F: Copy> Sums<F> {
+    /// Adds sums whose gradient is in a frame turned by `axis`.
+    #[inline(always)]
+    pub fn add<L: Lanes<F = F>, const SLOPE: bool>(
+        &mut self,
+        l: L,
+        other: &Self,
+        axis: Complex<f64>,
+    ) {
+        self.energy = l.add(self.energy, other.energy);
+        if SLOPE {
+            let (cos, sin) = (l.splat(axis.re), l.splat(axis.im));
+            let [x, y, turn] = self.gradient;
+            let [dx, dy, dturn] = other.gradient;
+            self.gradient = [
+                l.neg_mul_add(sin, dy, l.mul_add(cos, dx, x)),
+                l.mul_add(sin, dx, l.mul_add(cos, dy, y)),
+                l.add(turn, dturn),
+            ];
+        }
+    }
+}
+
+/// Several fixed blocks and a moving one, in the frame whose x axis is the fixed blocks' axis.
+#[derive(Clone, Copy)]
+pub struct Pairs<F> {
+    /// Products of the moments (A^2 m^4).
+    pub moments: F,
+    /// Way (m) from each fixed block to the moving one, and its square.
+    pub r: [F; 2],
+    pub rr: F,
+    /// Way (m) from the moving tile's reference point to the block.
+    pub arm: Complex<f64>,
+}
+
+impl<F: Copy> Pairs<F> {
+    /// The members of a group from `from` on, and a block at `place`.
+    #[inline(always)]
+    pub fn new<L: Lanes<F = F>>(
+        l: L,
+        fixed: &Group,
+        from: usize,
+        place: Complex<f64>,
+        moment: f64,
+    ) -> Self {
+        let r = [
+            l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
+            l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
+        ];
+        Self {
+            moments: l.mul(l.splat(moment), l.load(&fixed.moment[from..])),
+            r,
+            rr: l.mul_add(r[0], r[0], l.mul(r[1], r[1])),
+            arm: Complex::new(0.0, 0.0),
+        }
+    }
+}
+
+/// Adds the first `TERMS` terms of the series to the sums.
+///
+/// With `v = e^(-2 i phi)` the terms are polynomials `P_k(v) = sum_l C_kl v^(l/2)` over powers of
+/// r.
+#[inline(always)]
+pub fn add<L: Lanes, const TERMS: usize, const SLOPE: bool>(
+    l: L,
+    c: &Coefficients,
+    pairs: &Pairs<L::F>,
+    sums: &mut Sums<L::F>,
+) {
+    let r = pairs.r;
+    let inverse = l.reciprocal_sqrt(pairs.rr);
+    let q = l.mul(inverse, inverse);
+    // v = conj(r)^2 / r^2.
+    let xy = l.mul(l.mul(q, r[0]), r[1]);
+    let v = [
+        l.mul(q, l.neg_mul_add(r[1], r[1], l.mul(r[0], r[0]))),
+        l.mul(l.splat(-2.0), xy),
+    ];
+    let zero = l.splat(0.0);
+    let (mut energy, mut radial, mut angular, mut turning) = (zero, zero, zero, zero);
+    for k in (0..TERMS).rev() {
+        let p = polynomial::<L, SLOPE>(l, &c.re, &c.im, k, v);
+        energy = l.mul_add(energy, q, p.value);
+        if SLOPE {
+            radial = l.mul_add(p.value, l.splat(-((3 + 2 * k) as f64)), l.mul(radial, q));
+            angular = l.mul_add(p.angular, l.splat(2.0), l.mul(angular, q));
+            let turn = polynomial::<L, false>(l, &c.turn_re, &c.turn_im, k, v);
+            turning = l.mul_add(turning, q, turn.value);
+        }
+    }
+    let scale = l.mul(pairs.moments, l.mul(q, inverse));
+    sums.energy = l.mul_add(scale, energy, sums.energy);
+    if SLOPE {
+        let turn = l.mul(scale, turning);
+        let scale = l.mul(scale, q);
+        let (radial, angular) = (l.mul(scale, radial), l.mul(scale, angular));
+        let gx = l.neg_mul_add(angular, r[1], l.mul(radial, r[0]));
+        let gy = l.mul_add(angular, r[0], l.mul(radial, r[1]));
+        let turn = l.mul_add(l.splat(pairs.arm.re), gy, turn);
+        let turn = l.neg_mul_add(l.splat(pairs.arm.im), gx, turn);
+        let [x, y, t] = sums.gradient;
+        sums.gradient = [l.add(x, gx), l.add(y, gy), l.add(t, turn)];
+    }
+}
+
+/// The real part of P_k, and the imaginary part of v times its derivative.
+struct Polynomial<F> {
+    value: F,
+    angular: F,
+}
+
+#[inline(always)]
+fn polynomial<L: Lanes, const SLOPE: bool>(
+    l: L,
+    c_re: &[f64; ROOM],
+    c_im: &[f64; ROOM],
+    k: usize,
+    v: [L::F; 2],
+) -> Polynomial<L::F> {
+    let top = index(k, k + 1);
+    let (mut re, mut im) = (l.splat(c_re[top]), l.splat(c_im[top]));
+    let (mut slope_re, mut slope_im) = (l.splat(0.0), l.splat(0.0));
+    for half in (0..=k).rev() {
+        if SLOPE {
+            (slope_re, slope_im) = if half == k {
+                (re, im)
+            } else {
+                (
+                    l.neg_mul_add(slope_im, v[1], l.mul_add(slope_re, v[0], re)),
+                    l.mul_add(slope_im, v[0], l.mul_add(slope_re, v[1], im)),
+                )
+            };
+        }
+        let at = index(k, half);
+        let real = l.neg_mul_add(im, v[1], l.mul_add(re, v[0], l.splat(c_re[at])));
+        if half > 0 {
+            im = l.mul_add(im, v[0], l.mul_add(re, v[1], l.splat(c_im[at])));
+        }
+        re = real;
+    }
+    Polynomial {
+        value: re,
+        angular: l.mul_add(slope_im, v[0], l.mul(slope_re, v[1])),
+    }
+}
+
+/// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays filled up to
+/// a multiple of the number of lanes with blocks of no moment.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The number of the size.
+    pub size: usize,
+    /// The axis of all of them.
+    pub axis: Complex<f64>,
+    /// Which of the tile's blocks they are.
+    pub members: Vec<usize>,
+    /// Places (m) in the frame whose x axis is the axis.
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    /// Moments (A m^2), negative where a block points against the axis.
+    pub moment: Vec<f64>,
+}
+
+impl Group {
+    /// A group of no blocks.
+    pub fn new(size: usize, axis: Vector2<f64>) -> Self {
+        Self {
+            size,
+            axis: Complex::new(axis.x, axis.y),
+            members: Vec::new(),
+            x: Vec::new(),
+            y: Vec::new(),
+            moment: Vec::new(),
+        }
+    }
+
+    /// Adds a block, pointing along the axis (sign 1) or against it (-1).
+    pub fn push(&mut self, member: usize, position: Vector2<f64>, moment: f64) {
+        let place = Complex::new(position.x, position.y) * self.axis.conj();
+        self.members.push(member);
+        self.x.push(place.re);
+        self.y.push(place.im);
+        self.moment.push(moment);
+    }
+
+    /// Fills up to a multiple of `width`.
+    pub fn fill(&mut self, width: usize) {
+        let length = self.members.len().next_multiple_of(width);
+        // Far from everything, so that the filling is never taken for near.
+        self.x.resize(length, 1e6);
+        self.y.resize(length, 0.0);
+        self.moment.resize(length, 0.0);
+    }
+}

@@ -1,0 +1,230 @@
+//! Rigorous bounds of the energy of a pair of blocks and of its derivatives, by distance.
+//!
+//! # Apart
+//! A uniformly magnetised block is an even spread of point dipoles over its volume, and one that
+//! keeps at least the distance d from the other block's keeps each pair of dipoles at least d
+//! apart. The energy of two dipoles is a second directional derivative of `K / r`,
+//! `K = mu0 m1 m2 / (4 pi)`, and the n-th directional derivatives of `1 / r` are at most
+//! `n! / r^(n+1)` in magnitude. So the n-th derivative of U along a shift of one block is at most
+//!
+//! ```text
+//! (n + 2)! K / d^(n+3)                                            (J/m^n)
+//! ```
+//!
+//! # In contact
+//! These grow without limit as d tends to 0. The pole faces' bounds do not, or much slower.
+//! With k the product of the charge densities times `mu0 / (4 pi)`:
+//!
+//! * **Energy.** The Coulomb kernel is positive definite, so `|U|^2 <= U11 U22` with Uii the
+//!   energy of block i's charges with a copy of themselves (Cauchy and Schwarz).
+//! * **Gradient.** The normal field of an even sheet of charge is at most 2 pi a density (half a
+//!   full solid angle). Its field along itself is the difference of the potentials of its two
+//!   upright edges; integrated over a face of width w and height c', an edge of height c gives at
+//!   most `T = 4 c' [w/2 asinh(c / w) + c/2 asinh(w / c)]`, the value for an edge that stands in
+//!   the middle of that face. So, whatever the directions in which the points of that face move,
+//!   each pair of faces gives at most `k (2 pi w c' + 2 T)` per metre of the farthest.
+//! * **Second derivatives.** Differentiating along a face turns its charge into charges on its
+//!   upright edges, and differentiating along the vertical into charges on its level edges; the
+//!   derivative along the normal follows from the Laplace equation. The field of a line of charge
+//!   is at most 2 / a at the distance a. Hence, if the points of the other face move at a speed of
+//!   at most v, `|V^T H V| <= v^2 (sum of 2 / a over the four edges)`, which integrated over that
+//!   face, at least D away, is at most `8 [c' asinh(w / (2 D)) + w asinh(c' / (2 D))]`.
+//!   An acceleration of at most b adds b times the bound of the gradient.
+//!
+//! The second derivative is truly infinite (logarithmically) where edges of pole faces meet.
+
+use nalgebra::Vector2;
+
+use super::block::{Block, BlockPair, exact};
+use crate::units::MU0;
+
+/// Room for the quadrature's and rounding errors in the energies of blocks with themselves.
+const ROOM: f64 = 1.0 + 1e-4;
+
+/// A pair of blocks by their strength and sizes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// `mu0 m1 m2 / (4 pi)` (J m^3), positive.
+    dipole: f64,
+    /// `mu0 / (4 pi)` times the product of the charge densities (J/m^3), positive.
+    strength: f64,
+    /// Width and height of the second block's pole faces (m).
+    face: [f64; 2],
+    /// Greatest energy (J) and gradient (J/m) of all.
+    energy: f64,
+    gradient: f64,
+}
+
+impl Limits {
+    pub fn new(first: &Block, second: &Block) -> Self {
+        let at_origin = |block: &Block| Block::new(block.moment.abs(), block.size);
+        let (a, b) = (at_origin(first), at_origin(second));
+        let pair = BlockPair::new(&a, &b, Vector2::zeros());
+        let own = |block: &Block| exact(block, block).energy;
+        let [width, height] = [b.size[1], b.size[2]];
+        let edge = a.size[2];
+        let tangential = 4.0
+            * height
+            * (width / 2.0 * (edge / width).asinh() + edge / 2.0 * (width / edge).asinh());
+        let normal = std::f64::consts::TAU * width * height;
+        Self {
+            dipole: MU0 / (4.0 * std::f64::consts::PI) * a.moment * b.moment,
+            strength: pair.strength,
+            face: [width, height],
+            energy: (own(&a) * own(&b)).sqrt() * ROOM,
+            gradient: 4.0 * pair.strength * (normal + 2.0 * tangential),
+        }
+    }
+
+    /// Bound of |U| (J) where the blocks are at least `distance` (m) apart.
+    pub fn energy(&self, distance: f64) -> f64 {
+        self.energy.min(self.derivative(0, distance))
+    }
+
+    /// Bound of the derivative of U (J/m) along a motion in which no point of the second block is
+    /// faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are at least
+    /// `distance` (m) apart. With `turn` 0 it is a bound of the force (N).
+    pub fn gradient(&self, turn: f64, distance: f64) -> f64 {
+        let apart = self.derivative(1, distance) + turn * self.derivative(0, distance);
+        self.gradient.min(apart)
+    }
+
+    /// Bound of the n-th derivative of U (J/m^n) along a shift of one block, where the blocks are
+    /// at least `distance` (m) apart: `(n + 2)! K / d^(n+3)`.
+    pub fn derivative(&self, n: i32, distance: f64) -> f64 {
+        if distance <= 0.0 {
+            return f64::INFINITY;
+        }
+        let factorial: f64 = (1..=n + 2).map(f64::from).product();
+        factorial * self.dipole / distance.powi(n + 3)
+    }
+
+    /// Bound of the second derivative of U (J/m^2) along a motion in which no point of the second
+    /// block is faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are
+    /// at least `distance` (m) apart: with shifts and turns of dipoles,
+    /// `K [24 / d^5 + 18 turn / d^4 + 2 turn^2 / d^3]`.
+    pub fn curvature(&self, turn: f64, distance: f64) -> f64 {
+        if distance <= 0.0 {
+            return f64::INFINITY;
+        }
+        let cube = self.dipole / distance.powi(3);
+        cube * (24.0 / (distance * distance) + 18.0 * turn / distance + 2.0 * turn * turn)
+    }
+
+    /// The same by the pole faces, given how far apart each pair of them is at least (m).
+    pub fn curvature_of_faces(&self, turn: f64, distances: [f64; 4]) -> f64 {
+        let [width, height] = self.face;
+        let share = |distance: f64| {
+            let (a, b) = (width / (2.0 * distance), height / (2.0 * distance));
+            height * a.asinh() + width * b.asinh()
+        };
+        let edges: f64 = distances.iter().map(|distance| share(*distance)).sum();
+        8.0 * self.strength * edges + turn * self.gradient
+    }
+}
+
+/// The distance (m) of two pole faces in the plane, for each of the four pairs.
+pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
+    let (a, b) = (pole_faces(first), pole_faces(second));
+    [
+        segment_distance(a[0], b[0]),
+        segment_distance(a[0], b[1]),
+        segment_distance(a[1], b[0]),
+        segment_distance(a[1], b[1]),
+    ]
+}
+
+type Segment = [Vector2<f64>; 2];
+
+fn pole_faces(block: &Block) -> [Segment; 2] {
+    let across = Vector2::new(-block.axis.y, block.axis.x) * (block.size[1] / 2.0);
+    [1.0, -1.0].map(|sign| {
+        let middle = block.position + block.axis * (sign * block.size[0] / 2.0);
+        [middle - across, middle + across]
+    })
+}
+
+fn segment_distance(a: Segment, b: Segment) -> f64 {
+    let to_segment = |p: Vector2<f64>, s: Segment| {
+        let along = s[1] - s[0];
+        let t = ((p - s[0]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        (p - s[0] - along * t).norm()
+    };
+    let side = |s: Segment, p: Vector2<f64>| (s[1] - s[0]).perp(&(p - s[0]));
+    if side(a, b[0]) * side(a, b[1]) < 0.0 && side(b, a[0]) * side(b, a[1]) < 0.0 {
+        return 0.0;
+    }
+    to_segment(a[0], b)
+        .min(to_segment(a[1], b))
+        .min(to_segment(b[0], a))
+        .min(to_segment(b[1], a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    fn random_pair(rng: &mut rand_chacha::ChaCha8Rng, gap: f64) -> (Block, Block) {
+        let first = Block::new(0.3, [0.010, 0.012, 0.003]);
+        let size = [0.008, 0.007, 0.005];
+        let angle: f64 = rng.random_range(-3.2..3.2);
+        let reach = (size[0] * angle.cos().abs() + size[1] * angle.sin().abs()) / 2.0;
+        let second = Block {
+            position: Vector2::new(0.005 + gap + reach, rng.random_range(-0.012..0.012)),
+            axis: Vector2::new(angle.cos(), angle.sin()),
+            ..Block::new(0.2, size)
+        };
+        (first, second)
+    }
+
+    fn moved(block: &Block, step: Vector2<f64>) -> Block {
+        Block {
+            position: block.position + step,
+            ..*block
+        }
+    }
+
+    #[test]
+    fn energies_and_gradients_stay_below_their_bounds() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
+        for gap in [0.0, 1e-4, 1e-3, 1e-2, 5e-2, 0.3] {
+            for _ in 0..100 {
+                let (first, second) = random_pair(&mut rng, gap);
+                let limits = Limits::new(&first, &second);
+                let pair = exact(&first, &second);
+                assert!(pair.energy.abs() <= limits.energy(gap));
+                assert!(pair.gradient.norm() <= limits.gradient(0.0, gap));
+            }
+        }
+    }
+
+    #[test]
+    fn the_bound_of_the_energy_is_attained_by_a_block_on_its_own_copy() {
+        let block = Block::new(0.3, [0.010, 0.012, 0.003]);
+        let limits = Limits::new(&block, &block);
+        let energy = exact(&block, &block).energy;
+        assert!(energy <= limits.energy(0.0) && energy > 0.999 * limits.energy(0.0));
+    }
+
+    #[test]
+    fn second_differences_stay_below_their_bounds() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(4);
+        for gap in [3e-4, 1e-3, 5e-3, 3e-2] {
+            for _ in 0..100 {
+                let (first, second) = random_pair(&mut rng, gap);
+                let limits = Limits::new(&first, &second);
+                let h = 0.1 * gap;
+                let direction: f64 = rng.random_range(-3.2..3.2);
+                let step = Vector2::new(direction.cos(), direction.sin()) * h;
+                let at = |t: f64| exact(&first, &moved(&second, step * t));
+                let second_derivative =
+                    (at(1.0).gradient - at(-1.0).gradient).dot(&step) / (2.0 * h * h);
+                let distances = face_distances(&first, &second).map(|d| d - h);
+                let bound = limits.curvature_of_faces(0.0, distances);
+                assert!(second_derivative.abs() <= bound, "{gap}");
+                assert!(second_derivative.abs() <= limits.curvature(0.0, gap - h));
+            }
+        }
+    }
+}

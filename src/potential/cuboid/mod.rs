@@ -1,0 +1,259 @@
+//! Uniformly magnetised blocks.
+
+pub mod block;
+#[cfg(test)]
+mod cloud;
+mod elementary;
+mod far;
+pub mod limits;
+mod multipole;
+mod panel;
+mod quadrature;
+mod sheet;
+
+mod sum;
+
+use nalgebra::{Complex, Vector3};
+
+use super::batch::Level;
+use super::{DipolePotential, Potential};
+use crate::configuration::Configuration;
+use crate::tile::Magnet;
+pub use block::{Block, PairEnergy};
+use far::Group;
+use limits::Limits;
+use multipole::{Multipole, TERMS};
+use sum::{Each, Sum};
+
+/// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form takes
+/// over from the pole faces, and at which it drops its terms one after the other.
+const HAND_OVER: f64 = 1e-9;
+
+/// The interaction energy of two sets of uniformly magnetised blocks, one in each tile.
+#[derive(Clone, Debug)]
+pub struct CuboidPotential {
+    level: Level,
+    fixed: Vec<SizedBlock>,
+    moving: Vec<SizedBlock>,
+    fixed_groups: Vec<Group>,
+    moving_groups: Vec<Group>,
+    /// For each size of a fixed block and each size of a moving one.
+    far: Vec<Vec<Far>>,
+    lever: f64,
+}
+
+/// A block and the number of its size.
+#[derive(Clone, Copy, Debug)]
+struct SizedBlock {
+    block: Block,
+    size: usize,
+}
+
+/// The far form of blocks of two sizes.
+#[derive(Clone, Debug)]
+struct Far {
+    series: Multipole,
+    /// Bounds for moments of 1 A m^2.
+    limits: Limits,
+    /// The squared distances (m^2) from which on 0, 1, 2 .. terms are enough.
+    squares: [f64; TERMS + 1],
+}
+
+impl Far {
+    fn new(first: [f64; 3], second: [f64; 3]) -> Self {
+        let series = Multipole::new(first, second);
+        let square = |terms| match terms {
+            0 => f64::INFINITY,
+            terms => series.radius(terms, HAND_OVER).powi(2),
+        };
+        Self {
+            squares: std::array::from_fn(square),
+            limits: Limits::new(&Block::new(1.0, first), &Block::new(1.0, second)),
+            series,
+        }
+    }
+
+    /// The squared distance below which the pole faces are summed.
+    fn near(&self) -> f64 {
+        self.squares[TERMS]
+    }
+}
+
+/// Blocks with the numbers of their sizes, and the sizes.
+fn by_size(magnets: &[Magnet]) -> (Vec<SizedBlock>, Vec<[f64; 3]>) {
+    let mut sizes: Vec<[f64; 3]> = Vec::new();
+    let mut number = |size: [f64; 3]| {
+        let known = sizes.iter().position(|other| *other == size);
+        known.unwrap_or_else(|| {
+            sizes.push(size);
+            sizes.len() - 1
+        })
+    };
+    let blocks = magnets
+        .iter()
+        .map(|magnet| SizedBlock {
+            block: Block::from(magnet),
+            size: number(magnet.size),
+        })
+        .collect();
+    (blocks, sizes)
+}
+
+/// Blocks sorted by size and by axis (up to its sign).
+fn groups(blocks: &[SizedBlock]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (member, SizedBlock { block, size }) in blocks.iter().enumerate() {
+        let axis = Complex::new(block.axis.x, block.axis.y);
+        let same = |group: &Group| {
+            group.size == *size && (axis * group.axis.conj()).im.abs() < SAME_DIRECTION
+        };
+        let number = groups.iter().position(same).unwrap_or(groups.len());
+        if number == groups.len() {
+            groups.push(Group::new(*size, block.axis));
+        }
+        let along = (axis * groups[number].axis.conj()).re.signum();
+        groups[number].push(member, block.position, along * block.moment);
+    }
+    groups
+}
+
+/// Axes that differ by less (rad) are taken for the same in the far form.
+const SAME_DIRECTION: f64 = 1e-12;
+
+impl CuboidPotential {
+    /// Of two tiles' magnets, for the fastest instruction set of this machine.
+    pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
+        Self::with_level(fixed, moving, Level::best())
+    }
+
+    /// Of two tiles' magnets, for the given instruction set.
+    pub fn with_level(fixed: &[Magnet], moving: &[Magnet], level: Level) -> Self {
+        let lever = moving
+            .iter()
+            .flat_map(|magnet| magnet.corners())
+            .map(|corner| corner.norm())
+            .fold(0.0, f64::max);
+        let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
+        let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
+        for group in &mut fixed_groups {
+            group.fill(level.width());
+        }
+        let far = fixed_sizes
+            .iter()
+            .map(|first| {
+                moving_sizes
+                    .iter()
+                    .map(|second| Far::new(*first, *second))
+                    .collect()
+            })
+            .collect();
+        Self {
+            level,
+            fixed,
+            moving,
+            fixed_groups,
+            moving_groups,
+            far,
+            lever,
+        }
+    }
+}
+
+impl CuboidPotential {
+    /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
+    /// moving tile's block j is number `j * fixed blocks + i`.
+    pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
+        let mut out = vec![PairEnergy::default(); self.fixed.len() * self.moving.len()];
+        self.level.run(Each {
+            potential: self,
+            q,
+            out: &mut out,
+        });
+        out
+    }
+}
+
+impl Potential for CuboidPotential {
+    fn energy(&self, q: &Configuration) -> f64 {
+        self.level.run(Sum::<false> { potential: self, q }).0
+    }
+
+    fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        self.level.run(Sum::<true> { potential: self, q })
+    }
+
+    /// See [`limits`] for the bounds and their proofs. Where pole faces may come as close as a
+    /// sixteenth of the reach the second derivative has no bound, for it grows like the logarithm
+    /// of their distance; the bound there is that at a sixteenth of the reach, which holds for the
+    /// average over a motion of that reach.
+    fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let (sin, cos) = q.theta.sin_cos();
+        let turn = if self.lever > 0.0 {
+            1.0 / self.lever
+        } else {
+            0.0
+        };
+        let mut bound = 0.0;
+        for second in &self.moving {
+            let moved = second.block.moved(cos, sin, q.position());
+            for first in &self.fixed {
+                let limits = &self.far[first.size][second.size].limits;
+                let r = (moved.position - first.block.position).norm();
+                let radii = first.block.radius() + moved.radius();
+                let distance = r - radii - reach;
+                let apart = limits.curvature(turn, distance);
+                let strength = (first.block.moment * moved.moment).abs();
+                bound += strength
+                    * if distance > 2.0 * radii {
+                        apart
+                    } else {
+                        let distances = limits::face_distances(&first.block, &moved)
+                            .map(|d| (d - reach).max(reach / 16.0));
+                        apart.min(limits.curvature_of_faces(turn, distances))
+                    };
+            }
+        }
+        bound
+    }
+
+    fn displacement(&self, step: Vector3<f64>) -> f64 {
+        step.xy().norm() + self.lever * step.z.abs()
+    }
+}
+
+/// What the two models say of the same magnets.
+#[derive(Clone, Debug)]
+pub struct ModelComparison {
+    dipoles: DipolePotential,
+    blocks: CuboidPotential,
+}
+
+/// The energies (J) of one configuration by both models.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelEnergies {
+    pub dipole: f64,
+    pub cuboid: f64,
+}
+
+impl ModelEnergies {
+    /// The dipole's error relative to the block's energy; infinite or NaN where that is 0.
+    pub fn relative_error(&self) -> f64 {
+        (self.dipole - self.cuboid) / self.cuboid.abs()
+    }
+}
+
+impl ModelComparison {
+    pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
+        Self {
+            dipoles: DipolePotential::new(fixed, moving),
+            blocks: CuboidPotential::new(fixed, moving),
+        }
+    }
+
+    pub fn at(&self, q: &Configuration) -> ModelEnergies {
+        ModelEnergies {
+            dipole: self.dipoles.energy(q),
+            cuboid: self.blocks.energy(q),
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The far form of a pair of blocks: the multipole series of their interaction.
+//!
+//! Averaging point dipoles over a block of size L along its axis, W across it and c through the
+//! thickness is the operator `S = sinhc(L d_a / 2) sinhc(W d_t / 2) sinhc(c d_z / 2)`, with
+//! `sinhc(u) = sinh(u) / u = sum u^(2k) / (2k + 1)!` and `d_a`, `d_t`, `d_z` the derivatives along
+//! the three edges. Two blocks with moments m1, m2 hence have the energy
+//!
+//! ```text
+//! U = -mu0 m1 m2 / (4 pi)  S1 d_a1  S2 d_a2  (1 / r)         (J)
+//! ```
+//!
+//! In the plane z = 0, with `w = x + i y`, `P = d/dw` and `Q = d/d(conj w)`, the derivative along
+//! the direction alpha is `e^(i alpha) P + e^(-i alpha) Q`, the Laplace equation makes
+//! `d_z^2 = -4 P Q`, and
+//!
+//! ```text
+//! P^M Q^N (1 / r) = (-1)^(M+N) (1/2)_M (1/2)_N r^(-1-M-N) e^(-i (M-N) phi)
+//! ```
+//!
+//! with rising factorials `(1/2)_M`. Collecting powers, with beta = alpha2 - alpha1 and phi
+//! measured from the first block's axis:
+//!
+//! ```text
+//! U = -mu0 m1 m2 / (4 pi)  sum_k r^(-3-2k) Re sum_l C_kl(beta) e^(-i l phi),   l = 0, 2 .. 2k+2
+//! C_kl(beta) = sum_l' T_kll' e^(i l' beta),                           l' = -2k-1, -2k+1 .. 2k+1
+//! ```
+//!
+//! Term k = 0 is the point dipole; term k falls like `r^(-3-2k)`. The numbers T depend on the two
+//! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the
+//! error of leaving terms out is bounded by the A_k left out.
+
+use nalgebra::Complex;
+
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
+
+/// Terms of the series that are summed, the dipole included.
+pub const TERMS: usize = 8;
+
+/// Terms of the series that enter the bound of the error.
+const BOUND_TERMS: usize = 16;
+
+/// A homogeneous real polynomial in P and Q; entry m is the coefficient of P^m Q^(degree-m).
+type Form = Vec<f64>;
+
+fn product(a: &[f64], b: &[f64]) -> Form {
+    let mut out = vec![0.0; a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            out[i + j] += x * y;
+        }
+    }
+    out
+}
+
+/// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
+fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
+    let squares: [Form; 3] = [
+        vec![1.0, 2.0, 1.0],
+        vec![-1.0, 2.0, -1.0],
+        vec![0.0, -4.0, 0.0],
+    ];
+    let mut forms: Vec<Form> = vec![vec![1.0]];
+    forms.resize_with(count, Vec::new);
+    for k in 1..count {
+        forms[k] = vec![0.0; 2 * k + 1];
+    }
+    for (square, length) in squares.iter().zip(size) {
+        let mut powers: Vec<Form> = vec![vec![1.0]];
+        for k in 1..count {
+            let k = k as f64;
+            let factor = length * length / (4.0 * (2.0 * k) * (2.0 * k + 1.0));
+            let next = product(powers.last().expect("never empty"), square);
+            powers.push(next.iter().map(|x| x * factor).collect());
+        }
+        for k in (0..count).rev() {
+            let mut sum = vec![0.0; 2 * k + 1];
+            for j in 0..=k {
+                for (total, x) in sum.iter_mut().zip(product(&forms[j], &powers[k - j])) {
+                    *total += x;
+                }
+            }
+            forms[k] = sum;
+        }
+    }
+    forms
+        .iter()
+        .map(|form| product(form, &[1.0, 1.0]))
+        .collect()
+}
+
+/// The rising factorial (1/2)_n.
+fn rising_half(n: usize) -> f64 {
+    (0..n).map(|i| i as f64 + 0.5).product()
+}
+
+/// Where the coefficient C_kl stands among those of all terms, given `l / 2`.
+#[inline(always)]
+pub const fn index(k: usize, half: usize) -> usize {
+    k * (k + 3) / 2 + half
+}
+
+/// Room for all C_kl, in whole vectors.
+pub const ROOM: usize = index(TERMS, 0).next_multiple_of(MAX_WIDTH);
+
+/// C_kl at one angle beta.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    pub re: [f64; ROOM],
+    pub im: [f64; ROOM],
+    /// The derivatives by beta.
+    pub turn_re: [f64; ROOM],
+    pub turn_im: [f64; ROOM],
+}
+
+impl Coefficients {
+    pub const NONE: Self = Self {
+        re: [0.0; ROOM],
+        im: [0.0; ROOM],
+        turn_re: [0.0; ROOM],
+        turn_im: [0.0; ROOM],
+    };
+}
+
+/// The series of two block sizes.
+#[derive(Clone, Debug)]
+pub struct Multipole {
+    /// For l' = 1, 3 .. the sums and the differences of T_kll' and T_kl-l', of all C_kl.
+    sums: [[f64; ROOM]; TERMS],
+    differences: [[f64; ROOM]; TERMS],
+    /// A_k (m^(2k)), longer than the coefficients.
+    magnitudes: Vec<f64>,
+}
+
+impl Multipole {
+    pub fn new(first: [f64; 3], second: [f64; 3]) -> Self {
+        let (a, b) = (
+            block_forms(first, BOUND_TERMS),
+            block_forms(second, BOUND_TERMS),
+        );
+        let all: Vec<_> = (0..BOUND_TERMS).map(|k| term(&a, &b, k)).collect();
+        let magnitudes = all
+            .iter()
+            .map(|rows| rows.iter().flatten().map(|x| x.abs()).sum())
+            .collect();
+        let (mut sums, mut differences) = ([[0.0; ROOM]; TERMS], [[0.0; ROOM]; TERMS]);
+        for (i, row) in all.iter().take(TERMS).flatten().enumerate() {
+            let half = row.len() / 2;
+            for j in 0..half {
+                let (plus, minus) = (row[half + j], row[half - 1 - j]);
+                sums[j][i] = plus + minus;
+                differences[j][i] = plus - minus;
+            }
+        }
+        Self {
+            sums,
+            differences,
+            magnitudes,
+        }
+    }
+
+    /// The distance (m) from which on the terms from number `terms` on are together below
+    /// `tolerance` times `mu0 m1 m2 / (4 pi r^3)`.
+    pub fn radius(&self, terms: usize, tolerance: f64) -> f64 {
+        let error = |r: f64| -> f64 {
+            (terms..BOUND_TERMS)
+                .map(|k| self.magnitudes[k] * r.powi(-2 * k as i32))
+                .sum()
+        };
+        let (mut low, mut high) = (1e-9, 1e-9);
+        while error(high) > tolerance {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..40 {
+            let middle = (low + high) / 2.0;
+            if error(middle) > tolerance {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
+
+    /// Works out the coefficients of the terms below `terms` for `turn` = e^(i beta), and their
+    /// derivatives if asked for.
+    #[inline(always)]
+    pub fn evaluate<L: Lanes, const SLOPE: bool>(
+        &self,
+        l: L,
+        turn: Complex<f64>,
+        terms: usize,
+        known: &mut Coefficients,
+    ) {
+        let step = turn * turn;
+        let mut i = 0;
+        while i < index(terms, 0) {
+            let zero = l.splat(0.0);
+            let (mut re, mut im) = (zero, zero);
+            let (mut turn_re, mut turn_im) = (zero, zero);
+            let mut phase = turn;
+            for j in 0..terms {
+                let (cos, sin) = (l.splat(phase.re), l.splat(phase.im));
+                let sum = l.load(&self.sums[j][i..]);
+                let difference = l.load(&self.differences[j][i..]);
+                re = l.mul_add(sum, cos, re);
+                im = l.mul_add(difference, sin, im);
+                if SLOPE {
+                    let order = l.splat((2 * j + 1) as f64);
+                    turn_re = l.neg_mul_add(l.mul(sum, order), sin, turn_re);
+                    turn_im = l.mul_add(l.mul(difference, order), cos, turn_im);
+                }
+                phase *= step;
+            }
+            l.store(re, &mut known.re[i..]);
+            l.store(im, &mut known.im[i..]);
+            if SLOPE {
+                l.store(turn_re, &mut known.turn_re[i..]);
+                l.store(turn_im, &mut known.turn_im[i..]);
+            }
+            i += L::WIDTH;
+        }
+    }
+}
+
+/// The coefficients T_kll' of term `k`, folded onto l >= 0.
+fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; 2 * k + 2]; k + 2];
+    for j in 0..=k {
+        let (a, b) = (&first[j], &second[k - j]);
+        for (m1, x) in a.iter().enumerate() {
+            for (m2, y) in b.iter().enumerate() {
+                let (p, q) = (m1 + m2, a.len() + b.len() - 2 - m1 - m2);
+                if p < q {
+                    continue;
+                }
+                // m2 - n2 + 2k + 1, halved, with m2 + n2 = b.len() - 1.
+                let turns = (2 * m2 + 2 * k + 2 - b.len()) / 2;
+                let fold = if p == q { 1.0 } else { 2.0 };
+                rows[(p - q) / 2][turns] += fold * x * y * rising_half(p) * rising_half(q);
+            }
+        }
+    }
+    rows
+}

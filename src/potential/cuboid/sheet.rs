@@ -1,0 +1,155 @@
+//! The Coulomb energy of two upright rectangular charge sheets, at any angle to each other.
+//!
+//! # Geometry
+//! Both sheets stand upright on the tiles' plane and are centred on it: sheet i is the segment of
+//! width `w_i` in the plane times the heights `-c_i/2 ..= c_i/2`. Coordinates are those of the
+//! first sheet: it lies on `-w_1/2 <= x <= w_1/2`, `h = 0`; the second one's centre is at
+//! `(x, h)` and it points along `(cos gamma, sin gamma)`. All lengths are in metres, and all
+//! charge densities 1, so energies are integrals of `1 / distance` over both sheets (m^3).
+//!
+//! # The integrals
+//! **Heights.** With p the distance in the plane, the function
+//! `f(p, z) = z asinh(z / p) - sqrt(p^2 + z^2)` has `f_zz = 1 / sqrt(p^2 + z^2)`, so
+//!
+//! ```text
+//! g(p) = int int dz1 dz2 / sqrt(p^2 + (z1 - z2)^2) = 2 [ f(p, (c1+c2)/2) - f(p, |c1-c2|/2) ].
+//! ```
+//!
+//! **Along the first sheet.** With `r^2 = s^2 + h^2 + z^2`, the function
+//!
+//! ```text
+//! K(s, h, z) = s z asinh(z / sqrt(s^2 + h^2)) + (z^2 - h^2)/2 asinh(s / sqrt(h^2 + z^2))
+//!              - z h atan(s z / (h r)) - s r / 2
+//! ```
+//!
+//! has `K_s = f(sqrt(s^2 + h^2), z)` and `K(0) = 0`, so the potential of the first sheet,
+//! integrated over the heights of the second, is
+//! `Phi(x, h) = 2 [K]` between `s = x - w_1/2` and `x + w_1/2` and between the two heights z; and
+//! `K_h = -h asinh(s / sqrt(h^2 + z^2)) - z atan(s z / (h r))`.
+//! (The same integrals, for parallel sheets, are in Akoun and Yonnet, *3D analytical calculation
+//! of the forces exerted between two cuboidal magnets*, doi:10.1109/TMAG.1984.1063554.)
+//!
+//! **Along the second sheet** the energy `E = int Phi dt` has no closed form at a general angle
+//! and is left to Gauss quadrature. Phi is continuous with its first derivatives everywhere but
+//! on the first sheet and its edges, and analytic elsewhere, so the rule is split where those
+//! edges project onto the second sheet, and graded towards them.
+//!
+//! **The gradient** needs the moments 0 and 1 (in t) of `Phi_x` and `Phi_h` along the second
+//! sheet. Those of `Phi_x = g(p_-) - g(p_+)`, with `p_-+` the distances from the first sheet's two
+//! edges, are closed: the zeroth is the second sheet's potential at those edges and the first
+//! uses `N(p, z) = z p^2/2 asinh(z / p) + z^2 r / 2 - r^3 / 3`, for which `N_p = p f(p, z)`. Those
+//! of `Phi_h` take the quadrature's nodes where the sheets are nearly parallel; where the angle
+//! is large they follow from `d Phi / dt = cos(gamma) Phi_x + sin(gamma) Phi_h`, integrated.
+//! So no integrand with a singularity is ever left to quadrature.
+//!
+//! # Edges
+//! The energy is finite and continuous everywhere, contact and overlap included. The gradient is
+//! finite too, but jumps where one sheet passes through the other; touching sheets get the limit
+//! from the side on which the second block's body lies.
+
+use super::elementary::{angle, ln_ratio};
+use crate::potential::batch::lanes::Lanes;
+
+/// Added to squared distances (m^2) so that products like `h^2 ln h` are 0, not NaN, at h = 0.
+const TINY: f64 = 1e-30;
+
+/// Phi / 2 and |Phi_h| / 2 (m^2, m), less its sign, at the distance `h` from the line of a sheet,
+/// where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`): the sign is the opposite of that of h.
+#[inline(always)]
+pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L::F, L::F) {
+    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let hh = l.mul_add(h, h, l.splat(TINY));
+    let (k1, slope1) = at_height(l, s, above, hh, heights[0]);
+    let (k0, slope0) = if heights[1] > 0.0 {
+        at_height(l, s, above, hh, heights[1])
+    } else {
+        in_plane(l, s, above, hh)
+    };
+    (l.sub(k1, k0), l.sub(slope1, slope0))
+}
+
+/// `ln (s2 + r2) / (s1 + r1)`, with `s + r = edge / (r - s)` where s is negative.
+#[inline(always)]
+fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
+    let one = l.splat(1.0);
+    let over = l.mul(
+        l.select(s[0], one, l.sub(r[0], s[0])),
+        l.select(s[1], l.add(s[1], r[1]), edge),
+    );
+    let under = l.mul(
+        l.select(s[0], l.add(s[0], r[0]), edge),
+        l.select(s[1], one, l.sub(r[1], s[1])),
+    );
+    ln_ratio(l, over, under)
+}
+
+/// K and -K_h between the two s at the height z > 0, for h >= 0.
+#[inline(always)]
+fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> (L::F, L::F) {
+    let (z, zz) = (l.splat(height), l.splat(height * height));
+    let edge = l.add(hh, zz);
+    let p = [
+        sqrt(l, l.mul_add(s[0], s[0], hh)),
+        sqrt(l, l.mul_add(s[1], s[1], hh)),
+    ];
+    let r = [
+        sqrt(l, l.mul_add(s[0], s[0], edge)),
+        sqrt(l, l.mul_add(s[1], s[1], edge)),
+    ];
+    let log = log(l, s, r, edge);
+    let rise = l.mul(s[1], ln_ratio(l, l.add(r[1], z), p[1]));
+    let rise = l.neg_mul_add(s[0], ln_ratio(l, l.add(r[0], z), p[0]), rise);
+    // The difference of two angles, by the product of (h r2, s2 z) and (h r1, -s1 z).
+    let (a1, a2) = (l.mul(h, r[0]), l.mul(h, r[1]));
+    let (b1, b2) = (l.mul(s[0], z), l.mul(s[1], z));
+    let angle = angle(
+        l,
+        l.mul_add(a1, a2, l.mul(b1, b2)),
+        l.neg_mul_add(b1, a2, l.mul(b2, a1)),
+    );
+    let turn = l.mul(z, angle);
+    let half = l.mul_add(l.sub(zz, hh), log, l.mul(s[0], r[0]));
+    let half = l.neg_mul_add(s[1], r[1], half);
+    let k = l.mul_add(half, l.splat(0.5), l.mul(z, rise));
+    (l.neg_mul_add(h, turn, k), l.mul_add(h, log, turn))
+}
+
+/// K and -K_h between the two s at the height 0, for h >= 0.
+#[inline(always)]
+fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> (L::F, L::F) {
+    let p = [
+        sqrt(l, l.mul_add(s[0], s[0], hh)),
+        sqrt(l, l.mul_add(s[1], s[1], hh)),
+    ];
+    let log = log(l, s, p, hh);
+    let twice = l.neg_mul_add(s[1], p[1], l.mul(s[0], p[0]));
+    let twice = l.neg_mul_add(hh, log, twice);
+    (l.mul(twice, l.splat(0.5)), l.mul(h, log))
+}
+
+/// Square root of a positive number.
+#[inline(always)]
+fn sqrt<L: Lanes>(l: L, a: L::F) -> L::F {
+    if FAST_SQRT {
+        l.mul(a, l.reciprocal_sqrt(a))
+    } else {
+        l.sqrt(a)
+    }
+}
+const FAST_SQRT: bool = true;
+
+/// Half the first moment of g, `N(p)` between the two heights (m^3), at the squared distance `pp`.
+#[inline(always)]
+pub fn first_moment<L: Lanes>(l: L, pp: L::F, heights: [f64; 2]) -> L::F {
+    let pp = l.add(pp, l.splat(TINY));
+    let mut sum = l.splat(0.0);
+    for (sign, height) in [(0.5, heights[0]), (-0.5, heights[1])] {
+        let (z, zz) = (l.splat(height), l.splat(height * height));
+        let rr = l.add(pp, zz);
+        let r = sqrt(l, rr);
+        let rise = l.mul(z, ln_ratio(l, l.add(r, z), sqrt(l, pp)));
+        let cubic = l.mul(r, l.neg_mul_add(rr, l.splat(2.0 / 3.0), zz));
+        sum = l.mul_add(l.mul_add(pp, rise, cubic), l.splat(sign), sum);
+    }
+    sum
+}

@@ -1,0 +1,242 @@
+//! Soft-iron shields behind magnets, as factors on the energies of pairs of magnets.
+//!
+//! # The smooth factor
+//! A magnet with a shield acts on another one with the factor
+//!
+//! ```text
+//! g   = eta(r) + (G - eta(r)) S(cos(alpha) / delta)
+//! eta = 1 - A / (1 + (r / l)^2),      S(t) = 1 / (1 + exp(-t))
+//! ```
+//!
+//! r (m) is the distance of the two magnets' centres and alpha the angle between the normal of the
+//! face that carries the magnet and the line to the other one. A pair's energy is multiplied by
+//! the product of its two magnets' factors. In front (`cos(alpha) >> delta`) g is G, the front
+//! gain, which is 1 unless iron behind the magnet strengthens it; behind, g is eta: 1 - A close
+//! by, 1 far away, half-way at the distance l. The force and the torque are the derivatives of the
+//! factor times the energy, both terms of the product rule, so energy is conserved.
+//!
+//! This is a model with the right limits and as few constants as a measurement can tell apart,
+//! not a solution of the magnetostatic problem with iron: it takes the field of a pair to be that
+//! without iron but for a factor. Calibrate it before trusting it.
+//!
+//! # The nearest-face rule
+//! [`ShieldRule::NearestFace`] counts a pair in full if its magnets sit on the two faces, one of
+//! each tile, whose middles are nearest to each other, and not at all otherwise (Majumder and
+//! Reif, *Barcoded Magnetic Tiles for Programmable Assemblies*, take shielded faces to act on the
+//! face opposite alone). Where another pair of faces becomes the nearest one the energy jumps:
+//! barriers across such places depend on the jump, and energy is not conserved. The rule is there
+//! for comparison with published results.
+
+mod potential;
+
+use nalgebra::Vector2;
+
+pub use potential::{PairModel, ShieldedPotential};
+
+/// The constants of a face's shield.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shield {
+    /// A: how much of the energy is lost behind, close by (0 to 1).
+    pub attenuation: f64,
+    /// l: the distance (m) at which half of that loss is left.
+    pub length: f64,
+    /// delta: width of the passage from front to back, in cos(alpha).
+    pub width: f64,
+    /// G: the factor in front; 1 for a shield that only takes away.
+    pub front_gain: f64,
+}
+
+/// How shields act.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShieldRule {
+    #[default]
+    Smooth,
+    NearestFace,
+}
+
+/// The shields of two tiles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shields {
+    pub rule: ShieldRule,
+    /// One entry for each face of the fixed tile: its shield, if it has one.
+    pub fixed: Vec<Option<Shield>>,
+    /// The same for the moving tile.
+    pub moving: Vec<Option<Shield>>,
+}
+
+/// A factor g and its derivatives by the distance (1/m) and by cos(alpha).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factor {
+    pub value: f64,
+    pub by_distance: f64,
+    pub by_cosine: f64,
+}
+
+impl Factor {
+    /// Of a magnet without a shield.
+    pub const NONE: Self = Self {
+        value: 1.0,
+        by_distance: 0.0,
+        by_cosine: 0.0,
+    };
+}
+
+impl Shield {
+    /// The factor at the distance `r` (m) and the cosine of the angle between the face's normal
+    /// and the line to the other magnet.
+    pub fn factor(&self, r: f64, cosine: f64) -> Factor {
+        let ratio = r / self.length;
+        let share = 1.0 / (1.0 + ratio * ratio);
+        let eta = 1.0 - self.attenuation * share;
+        let eta_slope = self.attenuation * 2.0 * ratio / self.length * share * share;
+        let front = logistic(cosine / self.width);
+        Factor {
+            value: eta + (self.front_gain - eta) * front,
+            by_distance: eta_slope * (1.0 - front),
+            by_cosine: (self.front_gain - eta) * front * (1.0 - front) / self.width,
+        }
+    }
+
+    /// Bounds of the magnitudes of g and of its first and second derivatives along a motion with
+    /// a speed of the magnets of at most 1, at a rate of turn of at most `turn` (1/m), while they
+    /// are at least `r` (m) apart.
+    ///
+    /// `|eta'| <= 0.65 A / l` and `|eta''| <= 2 A / l^2` (the largest of
+    /// `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8, that of its derivative's magnitude 2), `|S'| <= 1/4`,
+    /// `|S''| <= 1 / (6 sqrt(3))`, and with `w = 1 / r + turn` the cosine of an angle that turns
+    /// at most at the rate w has a second derivative of at most `w^2 + 2 / r^2 + turn / r +
+    /// turn^2`.
+    pub fn limits(&self, turn: f64, r: f64) -> [f64; 3] {
+        let gap = (self.front_gain - 1.0).abs() + self.attenuation;
+        let eta = [
+            0.65 * self.attenuation / self.length,
+            2.0 * self.attenuation / (self.length * self.length),
+        ];
+        let rate = 1.0 / r + turn;
+        let bend = rate * rate + 2.0 / (r * r) + turn / r + turn * turn;
+        let front = [
+            rate / (4.0 * self.width),
+            rate * rate / (10.3 * self.width * self.width) + bend / (4.0 * self.width),
+        ];
+        [
+            self.front_gain
+                .abs()
+                .max(1.0)
+                .max((1.0 - self.attenuation).abs()),
+            eta[0] + gap * front[0],
+            eta[1] + 2.0 * eta[0] * front[0] + gap * front[1],
+        ]
+    }
+}
+
+/// S(t) = 1 / (1 + exp(-t)), without overflow.
+fn logistic(t: f64) -> f64 {
+    if t >= 0.0 {
+        1.0 / (1.0 + (-t).exp())
+    } else {
+        let e = t.exp();
+        e / (1.0 + e)
+    }
+}
+
+/// The factor of a pair, the product of its two magnets' factors, with its gradient by the second
+/// magnet's place (1/m) and its derivative by that magnet's angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairFactor {
+    pub value: f64,
+    pub gradient: Vector2<f64>,
+    pub slope: f64,
+}
+
+/// A magnet's shield and the normal of its face.
+pub type Front = (Option<Shield>, Vector2<f64>);
+
+/// The factor of two magnets with the way `r` (m) from the first to the second. Coinciding
+/// magnets count as seen sideways.
+pub fn pair_factor(first: Front, second: Front, r: Vector2<f64>) -> PairFactor {
+    let distance = r.norm();
+    let d = if distance > 0.0 {
+        r / distance
+    } else {
+        Vector2::zeros()
+    };
+    let cosines = [first.1.dot(&d), -second.1.dot(&d)];
+    let [a, b] = [(first.0, cosines[0]), (second.0, cosines[1])].map(|(shield, cosine)| {
+        shield.map_or(Factor::NONE, |shield| shield.factor(distance, cosine))
+    });
+    let inverse = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+    let across = |normal: Vector2<f64>, cosine: f64| (normal - d * cosine) * inverse;
+    let first_gradient = d * a.by_distance + across(first.1, cosines[0]) * a.by_cosine;
+    let second_gradient = d * b.by_distance + across(-second.1, cosines[1]) * b.by_cosine;
+    // Turning the second magnet turns its normal.
+    let turned = Vector2::new(-second.1.y, second.1.x);
+    PairFactor {
+        value: a.value * b.value,
+        gradient: first_gradient * b.value + second_gradient * a.value,
+        slope: -a.value * b.by_cosine * turned.dot(&d),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHIELD: Shield = Shield {
+        attenuation: 0.8,
+        length: 0.03,
+        width: 0.2,
+        front_gain: 1.1,
+    };
+
+    #[test]
+    fn the_factor_has_its_limits() {
+        let close = 1e-9;
+        assert!((SHIELD.factor(close, 1.0).value - 1.1).abs() < 0.01);
+        assert!((SHIELD.factor(close, -1.0).value - 0.2).abs() < 0.01);
+        assert!((SHIELD.factor(10.0, -1.0).value - 1.0).abs() < 0.01);
+        let half = Shield {
+            width: 1e-3,
+            ..SHIELD
+        };
+        assert!((half.factor(0.03, -1.0).value - 0.6).abs() < 1e-12);
+        assert!(half.factor(0.03, -1e6).value.is_finite());
+    }
+
+    #[test]
+    fn the_derivatives_are_those_of_the_factor_and_within_their_limits() {
+        let turned = |angle: f64| Vector2::new(angle.cos(), angle.sin());
+        for i in 0..50 {
+            let t = i as f64;
+            let r = turned(0.7 * t) * (0.02 + 0.002 * t);
+            let (first, angle) = ((Some(SHIELD), turned(1.3 * t)), 2.1 * t);
+            let at = |dx: f64, dy: f64, da: f64| {
+                pair_factor(
+                    first,
+                    (Some(SHIELD), turned(angle + da)),
+                    r + Vector2::new(dx, dy),
+                )
+            };
+            let factor = at(0.0, 0.0, 0.0);
+            let h = 1e-6;
+            let slopes = [
+                (at(h, 0.0, 0.0).value - at(-h, 0.0, 0.0).value) / (2.0 * h),
+                (at(0.0, h, 0.0).value - at(0.0, -h, 0.0).value) / (2.0 * h),
+                (at(0.0, 0.0, h).value - at(0.0, 0.0, -h).value) / (2.0 * h),
+            ];
+            assert!((factor.gradient.x - slopes[0]).abs() < 1e-6 * factor.gradient.norm() + 1e-8);
+            assert!((factor.gradient.y - slopes[1]).abs() < 1e-6 * factor.gradient.norm() + 1e-8);
+            assert!((factor.slope - slopes[2]).abs() < 1e-6);
+
+            let turn = 5.0;
+            let [g0, g1, g2] = SHIELD.limits(turn, r.norm() - 2e-4);
+            let along = |s: f64| at(0.6 * s, 0.8 * s, turn * s);
+            let step = 1e-4;
+            let first = (along(step).value - along(-step).value) / (2.0 * step);
+            let second =
+                (along(step).value - 2.0 * factor.value + along(-step).value) / (step * step);
+            assert!(factor.value <= g0 * g0);
+            assert!(first.abs() <= 2.0 * g0 * g1);
+            assert!(second.abs() <= 2.0 * g0 * g2 + 2.0 * g1 * g1);
+        }
+    }
+}
