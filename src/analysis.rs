@@ -47,7 +47,8 @@ pub struct Settings {
     pub least_depth: f64,
     /// Number of far starts.
     pub far_starts: usize,
-    /// Width (J) to which certified bounds are narrowed; a hundredth of the bond where `None`.
+    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the bond or a
+    /// twentieth of the barrier, whichever is less.
     pub tolerance: Option<f64>,
     /// Time (s) after which the certificate keeps the bounds it has; 0 for no certificate.
     pub certify_seconds: f64,

@@ -15,6 +15,13 @@ use crate::problem::Problem;
 
 /// Cells spent on one barrier at most, so that a hard one leaves time for the others.
 const MOST_CELLS: usize = 1_000_000;
+/// Cells spent on narrowing the bounds of a small barrier further.
+const MORE_CELLS: usize = 20_000;
+/// Bounds are narrowed to this share of the bond's depth, and to this share of the barrier, but not
+/// below that share of the bond's depth.
+const SHARE_OF_BOND: f64 = 0.01;
+const SHARE_OF_BARRIER: f64 = 0.05;
+const LEAST_SHARE: f64 = 1e-5;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
@@ -22,7 +29,8 @@ const BEND: f64 = 1e-3;
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
 /// proof is tried that there is none. Returns the number of cells assessed.
 ///
-/// The bounds are narrowed to `settings.tolerance`; after `settings.certify_seconds` in all, the
+/// The bounds are narrowed to `settings.tolerance`, or to a hundredth of the bond and a twentieth of
+/// the barrier, whichever is less; after `settings.certify_seconds` in all, the
 /// bounds known by then are kept, so that only results within the limit are the same on every
 /// machine. Nothing is certified for magnets modelled as blocks.
 pub fn certify(
@@ -39,36 +47,72 @@ pub fn certify(
         return 0;
     }
     let depth = pipeline::energy_scale(design, problem);
-    let tolerance = settings.tolerance.unwrap_or(0.01 * depth);
     let bounds = DipoleBounds::new(&design.fixed, &design.moving);
     let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
     inventory.barriers.extend(missing_way_out(inventory));
     let count = inventory.barriers.len();
-    for number in 0..count {
-        observer.part("certificate", number, count);
-        let barrier = &mut inventory.barriers[number];
-        let Place::State(from) = barrier.from else {
-            continue;
-        };
-        let to = match barrier.to {
-            Place::State(to) => End::At(inventory.states[to].configuration),
-            Place::Free => End::Free,
-        };
-        let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
-        let effort = Effort {
-            tolerance,
-            cells: MOST_CELLS,
-            time: Some(limit.saturating_sub(since.elapsed())),
-        };
-        let start = inventory.states[from].configuration;
-        if let Ok(bracket) = certifier.bracket(&start, &to, &known, &effort) {
-            take_over(problem, barrier, &bracket, BEND * depth);
+    let passes: &[Pass] = match settings.tolerance {
+        Some(tolerance) => &[(MOST_CELLS, &move |_| tolerance)],
+        None => &[
+            (MOST_CELLS, &|_| SHARE_OF_BOND * depth),
+            (MORE_CELLS, &|barrier| narrow_width(barrier, depth)),
+        ],
+    };
+    for (pass, (cells, width)) in passes.iter().enumerate() {
+        for number in 0..count {
+            observer.part("certificate", pass * count + number, passes.len() * count);
+            let barrier = &inventory.barriers[number];
+            let effort = Effort {
+                tolerance: width(barrier),
+                cells: *cells,
+                time: Some(limit.saturating_sub(since.elapsed())),
+            };
+            if is_as_narrow(barrier, effort.tolerance) {
+                continue;
+            }
+            if let Some(bracket) = bracket(&mut certifier, inventory, barrier, &effort) {
+                let barrier = &mut inventory.barriers[number];
+                take_over(problem, barrier, &bracket, BEND * depth);
+            }
         }
     }
     certify_escapes(inventory);
     inventory.copy_escapes(problem, symmetries);
     certifier.assessed()
+}
+
+/// Cells spent on a barrier at most, and the width (J) that its bounds are to have.
+type Pass<'a> = (usize, &'a dyn Fn(&Barrier) -> f64);
+
+fn bracket(
+    certifier: &mut Certifier,
+    inventory: &Inventory,
+    barrier: &Barrier,
+    effort: &Effort,
+) -> Option<Bracket> {
+    let Place::State(from) = barrier.from else {
+        return None;
+    };
+    let start = inventory.states[from].configuration;
+    let to = match barrier.to {
+        Place::State(to) => End::At(inventory.states[to].configuration),
+        Place::Free => End::Free,
+    };
+    let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    certifier.bracket(&start, &to, &known, effort).ok()
+}
+
+/// Whether the bounds that a barrier has need no narrowing.
+fn is_as_narrow(barrier: &Barrier, width: f64) -> bool {
+    let bounds = barrier.lower.zip(barrier.upper);
+    barrier.caged || bounds.is_some_and(|(lower, upper)| upper - lower <= width)
+}
+
+/// Width (J) that tells something of a barrier much smaller than the bond, too.
+fn narrow_width(barrier: &Barrier, depth: f64) -> f64 {
+    let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
+    of_barrier.min(SHARE_OF_BOND * depth)
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and
@@ -102,8 +146,9 @@ fn missing_way_out(inventory: &Inventory) -> Option<Barrier> {
 }
 
 fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
-    barrier.lower = bracket.lower.is_finite().then_some(bracket.lower);
-    barrier.upper = bracket.upper;
+    let lower = bracket.lower.is_finite().then_some(bracket.lower);
+    barrier.lower = either(barrier.lower, lower, f64::max);
+    barrier.upper = either(barrier.upper, bracket.upper, f64::min);
     barrier.caged = bracket.caged;
     // In place of a pathway that could not be proved the certificate's own may lie higher.
     let lower = |upper: f64| upper < barrier.saddle_energy;
@@ -115,6 +160,14 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
         barrier.saddle_energy = highest.energy;
         barrier.saddle = highest.configuration;
         barrier.pathway = pathway;
+    }
+}
+
+/// The better of two bounds, of which either may be missing.
+fn either(a: Option<f64>, b: Option<f64>, better: impl Fn(f64, f64) -> f64) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(better(a, b)),
+        _ => a.or(b),
     }
 }
 

@@ -69,7 +69,8 @@ pub struct Analyse {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     thermal_energy: Option<f64>,
 
-    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the bond]
+    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of
+    /// the bond or a twentieth of the barrier, whichever is less]
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 
