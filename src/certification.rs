@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::analysis::Settings;
+use crate::analysis::{Certified, Settings};
 use crate::configuration::Configuration;
 use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
@@ -12,8 +12,6 @@ use crate::pipeline::{self, Observer};
 use crate::potential::bounds::DipoleBounds;
 use crate::problem::Problem;
 
-/// Cells spent on one barrier at most, so that a hard one leaves time for the others.
-const MOST_CELLS: usize = 1_000_000;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
@@ -45,6 +43,9 @@ pub fn certify(
     let count = inventory.barriers.len();
     for number in 0..count {
         observer.part("certificate", number, count);
+        if settings.certified == Certified::BondAndDeepestTrap && !is_main(inventory, number) {
+            continue;
+        }
         let barrier = &mut inventory.barriers[number];
         let Place::State(from) = barrier.from else {
             continue;
@@ -56,7 +57,7 @@ pub fn certify(
         let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
         let effort = Effort {
             tolerance,
-            cells: MOST_CELLS,
+            cells: settings.certify_cells,
             time: Some(limit.saturating_sub(since.elapsed())),
         };
         let start = inventory.states[from].configuration;
@@ -66,6 +67,24 @@ pub fn certify(
     }
     spread_to_escapes(inventory);
     certifier.assessed()
+}
+
+/// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
+fn is_main(inventory: &Inventory, number: usize) -> bool {
+    let barrier = &inventory.barriers[number];
+    let from = |kind| {
+        let first = inventory.states.iter().find(|state| state.kind == kind);
+        first.is_some_and(|state| barrier.from == Place::State(state.id))
+    };
+    if barrier.to == Place::Free && from(StateKind::Bound) {
+        return true;
+    }
+    from(StateKind::Misbound)
+        && inventory
+            .escapes
+            .iter()
+            .flatten()
+            .any(|escape| (escape.from, escape.to) == (barrier.from, barrier.to))
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and

@@ -1,7 +1,9 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+mod assessment;
 pub mod barrier;
+pub mod compare;
 pub mod completions;
 pub mod dock;
 pub mod energy;

@@ -12,6 +12,7 @@
 
 mod approach;
 mod canvas;
+pub mod curves;
 mod disconnectivity;
 pub mod dock;
 mod energy_map;
@@ -22,6 +23,7 @@ mod marks;
 mod merge_tree;
 mod picture;
 mod profiles;
+pub mod ranking;
 mod raster;
 mod scale;
 mod scene;
