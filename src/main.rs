@@ -32,6 +32,7 @@ enum Command {
     Energy(cli::energy::Energy),
     Barrier(cli::barrier::Barrier),
     Compare(cli::compare::Compare),
+    Sweep(cli::sweep::Sweep),
     Dock(cli::dock::Dock),
     Completions(cli::completions::Completions),
 }
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Energy(command) => command.run(),
         Command::Barrier(command) => command.run(),
         Command::Compare(command) => command.run(),
+        Command::Sweep(command) => command.run(),
         Command::Dock(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };

@@ -11,6 +11,8 @@ mod failure;
 mod input;
 mod interrupt;
 mod progress;
+pub mod sweep;
+mod sweep_progress;
 
 pub use failure::Failure;
 

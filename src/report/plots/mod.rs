@@ -12,7 +12,9 @@
 
 mod approach;
 mod canvas;
-pub mod curves;
+pub mod curve_data;
+mod curve_map;
+mod curves;
 mod disconnectivity;
 pub mod dock;
 mod energy_map;
