@@ -160,6 +160,7 @@ impl Panel {
                     unit,
                     top,
                     colour,
+                    width: width(number, group.series.len()),
                 };
                 any |= curve.draw(series, *quantity)?;
             }
@@ -199,7 +200,7 @@ impl Panel {
             return (
                 0.0,
                 if self.quantities[0].unit() == "J" {
-                    1e-3
+                    2e-3
                 } else {
                     1.0
                 },
@@ -229,6 +230,7 @@ struct Curve<'a, 'b, 'c> {
     unit: f64,
     top: f64,
     colour: RGBColor,
+    width: f64,
 }
 
 impl Curve<'_, '_, '_> {
@@ -285,10 +287,15 @@ impl Curve<'_, '_, '_> {
             }
         }
         let line: Vec<Pixel> = piece.iter().map(|(x, e)| self.at(*x, e.value)).collect();
-        polyline(self.root, &line, self.colour, 1.8)?;
+        polyline(self.root, &line, self.colour, self.width)?;
         line.iter()
             .try_for_each(|p| disc(self.root, *p, self.colour))
     }
+}
+
+/// Later curves are thinner, so that an earlier one can be seen beneath.
+fn width(number: usize, count: usize) -> f64 {
+    1.6 + 2.4 * (count - 1 - number) as f64 / count as f64
 }
 
 fn cross(root: &Area, (x, y): Pixel, colour: RGBColor) -> Result<(), PictureError> {
