@@ -186,10 +186,9 @@ impl Plan {
         }
         values.reverse();
         let mut document = documents[design].clone();
-        let set = self.axes.iter().zip(&values);
+        let mut set = self.axes.iter().zip(&values);
         let text = set
-            .map(|(axis, value)| document::set(&mut document, &axis.key, value))
-            .collect::<Result<(), String>>()
+            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value))
             .map(|()| document.to_string());
         let name = self.name(text.as_ref().unwrap_or_else(|reason| reason));
         Point {
