@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::analysis::Settings;
+use crate::analysis::{Certified, Settings};
 use crate::configuration::Configuration;
 use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
@@ -13,8 +13,6 @@ use crate::pipeline::{self, Observer};
 use crate::potential::bounds::DipoleBounds;
 use crate::problem::Problem;
 
-/// Cells spent on one barrier at most, so that a hard one leaves time for the others.
-const MOST_CELLS: usize = 1_000_000;
 /// Cells spent on narrowing the bounds of a small barrier further.
 const MORE_CELLS: usize = 20_000;
 /// Bounds are narrowed to this share of the bond's depth, and to this share of the barrier, but not
@@ -53,15 +51,20 @@ pub fn certify(
     inventory.barriers.extend(missing_way_out(inventory));
     let count = inventory.barriers.len();
     let passes: &[Pass] = match settings.tolerance {
-        Some(tolerance) => &[(MOST_CELLS, &move |_| tolerance)],
+        Some(tolerance) => &[(settings.certify_cells, &move |_| tolerance)],
         None => &[
-            (MOST_CELLS, &|_| SHARE_OF_BOND * depth),
-            (MORE_CELLS, &|barrier| narrow_width(barrier, depth)),
+            (settings.certify_cells, &|_| SHARE_OF_BOND * depth),
+            (MORE_CELLS.min(settings.certify_cells), &|barrier| {
+                narrow_width(barrier, depth)
+            }),
         ],
     };
     for (pass, (cells, width)) in passes.iter().enumerate() {
         for number in 0..count {
             observer.part("certificate", pass * count + number, passes.len() * count);
+            if settings.certified == Certified::BondAndDeepestTrap && !is_main(inventory, number) {
+                continue;
+            }
             let barrier = &inventory.barriers[number];
             let effort = Effort {
                 tolerance: width(barrier),
@@ -113,6 +116,24 @@ fn is_as_narrow(barrier: &Barrier, width: f64) -> bool {
 fn narrow_width(barrier: &Barrier, depth: f64) -> f64 {
     let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
     of_barrier.min(SHARE_OF_BOND * depth)
+}
+
+/// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
+fn is_main(inventory: &Inventory, number: usize) -> bool {
+    let barrier = &inventory.barriers[number];
+    let from = |kind| {
+        let first = inventory.states.iter().find(|state| state.kind == kind);
+        first.is_some_and(|state| barrier.from == Place::State(state.id))
+    };
+    if barrier.to == Place::Free && from(StateKind::Bound) {
+        return true;
+    }
+    from(StateKind::Misbound)
+        && inventory
+            .escapes
+            .iter()
+            .flatten()
+            .any(|escape| (escape.from, escape.to) == (barrier.from, barrier.to))
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and

@@ -31,6 +31,8 @@ enum Command {
     Analyse(cli::analyse::Analyse),
     Energy(cli::energy::Energy),
     Barrier(cli::barrier::Barrier),
+    Compare(cli::compare::Compare),
+    Sweep(cli::sweep::Sweep),
     Dock(cli::dock::Dock),
     Completions(cli::completions::Completions),
 }
@@ -40,6 +42,8 @@ fn main() -> ExitCode {
         Command::Analyse(command) => command.run(),
         Command::Energy(command) => command.run(),
         Command::Barrier(command) => command.run(),
+        Command::Compare(command) => command.run(),
+        Command::Sweep(command) => command.run(),
         Command::Dock(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };

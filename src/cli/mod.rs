@@ -1,7 +1,9 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+mod assessment;
 pub mod barrier;
+pub mod compare;
 pub mod completions;
 pub mod dock;
 pub mod energy;
@@ -9,6 +11,8 @@ mod failure;
 mod input;
 mod interrupt;
 mod progress;
+pub mod sweep;
+mod sweep_progress;
 
 pub use failure::Failure;
 
