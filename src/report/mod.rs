@@ -5,11 +5,13 @@
 //! - [`docking`] - docking experiments;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
+//! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`writer`] - all of it as files of one folder.
 
 pub mod csv;
 pub mod docking;
 pub mod json;
+pub mod page;
 pub mod plots;
 pub mod summary;
 pub mod writer;

@@ -12,19 +12,19 @@
 
 mod approach;
 mod canvas;
-mod disconnectivity;
+pub(in crate::report) mod disconnectivity;
 pub mod dock;
 mod energy_map;
 mod film;
 mod heat;
 mod labels;
 mod marks;
-mod merge_tree;
+pub(in crate::report) mod merge_tree;
 mod picture;
 mod profiles;
 mod raster;
-mod scale;
-mod scene;
+pub(in crate::report) mod scale;
+pub(in crate::report) mod scene;
 mod style;
 
 use rayon::prelude::*;
