@@ -7,6 +7,7 @@ use crate::configuration::Configuration;
 use crate::design::{Design, MagnetModel};
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
+use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
 use crate::potential::bounds::DipoleBounds;
@@ -27,6 +28,7 @@ const BEND: f64 = 1e-3;
 pub fn certify(
     design: &Design,
     problem: &Problem,
+    symmetries: &[Symmetry],
     inventory: &mut Inventory,
     settings: &Settings,
     observer: &dyn Observer,
@@ -64,7 +66,8 @@ pub fn certify(
             take_over(problem, barrier, &bracket, BEND * depth);
         }
     }
-    spread_to_escapes(inventory);
+    certify_escapes(inventory);
+    inventory.copy_escapes(problem, symmetries);
     certifier.assessed()
 }
 
@@ -115,25 +118,16 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
     }
 }
 
-/// Gives the bounds of a class's escape to the escapes of all its states, and a lower pathway to
-/// the escape of its first.
-fn spread_to_escapes(inventory: &mut Inventory) {
-    for id in 0..inventory.states.len() {
-        let class = inventory.states[id].class;
-        let Some(to) = inventory.escapes[class].as_ref().map(|escape| escape.to) else {
-            continue;
-        };
+/// Gives the certified bounds, and a lower pathway where one was found, to the escapes of the
+/// first state of each class.
+fn certify_escapes(inventory: &mut Inventory) {
+    for escape in inventory.escapes.iter_mut().flatten() {
         let certified = inventory
             .barriers
             .iter()
-            .find(|barrier| barrier.from == Place::State(class) && barrier.to == to);
-        if let (Some(certified), Some(escape)) = (certified, &mut inventory.escapes[id]) {
-            if id == class {
-                *escape = certified.clone();
-            } else {
-                escape.lower = certified.lower;
-                escape.upper = certified.upper;
-            }
+            .find(|barrier| barrier.from == escape.from && barrier.to == escape.to);
+        if let Some(certified) = certified {
+            *escape = certified.clone();
         }
     }
 }
