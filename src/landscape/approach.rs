@@ -69,6 +69,11 @@ impl<'a> Approach<'a> {
         Configuration::new(position.x, position.y, turned.theta)
     }
 
+    /// Middle of the moving tile's target face in its own frame (m).
+    pub fn pivot(&self) -> Vector2<f64> {
+        self.pivot
+    }
+
     /// Tilt (rad) and slide (m) of a configuration.
     pub fn tilt_and_slide(&self, q: &Configuration) -> (f64, f64) {
         let moved = q.transform(self.pivot) - self.bound.transform(self.pivot);
@@ -76,6 +81,13 @@ impl<'a> Approach<'a> {
             wrap_angle(q.theta - self.bound.theta),
             moved.dot(&self.face.tangent()),
         )
+    }
+
+    /// The distance (m) along the normal from the bound position at which the moving tile with this
+    /// tilt and slide, coming from far away, first touches; `None` where it passes by.
+    pub fn landing(&self, contact: &Contact, tilt: f64, slide: f64) -> Option<f64> {
+        let level = self.configuration(tilt, slide, 0.0);
+        contact.landing(&level, self.face.normal())
     }
 
     /// The configuration with this tilt and slide in which the moving tile, coming from far away,
@@ -87,8 +99,7 @@ impl<'a> Approach<'a> {
         slide: f64,
         gap: f64,
     ) -> Option<Configuration> {
-        let level = self.configuration(tilt, slide, 0.0);
-        let distance = contact.landing(&level, self.face.normal())?;
+        let distance = self.landing(contact, tilt, slide)?;
         Some(self.configuration(tilt, slide, distance + gap))
     }
 }

@@ -128,7 +128,7 @@ const NARROW: usize = 3;
 const HALVINGS: usize = 4;
 
 /// `count` numbers from `low` to `high`, both included.
-pub(super) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
+pub(crate) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
     let last = (count - 1) as f64;
     (0..count)
         .map(|i| low + (high - low) * i as f64 / last)

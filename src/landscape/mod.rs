@@ -15,5 +15,6 @@ pub mod slide;
 pub mod stationary;
 pub mod survey;
 pub mod symmetry;
+pub mod volume;
 
 pub use results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};

@@ -107,7 +107,7 @@ pub fn pathway(pathway: &Pathway) -> String {
 }
 
 /// The points of a pathway that are not on the straight line between their neighbours.
-fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
+pub(super) fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
     let Some(highest) =
         (0..pathway.len()).max_by(|&a, &b| pathway[a].energy.total_cmp(&pathway[b].energy))
     else {

@@ -52,7 +52,8 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     write_deepest(&mut text, bond, &traps);
     let _ = writeln!(
         text,
-        "results in {folder}: report.json, states.csv, barriers.csv, pathways/, pictures/"
+        "results in {folder}: report.html to look at, report.json, states.csv, barriers.csv, \
+         pathways/, pictures/"
     );
     text
 }

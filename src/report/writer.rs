@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::json::Report;
+use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
 use super::{csv, json};
 use crate::analysis::Analysis;
-use crate::contact::Contact;
 use crate::design::Design;
 use crate::landscape::Barrier;
-use crate::landscape::map::Pair;
 use crate::pipeline;
 
 /// Files by their names relative to the folder they go to.
@@ -20,6 +19,9 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// The file that is written last: where it is, the others are too.
 pub const REPORT: &str = "report.json";
+
+/// The page for a browser.
+pub const PAGE: &str = "report.html";
 
 /// Why results could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -34,11 +36,12 @@ pub enum WriteError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     Full,
-    /// Without the pathways of copies, and pictures as SVG only: for results that are kept.
+    /// Without the pathways of copies and the page, and pictures as SVG only: for results that are
+    /// kept.
     Compact,
 }
 
-/// All files of an analysis begun at `start`: report, tables, pathways and pictures.
+/// All files of an analysis begun at `start`: report, tables, pathways, pictures and page.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
@@ -49,12 +52,7 @@ pub fn files(
     start: Instant,
 ) -> Result<Files, PictureError> {
     let mut files = tables(design, analysis, extent);
-    for NamedPicture { name, picture } in pictures(design, analysis)? {
-        files.insert(format!("pictures/{name}.svg"), picture.svg.into());
-        if extent == Extent::Full {
-            files.insert(format!("pictures/{name}.png"), picture.png);
-        }
-    }
+    files.extend(pictures(design, analysis, extent)?);
     let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
     if extent == Extent::Compact {
         report = report.without_copies();
@@ -91,7 +89,8 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     files
 }
 
-fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, PictureError> {
+/// The pictures and the page.
+fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<Files, PictureError> {
     let problem = pipeline::problem(design);
     let passable: Vec<Barrier> = analysis
         .barriers
@@ -99,22 +98,25 @@ fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, P
         .filter(|barrier| !barrier.pathway.is_empty())
         .cloned()
         .collect();
-    let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
-    plots::draw_all(&Scene {
-        name: &design.name,
-        pair: Pair {
-            fixed: &design.fixed,
-            moving: &design.moving,
-            potential: problem.potential(),
-            contact: &contact,
-        },
-        space: &problem.space,
-        bound: design.bound,
-        target: design.target,
-        states: &analysis.states,
-        escapes: &analysis.escapes,
+    let mut files = Files::new();
+    let Some(scene) = Scene::new(design, &problem, analysis) else {
+        return Ok(files);
+    };
+    let scene = Scene {
         barriers: &passable,
-    })
+        ..scene
+    };
+    for NamedPicture { name, picture } in plots::draw_all(&scene)? {
+        files.insert(format!("pictures/{name}.svg"), picture.svg.into());
+        if extent == Extent::Full {
+            files.insert(format!("pictures/{name}.png"), picture.png);
+        }
+    }
+    if extent == Extent::Full {
+        let page = Page::of_analysis(design, analysis, &scene);
+        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
+    }
+    Ok(files)
 }
 
 /// Writes files into a folder, which is made if need be. Each is written under a temporary name;

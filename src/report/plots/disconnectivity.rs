@@ -20,7 +20,7 @@ const SIZE: (u32, u32) = (1000, 700);
 const MOST: usize = 11;
 
 /// The merge tree of the classes, with free tiles at U = 0.
-fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
+pub fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
     let mut leaves: Vec<_> = classes
         .iter()
         .map(|class| (Some(class.state.class), class.state.energy))

@@ -59,11 +59,8 @@ impl Maps {
     }
 }
 
-/// The map reaches a fifth of the tiles' size beyond where they can touch, or to the table's edge.
 fn whole_window(scene: &Scene) -> Window {
-    let (fixed, moving) = (scene.pair.fixed, scene.pair.moving);
-    let reach = 1.2 * (fixed.outline.circumradius() + moving.outline.circumradius());
-    let half = scene.space.half_size.map(|half| half.min(reach));
+    let half = scene.reach();
     window(scene, Vector2::zeros(), 0.0, half.map(|h| -h), half)
 }
 

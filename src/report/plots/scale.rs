@@ -7,7 +7,7 @@ use crate::units::si;
 /// between them stay within 7/255 of the original.
 ///
 /// Source: Crameri, *Scientific colour maps* 8 (2023), doi:10.5281/zenodo.1243862 (MIT licence).
-const VIK: [[u8; 3]; 17] = [
+pub const VIK: [[u8; 3]; 17] = [
     [0, 18, 97],
     [2, 43, 113],
     [3, 68, 129],
@@ -55,7 +55,7 @@ pub struct EnergyScale {
 
 impl EnergyScale {
     /// Decades between the linear part and the largest energy.
-    const DECADES: i32 = 4;
+    pub const DECADES: i32 = 4;
 
     /// A scale that holds `energies` (J); infinite ones are left out.
     pub fn holding(energies: impl IntoIterator<Item = f64>) -> Self {
@@ -67,6 +67,11 @@ impl EnergyScale {
         Self {
             most: if most > 0.0 { most } else { 1.0 },
         }
+    }
+
+    /// The largest energy (J).
+    pub fn most(&self) -> f64 {
+        self.most
     }
 
     fn linear(&self) -> f64 {

@@ -55,6 +55,14 @@ impl<'a> Scene<'a> {
         })
     }
 
+    /// Half the size (m) of the map along x and y: a fifth of the tiles' size beyond where they can
+    /// touch, or to the table's edge.
+    pub fn reach(&self) -> [f64; 2] {
+        let circles = [self.pair.fixed, self.pair.moving].map(|tile| tile.outline.circumradius());
+        let reach = 1.2 * (circles[0] + circles[1]);
+        self.space.half_size.map(|half| half.min(reach))
+    }
+
     pub fn state(&self, id: usize) -> Option<&'a State> {
         self.states.iter().find(|state| state.id == id)
     }
@@ -109,6 +117,11 @@ impl<'a> Scene<'a> {
 
     /// The way from far away into the bound state nearest to the bound configuration.
     pub fn docking(&self) -> Option<Pathway> {
+        self.docked().map(|(_, pathway)| pathway)
+    }
+
+    /// The bound state nearest to the bound configuration and the way from far away into it.
+    pub fn docked(&self) -> Option<(&'a State, Pathway)> {
         let bound = |place: Place| match place {
             Place::State(id) => self
                 .state(id)
@@ -129,7 +142,6 @@ impl<'a> Scene<'a> {
             self.distance_from_bound(a)
                 .total_cmp(&self.distance_from_bound(b))
         })
-        .map(|(_, pathway)| pathway)
     }
 
     /// The marker of a place.

@@ -1,0 +1,219 @@
+//! The landscape of a pair of tiles as a page's data.
+
+use std::f64::consts::FRAC_PI_4;
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use super::packed::Packed;
+use super::pathways::{Played, played};
+use super::tree::{Node, nodes};
+use super::{fixed, rounded};
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::approach::Approach;
+use crate::landscape::map::evenly;
+use crate::landscape::volume::{InFront, Volume, around};
+use crate::potential::{DipolePotential, Potential};
+use crate::report::json::kind;
+use crate::report::plots::Scene;
+use crate::report::plots::scale::{EnergyScale, VIK};
+use crate::tile::Tile;
+
+/// Orientations to a full turn of the moving tile, and to its part after which it repeats.
+const ORIENTATIONS: [usize; 2] = [144, 72];
+/// Grid points of the map all around, and the most along a side.
+const AROUND: f64 = 400_000.0;
+const LONGEST: f64 = 121.0;
+/// Gaps, tilts and slides of the map in front of the target face.
+const IN_FRONT: [usize; 3] = [25, 61, 61];
+
+/// What a page needs to draw a landscape and to move tiles about in it. Lengths in m, angles in
+/// rad, energies in J.
+#[derive(Clone, Debug, Serialize)]
+pub struct Landscape {
+    /// Largest energy of the scale; see [`EnergyScale`].
+    most: f64,
+    decades: i32,
+    /// Colours of positions from -1 to 1, evenly.
+    palette: &'static [[u8; 3]],
+    fixed: Drawn,
+    moving: Drawn,
+    /// Whether U is the sum over the magnets as point dipoles, so that the page may compute it.
+    dipoles: bool,
+    target: TargetFaces,
+    around: Packed,
+    in_front: Packed,
+    /// For each tilt and slide, the distance along the normal at which the tiles first touch.
+    landing: Vec<Option<f64>>,
+    states: Vec<DrawnState>,
+    pathways: Vec<Played>,
+    tree: Vec<Node>,
+}
+
+/// A tile to draw.
+#[derive(Clone, Debug, Serialize)]
+struct Drawn {
+    outline: Vec<[f64; 2]>,
+    magnets: Vec<DrawnMagnet>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct DrawnMagnet {
+    position: [f64; 2],
+    /// Direction of the moment.
+    angle: f64,
+    /// Along the magnetic axis and across it.
+    size: [f64; 2],
+    /// A m^2.
+    moment: f64,
+}
+
+/// The frame of the map in front of the target face.
+#[derive(Clone, Debug, Serialize)]
+struct TargetFaces {
+    names: [String; 2],
+    bound: [f64; 3],
+    /// Middle of the moving tile's target face, in its frame.
+    pivot: [f64; 2],
+    tangent: [f64; 2],
+    normal: [f64; 2],
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct DrawnState {
+    id: usize,
+    kind: &'static str,
+    pose: [f64; 3],
+    energy: f64,
+    class: usize,
+}
+
+impl Landscape {
+    pub fn new(design: &Design, scene: &Scene) -> Self {
+        let around = whole(scene);
+        let in_front = in_front(scene);
+        let volumes = [&around, &in_front.volume];
+        let energies = volumes.iter().flat_map(|volume| &volume.energies);
+        let states = scene.states.iter().map(|state| state.energy);
+        let scale = EnergyScale::holding(states.chain(energies.copied().flatten()));
+        let (around, in_front_packed) = rayon::join(
+            || Packed::new(&around, &scale),
+            || Packed::new(&in_front.volume, &scale),
+        );
+        Self {
+            most: scale.most(),
+            decades: EnergyScale::DECADES,
+            palette: &VIK,
+            fixed: Drawn::new(&design.fixed),
+            moving: Drawn::new(&design.moving),
+            dipoles: is_sum_of_dipoles(design, scene),
+            target: TargetFaces::new(design, scene),
+            around,
+            in_front: in_front_packed,
+            landing: in_front
+                .landing
+                .iter()
+                .map(|distance| distance.map(|d| fixed(d, 5)))
+                .collect(),
+            states: scene.states.iter().map(DrawnState::new).collect(),
+            pathways: played(scene),
+            tree: nodes(scene, &scale),
+        }
+    }
+}
+
+/// The map all around the fixed tile: at least so many orientations, and as many places as the
+/// number of grid points leaves.
+fn whole(scene: &Scene) -> Volume {
+    let repeats = crate::tile::symmetry::rotations(scene.pair.moving).len();
+    let orientations = ORIENTATIONS[usize::from(repeats == 1)];
+    let reach = scene.reach();
+    let shape = reach[0].min(reach[1]) / reach[0].max(reach[1]);
+    let planes = orientations as f64 / repeats as f64;
+    let side = (AROUND / planes / shape).sqrt().min(LONGEST);
+    around(&scene.pair, reach, orientations, side as usize)
+}
+
+fn in_front(scene: &Scene) -> InFront {
+    let pair = &scene.pair;
+    let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
+    let length = pair.fixed.faces[scene.target.0].length();
+    let [gaps, tilts, slides] = IN_FRONT;
+    InFront::new(
+        pair,
+        &approach,
+        // Closer together where the energy is steep.
+        evenly(0.0, 1.0, gaps)
+            .into_iter()
+            .map(|u| 0.5 * length * u * u)
+            .collect(),
+        evenly(-FRAC_PI_4, FRAC_PI_4, tilts),
+        evenly(-0.6 * length, 0.6 * length, slides),
+    )
+}
+
+/// Whether the plain sum over point dipoles gives the states' energies.
+fn is_sum_of_dipoles(design: &Design, scene: &Scene) -> bool {
+    let dipoles = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
+    scene.states.iter().all(|state| {
+        let energy = dipoles.energy(&state.configuration);
+        (energy - state.energy).abs() <= 1e-9 * state.energy.abs()
+    })
+}
+
+fn pair([a, b]: [f64; 2]) -> [f64; 2] {
+    [fixed(a, 7), fixed(b, 7)]
+}
+
+fn point(p: Vector2<f64>) -> [f64; 2] {
+    pair([p.x, p.y])
+}
+
+fn pose(q: &Configuration) -> [f64; 3] {
+    q.to_array().map(|value| fixed(value, 7))
+}
+
+impl Drawn {
+    fn new(tile: &Tile) -> Self {
+        Self {
+            outline: tile.outline.vertices().iter().map(|v| point(*v)).collect(),
+            magnets: tile
+                .magnets
+                .iter()
+                .map(|magnet| DrawnMagnet {
+                    position: point(magnet.position),
+                    angle: rounded(magnet.angle, 9),
+                    size: pair([magnet.size[0], magnet.size[1]]),
+                    moment: rounded(magnet.moment, 9),
+                })
+                .collect(),
+        }
+    }
+}
+
+impl TargetFaces {
+    fn new(design: &Design, scene: &Scene) -> Self {
+        let (fixed, moving) = design.target;
+        let face = &design.fixed.faces[fixed];
+        Self {
+            names: [face.name.clone(), design.moving.faces[moving].name.clone()],
+            bound: pose(&scene.bound),
+            pivot: point(design.moving.faces[moving].middle()),
+            tangent: point(face.tangent()),
+            normal: point(face.normal()),
+        }
+    }
+}
+
+impl DrawnState {
+    fn new(state: &crate::landscape::State) -> Self {
+        Self {
+            id: state.id,
+            kind: kind(state.kind),
+            pose: pose(&state.configuration),
+            energy: rounded(state.energy, 7),
+            class: state.class,
+        }
+    }
+}

@@ -1,0 +1,171 @@
+// One shared place links the maps, the tiles and the profile.
+
+/** The path that is shown, how far along it one is (0 to 1) and where that is; the pose under the
+    pointer; the chosen state. */
+const now = { route: null, progress: 0, place: null, probe: null, chosen: null, playing: false };
+/** Seconds that a path takes to play. */
+const DURATION = 9;
+
+function showPage() {
+  document.title = page.title;
+  element("title").textContent = page.title;
+  element("subtitle").textContent = page.subtitle;
+  element("origin").textContent = page.origin;
+  for (const fact of page.facts) {
+    const box = make("div");
+    box.append(make("dt", fact.name), make("dd", fact.value, "value"), make("dd", fact.note, "note"));
+    element("facts").append(box);
+  }
+  for (const { title, svg: source } of page.pictures) {
+    const image = make("img");
+    image.alt = title;
+    image.src = URL.createObjectURL(new Blob([source], { type: "image/svg+xml" }));
+    element("pictures").append(make("h2", title), image);
+  }
+  for (const table of page.tables) buildTable(table, choose);
+}
+
+let views = null;
+let waiting = false;
+
+/** Draws everything anew, once, before the next frame. */
+function redraw() {
+  if (waiting || !views) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    draw();
+  });
+}
+
+function draw() {
+  for (const view of [views.around, views.inFront]) view.draw();
+  drawPathTiles();
+  drawProfile();
+  drawPose();
+  element("theta").value = views.around.plane;
+  element("theta-value").textContent = views.around.label();
+  element("gap").value = views.inFront.plane;
+  element("gap-value").textContent = views.inFront.label();
+  element("step").value = now.progress;
+  element("here").textContent = now.place
+    ? `${si(now.place.s, "m", 3)} along, U = ${energyText(now.place.energy)}` : "";
+  element("play").textContent = now.playing ? "Pause" : "Play";
+}
+
+/** Goes to a place on the path; both maps follow. */
+function goTo(progress) {
+  now.progress = Math.max(0, Math.min(1, progress));
+  now.place = placeAt(now.route, now.progress);
+  views.around.follow(now.place.pose[2]);
+  const inFront = views.inFront.coordinates(now.place.pose);
+  if (inFront) views.inFront.follow(inFront.gap);
+  redraw();
+}
+
+function takePath(index) {
+  now.route = prepared(world.pathways[index]);
+  element("path").value = index;
+  goTo(0);
+}
+
+function choose(state) {
+  if (!views) return;
+  now.chosen = state;
+  markChosen();
+  const index = world.pathways.findIndex((path) => path.ends[0] === state && state !== null);
+  if (index >= 0 && !now.playing) takePath(index);
+  redraw();
+}
+
+function play() {
+  now.playing = !now.playing;
+  if (now.playing && now.progress >= 1) goTo(0);
+  let before = null;
+  const advance = (time) => {
+    if (!now.playing) return;
+    const passed = before === null ? 0 : Math.min(0.1, (time - before) / 1000);
+    before = time;
+    goTo(now.progress + passed / DURATION);
+    if (now.progress >= 1) now.playing = false;
+    else requestAnimationFrame(advance);
+  };
+  if (now.playing) requestAnimationFrame(advance);
+  redraw();
+}
+
+function slider(id, view, planes) {
+  element(id).max = planes - 1;
+  element(id).addEventListener("input", (event) => {
+    view.plane = Number(event.target.value);
+    redraw();
+  });
+}
+
+function watchPointer(view) {
+  const look = (event) => {
+    const found = view.probe(event);
+    now.probe = found?.pose ?? null;
+    view.readout.textContent = found?.text ?? "";
+    redraw();
+  };
+  view.canvas.addEventListener("pointermove", look);
+  view.canvas.addEventListener("pointerdown", look);
+  view.canvas.addEventListener("pointerleave", () => {
+    now.probe = null;
+    redraw();
+  });
+}
+
+async function showLandscape() {
+  const [around, inFront] = await Promise.all([unpacked(world.around), unpacked(world.in_front)]);
+  element("landscape").hidden = false;
+  readTheme();
+  views = { around: new AroundView(around), inFront: new InFrontView(inFront) };
+  slider("theta", views.around, around.axes[0].length);
+  slider("gap", views.inFront, inFront.axes[0].length);
+  watchPointer(views.around);
+  watchPointer(views.inFront);
+  element("path").append(...world.pathways.map((path, k) => new Option(path.name, k)));
+  element("path").addEventListener("change", (event) => takePath(Number(event.target.value)));
+  element("step").max = 1;
+  element("step").addEventListener("input", (event) => goTo(Number(event.target.value)));
+  element("play").addEventListener("click", play);
+  const drag = (event) => {
+    const values = event.buttons && profilePlot?.values(pointer(element("profile"), event));
+    if (values) goTo(progressAt(now.route, values[0]));
+  };
+  element("profile").addEventListener("pointerdown", drag);
+  element("profile").addEventListener("pointermove", drag);
+  element("player").hidden = world.pathways.length === 0;
+  buildTree(choose);
+  if (world.pathways.length) {
+    takePath(0);
+    // Where the way in is steepest says more than its far end.
+    goTo(0.6);
+  }
+  now.chosen = world.states.length ? world.states[0].id : null;
+  markChosen();
+  const anew = () => {
+    readTheme();
+    drawColourBar();
+    draw();
+  };
+  drawColourBar();
+  draw();
+  addEventListener("resize", anew);
+  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
+  addEventListener("beforeprint", anew);
+  addEventListener("afterprint", anew);
+}
+
+showPage();
+const ready = world ? showLandscape() : Promise.resolve();
+ready.then(
+  () => { document.documentElement.dataset.ready = "yes"; },
+  (error) => {
+    element("trouble").hidden = false;
+    element("trouble").textContent = `The landscape cannot be shown: ${error.message}`;
+    console.error(error);
+  },
+);

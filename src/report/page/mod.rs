@@ -1,0 +1,239 @@
+//! `report.html`: results as one page that needs nothing but a browser.
+//!
+//! A [`Page`] holds what is to be seen: facts, a landscape to move about in, pictures, tables that
+//! sort. It is written as one file: markup, style, script, and the data as JSON. A content security
+//! policy lets the page run its own script and style, known by their SHA-256, and load nothing at
+//! all; it opens from disk. The same page comes out as the same bytes.
+
+mod landscape;
+mod packed;
+mod pathways;
+mod tables;
+mod tree;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+pub use landscape::Landscape;
+
+use super::plots::Scene;
+use crate::analysis::Analysis;
+use crate::design::Design;
+
+const MARKUP: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+/// In the order in which they build on each other.
+const SCRIPTS: [&str; 8] = [
+    include_str!("data.js"),
+    include_str!("draw.js"),
+    include_str!("maps.js"),
+    include_str!("tiles.js"),
+    include_str!("profile.js"),
+    include_str!("tree.js"),
+    include_str!("tables.js"),
+    include_str!("main.js"),
+];
+
+/// What a page shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Page {
+    pub title: String,
+    pub subtitle: String,
+    /// What to know first.
+    pub facts: Vec<Fact>,
+    pub landscape: Option<Landscape>,
+    pub pictures: Vec<Illustration>,
+    pub tables: Vec<Table>,
+    /// How it was made: version, seed, checksum.
+    pub origin: String,
+}
+
+/// A quantity told in a few words.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fact {
+    pub name: String,
+    pub value: String,
+    pub note: String,
+}
+
+/// A picture, as an SVG document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Illustration {
+    pub title: String,
+    pub svg: String,
+}
+
+/// A table that sorts.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Table {
+    pub title: String,
+    /// What a row is.
+    pub note: String,
+    pub columns: Vec<Column>,
+    /// Numbers (in SI units), texts, or null, one a column.
+    pub rows: Vec<Vec<Value>>,
+    /// For each row the state whose pose it shows when clicked; empty where rows show none.
+    pub states: Vec<usize>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Column {
+    pub name: String,
+    /// SI unit of its numbers, to which the page adds a prefix; `rad` is shown in degrees, `%` for
+    /// a share. Empty for counts and texts.
+    pub unit: &'static str,
+}
+
+impl Column {
+    pub fn new(name: &str, unit: &'static str) -> Self {
+        Self {
+            name: name.to_owned(),
+            unit,
+        }
+    }
+}
+
+impl Page {
+    /// The page of an analysis.
+    pub fn of_analysis(design: &Design, analysis: &Analysis, scene: &Scene) -> Self {
+        Self {
+            title: design.name.clone(),
+            subtitle: design.description.clone(),
+            facts: tables::facts(design, analysis, scene),
+            landscape: Some(Landscape::new(design, scene)),
+            pictures: Vec::new(),
+            tables: vec![
+                tables::states(design, analysis, scene),
+                tables::barriers(analysis, scene),
+                tables::settings(design, analysis),
+            ],
+            origin: format!(
+                "tilebind {}, seed {}, design sha256 {}",
+                env!("CARGO_PKG_VERSION"),
+                analysis.settings.seed,
+                design.sha256
+            ),
+        }
+    }
+
+    /// The file.
+    ///
+    /// # Panics
+    /// Never: plain values with string keys are written.
+    pub fn to_html(&self) -> String {
+        let data = serde_json::to_string(self).expect("plain values are written");
+        let script = format!("\"use strict\";\n{}", SCRIPTS.concat());
+        let parts = [
+            ("{title}", escaped(&self.title)),
+            ("{style-hash}", hash(STYLE)),
+            ("{script-hash}", hash(&script)),
+            ("{style}", STYLE.to_owned()),
+            ("{script}", script),
+            // JSON holds `<` within strings alone, where its escape means the same.
+            ("{data}", data.replace('<', "\\u003c")),
+        ];
+        filled(MARKUP, &parts)
+    }
+}
+
+/// A template with its placeholders replaced, each found once; what replaces one is not searched
+/// for another.
+fn filled(template: &str, parts: &[(&str, String)]) -> String {
+    let mut places: Vec<_> = parts
+        .iter()
+        .filter_map(|(name, value)| Some((template.find(name)?, *name, value)))
+        .collect();
+    places.sort_by_key(|(at, ..)| *at);
+    let mut text = String::new();
+    let mut rest = 0;
+    for (at, name, value) in places {
+        text.push_str(&template[rest..at]);
+        text.push_str(value);
+        rest = at + name.len();
+    }
+    text.push_str(&template[rest..]);
+    text
+}
+
+/// A source of a content security policy.
+fn hash(content: &str) -> String {
+    let digest = STANDARD.encode(Sha256::digest(content.as_bytes()));
+    format!("'sha256-{digest}'")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+/// A number with `digits` significant digits, 0 for what is not finite.
+fn rounded(value: f64, digits: usize) -> f64 {
+    let text = format!("{value:.*e}", digits - 1);
+    let rounded = text.parse().unwrap_or(value);
+    if f64::is_finite(rounded) {
+        super::json::positive_zero(rounded)
+    } else {
+        0.0
+    }
+}
+
+/// A length or an angle with `decimals` decimals.
+fn fixed(value: f64, decimals: i32) -> f64 {
+    let scale = 10f64.powi(decimals);
+    super::json::positive_zero((value * scale).round() / scale)
+}
+
+/// Like [`rounded`], `None` for what is not finite.
+fn finite(value: f64, digits: usize) -> Option<f64> {
+    value.is_finite().then(|| rounded(value, digits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page(title: &str) -> Page {
+        Page {
+            title: title.into(),
+            subtitle: String::new(),
+            facts: Vec::new(),
+            landscape: None,
+            pictures: Vec::new(),
+            tables: Vec::new(),
+            origin: String::new(),
+        }
+    }
+
+    #[test]
+    fn no_text_of_a_design_leaves_its_place() {
+        let html = page("</script><img src=x>{script}&").to_html();
+        assert!(!html.contains("<img"));
+        assert!(html.contains("<title>&lt;/script>&lt;img src=x>{script}&amp;</title>"));
+        assert_eq!(html.matches("</script>").count(), 2);
+    }
+
+    #[test]
+    fn the_policy_knows_the_script_and_forbids_the_rest() {
+        let html = page("a").to_html();
+        let script = html.split("<script>").nth(1).unwrap();
+        let script = script.split("</script>").next().unwrap();
+        assert!(html.contains(&format!("script-src {}", hash(script))));
+        assert!(html.contains("default-src 'none'"));
+        for word in ["http://", "https://", "url(", "@import", "eval("] {
+            let own = html.replace("http://www.w3.org/2000/svg", "");
+            assert!(!own.contains(word), "{word}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_rounded_to_significant_digits() {
+        assert_eq!(rounded(0.123_456_78, 4), 0.1235);
+        assert_eq!(rounded(-0.0, 4).to_bits(), 0);
+        assert_eq!(finite(f64::INFINITY, 4), None);
+        assert_eq!(fixed(-1.3e-17, 6).to_bits(), 0);
+        assert_eq!(fixed(0.477_512_9, 6), 0.477_513);
+    }
+}

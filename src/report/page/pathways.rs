@@ -1,0 +1,69 @@
+//! The pathways that a page plays.
+
+use serde::Serialize;
+
+use super::{finite, fixed, rounded};
+use crate::landscape::{Pathway, Place};
+use crate::report::csv;
+use crate::report::plots::Scene;
+
+/// Most pathways of a page.
+const MOST: usize = 24;
+
+/// A pathway to play.
+#[derive(Clone, Debug, Serialize)]
+pub struct Played {
+    name: String,
+    /// Ids of the states at its ends; null for tiles far apart.
+    ends: [Option<usize>; 2],
+    /// Certified bounds of its highest energy (J).
+    bounds: Option<[f64; 2]>,
+    /// s (m), x (m), y (m), theta (rad), U (J), clearance (m).
+    points: Vec<[f64; 6]>,
+}
+
+/// The way into the bond, the lowest way out of each class of states, and other barriers, as many
+/// as there is room for.
+pub fn played(scene: &Scene) -> Vec<Played> {
+    let docking = scene.docked().map(|(bound, pathway)| Played {
+        name: "docking: free to bound".to_owned(),
+        ends: [None, Some(bound.id)],
+        bounds: None,
+        points: points(&pathway),
+    });
+    let mut known = Vec::new();
+    let barriers = scene.main_escapes().into_iter().chain(scene.barriers);
+    let others = barriers.filter_map(|barrier| {
+        let ends = (barrier.from, barrier.to);
+        if barrier.pathway.len() < 2 || known.contains(&ends) {
+            return None;
+        }
+        known.push(ends);
+        let [from, to] = [barrier.from, barrier.to];
+        Some(Played {
+            name: format!("{} to {}", scene.name_of(from), scene.name_of(to)),
+            ends: [from, to].map(|place| match place {
+                Place::State(id) => Some(id),
+                Place::Free => None,
+            }),
+            bounds: barrier
+                .lower
+                .zip(barrier.upper)
+                .and_then(|(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?])),
+            points: points(&barrier.pathway),
+        })
+    });
+    docking.into_iter().chain(others).take(MOST).collect()
+}
+
+fn points(pathway: &Pathway) -> Vec<[f64; 6]> {
+    csv::thinned(pathway)
+        .iter()
+        .map(|point| {
+            let q = point.configuration;
+            let [s, x, y, theta, clearance] =
+                [point.s, q.x, q.y, q.theta, point.clearance.max(0.0)].map(|v| fixed(v, 6));
+            [s, x, y, theta, rounded(point.energy, 6), clearance]
+        })
+        .collect()
+}

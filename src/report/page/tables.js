@@ -1,0 +1,80 @@
+// Tables that sort.
+
+/** A number with so many decimals, without the sign of a zero. */
+const decimal = (value, decimals) => minus(value.toFixed(decimals)).replace(/^\u2212(?=[0.]*$)/, "");
+
+/** How a column's numbers are shown, and the unit with its prefix, which columns of one unit share.
+    Lengths and angles have a fixed number of decimals, other quantities four significant digits. */
+function columnFormat(column, table) {
+  if (column.unit === "rad") return { show: (v) => decimal(v * 180 / Math.PI, 2), unit: "°" };
+  if (column.unit === "%") return { show: (v) => decimal(100 * v, 1), unit: "%" };
+  if (!column.unit) return { show: (v) => minus(String(v)), unit: "" };
+  const alike = table.columns.flatMap((other, k) => other.unit === column.unit ? table.rows.map((row) => row[k]) : []);
+  const [scale, prefix] = prefixOf(Math.max(1e-12, ...alike.map(Math.abs)));
+  const significant = (v) => {
+    const whole = Math.floor(Math.log10(Math.abs(v) || 1)) + 1;
+    return decimal(v, Math.min(6, Math.max(0, 4 - whole)));
+  };
+  return { show: (v) => column.unit === "m" ? decimal(v / scale, 2) : significant(v / scale), unit: prefix + column.unit };
+}
+
+const isNumeric = (rows, k) => rows.every((row) => row[k] === null || typeof row[k] === "number");
+
+function make(name, text = "", className = "") {
+  const made = document.createElement(name);
+  made.textContent = text;
+  if (className) made.className = className;
+  return made;
+}
+
+function buildTable(table, choose) {
+  const numeric = table.columns.map((_, k) => isNumeric(table.rows, k));
+  const formats = table.columns.map((column) => columnFormat(column, table));
+  const rows = table.rows.map((cells, index) => {
+    const row = make("tr");
+    cells.forEach((value, k) => {
+      const shown = value === null ? "\u2013" : typeof value === "number" ? formats[k].show(value) : String(value);
+      row.append(make("td", shown, numeric[k] ? "" : "text"));
+    });
+    const state = table.states[index];
+    if (state !== undefined) {
+      row.className = "shows";
+      row.dataset.state = state;
+      row.addEventListener("click", () => choose(state));
+    }
+    return { row, cells };
+  });
+  const body = make("tbody");
+  const head = make("tr");
+  table.columns.forEach((column, k) => {
+    const cell = make("th", "", numeric[k] ? "" : "text");
+    cell.scope = "col";
+    const button = make("button", formats[k].unit ? `${column.name} (${formats[k].unit})` : column.name);
+    button.type = "button";
+    button.addEventListener("click", () => sort(k));
+    cell.append(button);
+    head.append(cell);
+  });
+  const sort = (k) => {
+    const was = head.cells[k].getAttribute("aria-sort");
+    const sign = was === "ascending" ? -1 : 1;
+    for (const cell of head.cells) cell.removeAttribute("aria-sort");
+    head.cells[k].setAttribute("aria-sort", sign > 0 ? "ascending" : "descending");
+    const compare = (a, b) => {
+      const [x, y] = [a.cells[k], b.cells[k]];
+      // What is missing comes last either way.
+      if (x === null || y === null) return (x === null) - (y === null);
+      return sign * (numeric[k] ? x - y : String(x).localeCompare(String(y), "en", { numeric: true }));
+    };
+    body.append(...[...rows].sort(compare).map(({ row }) => row));
+  };
+  body.append(...rows.map(({ row }) => row));
+  const whole = make("table");
+  const top = make("thead");
+  top.append(head);
+  whole.append(top, body);
+  const scroll = make("div", "", "scroll");
+  scroll.append(whole);
+  const parts = [make("h2", table.title), ...(table.note ? [make("p", table.note)] : []), scroll];
+  element("tables").append(...parts);
+}

@@ -1,0 +1,90 @@
+// The disconnectivity graph.
+
+function svg(name, attributes = {}, text = "") {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.textContent = text;
+  return made;
+}
+
+const leavesOf = (node) => node.children ? node.children.reduce((sum, child) => sum + leavesOf(child), 0) : 1;
+const energiesOf = (node) => [node.energy, ...(node.bounds ?? []), ...(node.children ?? []).flatMap(energiesOf)];
+
+function buildTree(choose) {
+  const count = world.tree.reduce((sum, node) => sum + leavesOf(node), 0);
+  const positions = [0, ...world.tree.flatMap(energiesOf)].map(positionOf);
+  const [low, high] = [Math.min(...positions), Math.max(...positions)];
+  const span = Math.max(high - low, 0.2);
+  const width = Math.max(560, 70 + 66 * count), height = 430;
+  const y = (energy) => 24 + (height - 100) * (high - positionOf(energy)) / span;
+  const x = (leaf) => 78 + (width - 90) * leaf / count;
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Disconnectivity graph" });
+  if (count > 9) picture.style.minWidth = `${0.75 * width}px`;
+  const add = (name, attributes, text) => picture.append(svg(name, attributes, text));
+
+  const kept = [];
+  for (const energy of [0, ...energyTicks(low, high).sort((a, b) => Math.abs(b) - Math.abs(a))]) {
+    if (kept.some((other) => Math.abs(y(other) - y(energy)) < 18)) continue;
+    kept.push(energy);
+    add("line", { x1: 74, x2: width, y1: y(energy), y2: y(energy), class: "grid" });
+    add("text", { x: 70, y: y(energy) + 4, "text-anchor": "end" }, energy ? si(energy, "J", 1) : "0");
+  }
+
+  let next = 0;
+  const leaf = (node) => {
+    const at = x(next++ + 0.5), foot = y(node.energy);
+    const state = world.states.find((s) => s.id === node.state);
+    const name = state ? `${state.kind === "bound" ? "bound " : ""}${state.id}` : "free";
+    const lines = [name, energyText(node.energy, 3), ...(node.copies > 1 ? [`\u00d7${node.copies}`] : [])];
+    const group = svg("g", { class: "leaf", tabindex: 0, role: "button", "data-state": node.state ?? "free",
+      "aria-label": `Show ${state ? state.kind : ""} ${name}, ${energyText(node.energy, 3)}` });
+    group.append(svg("rect", { x: at - 32, y: foot - 14, width: 64, height: 28 + 16 * lines.length, rx: 5, class: "hit" }));
+    const fill = !state ? "var(--page)" : state.kind === "bound" ? "#f0e442" : "#cc79a7";
+    group.append(svg("circle", { cx: at, cy: foot, r: state?.kind === "bound" ? 8 : 6, stroke: "var(--ink)", fill }));
+    lines.forEach((text, k) => group.append(svg("text", { x: at, y: foot + 22 + 16 * k, "text-anchor": "middle" }, text)));
+    group.addEventListener("click", () => choose(node.state));
+    group.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      choose(node.state);
+    });
+    leaves.push(group);
+    return at;
+  };
+  const leaves = [], labels = [];
+  const limb = (x1, y1, x2, y2, kind = "limb") => add("line", { x1, y1, x2, y2, class: kind });
+  const draw = (node) => {
+    if (!node.children) return leaf(node);
+    const level = y(node.energy);
+    const ends = node.children.map((child) => {
+      const at = draw(child);
+      limb(at, y(child.energy), at, level);
+      return at;
+    });
+    limb(ends[0], level, ends.at(-1), level);
+    const middle = (ends[0] + ends.at(-1)) / 2;
+    if (node.bounds) {
+      const [lower, upper] = node.bounds.map(y);
+      limb(middle, lower, middle, upper, "certified");
+      for (const end of [lower, upper]) limb(middle - 6, end, middle + 6, end, "certified");
+    }
+    labels.push(svg("text", { x: middle + 9, y: level - 5, class: "soft" }, energyText(node.energy, 3)));
+    return middle;
+  };
+  for (const node of world.tree) {
+    const at = draw(node);
+    limb(at, y(node.energy), at, 6);
+    if (world.tree.length > 1) add("text", { x: at + 6, y: 14, class: "soft" }, "no way found");
+  }
+  picture.append(...labels, ...leaves);
+  element("tree").replaceChildren(picture);
+}
+
+function markChosen() {
+  for (const group of document.querySelectorAll("#tree .leaf")) {
+    group.classList.toggle("chosen", group.dataset.state === String(now.chosen ?? "free"));
+  }
+  for (const row of document.querySelectorAll("tr.shows")) {
+    row.classList.toggle("chosen", row.dataset.state === String(now.chosen));
+  }
+}

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Opens the page of an analysis in headless Chromium and uses it.
+
+    check.py PROGRAM [--pictures FOLDER]
+
+PROGRAM is the built tilebind. Where there is no Chromium, Debian's is installed if that can be
+done; where it cannot, the check is left out and says so. Exit status 0 where all holds.
+"""
+
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from browser import Browser
+
+SHAPES = pathlib.Path(__file__).resolve().parents[2] / "shapes"
+LAPTOP, PHONE = (1440, 900), (390, 844)
+LARGEST = 1_000_000  # bytes
+
+
+def chromium():
+    """The browser's program, installed if need be; None where there is none."""
+    names = ["chromium", "chromium-browser", "google-chrome"]
+    found = next(filter(None, map(shutil.which, names)), None)
+    if found or os.geteuid() != 0 or not shutil.which("apt-get"):
+        return found
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    for command in (["apt-get", "update"], ["apt-get", "install", "-y", "--no-install-recommends", "chromium"]):
+        subprocess.run(command, env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"}, check=False, **quiet)
+    return shutil.which("chromium")
+
+
+class Check:
+    def __init__(self, browser, pictures):
+        self.browser, self.pictures, self.failures = browser, pictures, []
+
+    def that(self, holds, what):
+        if not holds:
+            self.failures.append(what)
+            print(f"  FAILS: {what}")
+
+    def changes(self, canvases, action, what):
+        """That an action changes the pictures on all these canvases."""
+        before = [self.browser.picture(canvas) for canvas in canvases]
+        self.browser.run(action)
+        after = [self.browser.picture(canvas) for canvas in canvases]
+        for canvas, a, b in zip(canvases, before, after):
+            self.that(a != b, f"{what} changes #{canvas}")
+
+    def keep(self, name, whole=False):
+        if self.pictures:
+            (self.pictures / f"{name}.png").write_bytes(self.browser.screenshot(whole))
+
+
+def set_slider(name, value):
+    return (f"(() => {{ const s = document.getElementById('{name}'); s.value = {value};"
+            " s.dispatchEvent(new Event('input', {bubbles: true})); })()")
+
+
+def point_at(canvas, u, v):
+    """A pointer over a canvas, at fractions of its width and height."""
+    return (f"(() => {{ const c = document.getElementById('{canvas}'), b = c.getBoundingClientRect();"
+            f" c.dispatchEvent(new PointerEvent('pointermove', {{bubbles: true,"
+            f" clientX: b.left + {u} * b.width, clientY: b.top + {v} * b.height}})); }})()")
+
+
+def text(browser, name):
+    return browser.run(f"document.getElementById('{name}').textContent")
+
+
+def check_page(check, name, file):
+    browser = check.browser
+    check.that(file.stat().st_size < LARGEST, f"{name}: {file.stat().st_size} bytes are under {LARGEST}")
+    browser.events.clear()
+    browser.open(file.as_uri(), LAPTOP)
+    check.keep(f"{name}-laptop", whole=True)
+
+    check.changes(["around"], set_slider("theta", 3), "the slider over theta")
+    check.changes(["in-front"], set_slider("gap", 12), "the slider over the gap")
+    check.changes(["around", "tiles", "profile", "in-front"], set_slider("step", 0.97), "the place on the path")
+    check.changes(["around"], point_at("around", 0.93, 0.12), "the pointer")
+    check.that("J" in text(browser, "around-readout"), "the energy under the pointer is told")
+    browser.run(point_at("in-front", 0.55, 0.4))
+    check.that("gap" not in text(browser, "in-front-readout") and "slide" in text(browser, "in-front-readout"),
+               "the map in front of the face tells slide and tilt")
+
+    browser.run(set_slider("step", 0))
+    before = browser.picture("tiles")
+    browser.run("document.getElementById('play').click()")
+    browser.wait("Number(document.getElementById('step').value) > 0.05")
+    browser.run("document.getElementById('play').click()")
+    check.that(browser.picture("tiles") != before, "playing moves the tiles")
+    at = browser.run("Number(document.getElementById('step').value)")
+    browser.settled()
+    check.that(at == browser.run("Number(document.getElementById('step').value)"), "pause stops it")
+
+    leaves = browser.run("document.querySelectorAll('#tree .leaf').length")
+    check.that(leaves >= 2, "the disconnectivity graph has states")
+    check.changes(["pose"], "document.querySelectorAll('#tree .leaf:not(.chosen)')[0].dispatchEvent(new Event('click'))",
+                  "a click on a state")
+
+    column = "[...document.querySelectorAll('#tables table')[0].tBodies[0].rows].map((r) => r.cells[3].textContent)"
+    click = "document.querySelectorAll('#tables table')[0].tHead.rows[0].cells[3].querySelector('button').click()"
+    browser.run(click)
+    upwards = browser.run(column)
+    browser.run(click)
+    check.that(browser.run(column) == upwards[::-1] and len(upwards) > 1, "the table of states sorts by energy")
+
+    # What the page computes of dipoles is what the program says of the states.
+    off = browser.run("!world.dipoles ? 0 : Math.max(...world.states.map("
+                      "(s) => Math.abs(dipoleEnergy(s.pose) / s.energy - 1)))")
+    check.that(off < 1e-4, f"the states' energies as the page computes them (off by {off})")
+    # And what it unpacks is near what it computes, away from contact.
+    off = browser.run("(() => { if (!world.dipoles) return 0; const v = views.around.volume, [t, y, x] = v.axes;"
+                      " let worst = 0; for (let k = 0; k < v.positions.length; k += 997) {"
+                      " const p = v.positions[k]; if (p !== p) continue;"
+                      " const i = k % x.length, j = Math.floor(k / x.length) % y.length, n = Math.floor(k / x.length / y.length);"
+                      " worst = Math.max(worst, Math.abs(p - positionOf(dipoleEnergy([x[i], y[j], t[n]])))); } return worst; })()")
+    check.that(off < 5e-4, f"the map's energies against the formula (positions off by {off})")
+
+    browser.open(file.as_uri(), LAPTOP, dark=True)
+    check.keep(f"{name}-dark", whole=True)
+    browser.open(file.as_uri(), PHONE, touch=True)
+    check.keep(f"{name}-phone", whole=True)
+    check.that(browser.run("document.documentElement.scrollWidth <= 390"), "the page fits a phone's width")
+    for complaint in browser.complaints():
+        check.that(False, complaint)
+    if check.pictures:
+        import base64
+        pdf = browser.call("Page.printToPDF", printBackground=True)["data"]
+        (check.pictures / f"{name}.pdf").write_bytes(base64.b64decode(pdf))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--pictures", type=pathlib.Path, help="keep screenshots here")
+    parser.add_argument("--designs", nargs="+", default=["paper-tile", "triangle-teeth-10mm", "dovetail"])
+    arguments = parser.parse_args()
+    program = chromium()
+    if program is None:
+        print("tests/page: left out, there is no Chromium and it cannot be installed here")
+        return 0
+    if arguments.pictures:
+        arguments.pictures.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        browser = Browser(program)
+        check = Check(browser, arguments.pictures)
+        try:
+            for name in arguments.designs:
+                print(f"tests/page: {name}")
+                out = pathlib.Path(folder, name)
+                subprocess.run([arguments.program, "analyse", SHAPES / f"{name}.toml", "--out", out, "--quiet",
+                                "--certify-seconds", "2", "--milestones", "3000"], check=True)
+                check_page(check, name, out / "report.html")
+        finally:
+            browser.close()
+    print(f"tests/page: {len(check.failures)} failures" if check.failures else "tests/page: all holds")
+    return 1 if check.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
