@@ -1,6 +1,7 @@
 //! tilebind: how two magnetic tiles bind.
 
 pub mod analysis;
+pub mod calibration;
 pub mod cell;
 pub mod configuration;
 pub mod contact;

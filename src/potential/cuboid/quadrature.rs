@@ -39,8 +39,7 @@ impl Rules {
 /// Newton's method on the Legendre polynomial, from the usual cosine guess; the weights are
 /// `2 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun, 25.4.29).
 pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
-    let mut rule = [[0.0; N]; 2];
-    for i in 0..N {
+    let node = |i: usize| {
         let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
         let mut slope = 1.0;
         for _ in 0..100 {
@@ -52,10 +51,10 @@ pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
                 break;
             }
         }
-        rule[0][i] = x;
-        rule[1][i] = 2.0 / ((1.0 - x * x) * slope * slope);
-    }
-    rule
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    };
+    let nodes: [(f64, f64); N] = std::array::from_fn(node);
+    [nodes.map(|(x, _)| x), nodes.map(|(_, weight)| weight)]
 }
 
 /// The Legendre polynomial of degree `n` and its derivative, by the three-term recurrence.
