@@ -47,6 +47,10 @@ pub struct Settings {
     pub least_depth: f64,
     /// Number of far starts.
     pub far_starts: usize,
+    /// Width (J) to which certified bounds are narrowed; a hundredth of the bond where `None`.
+    pub tolerance: Option<f64>,
+    /// Time (s) after which the certificate keeps the bounds it has; 0 for no certificate.
+    pub certify_seconds: f64,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
 }
@@ -62,6 +66,8 @@ impl Default for Settings {
             settled: 0.005,
             least_depth: 1e-4,
             far_starts: 1000,
+            tolerance: None,
+            certify_seconds: 60.0,
             repeats: 1,
         }
     }
@@ -92,6 +98,8 @@ pub struct Counts {
     pub edges: usize,
     pub transition_states: usize,
     pub energy_evaluations: u64,
+    /// Cells of the certificate.
+    pub cells: usize,
 }
 
 /// A stage of the main job.

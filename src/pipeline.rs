@@ -3,13 +3,14 @@
 use std::time::Instant;
 
 use crate::analysis::{Analysis, Counts, Settings, Stage};
+use crate::certification;
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, MagnetModel};
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
 use crate::landscape::symmetry::Symmetry;
-use crate::potential::DipolePotential;
+use crate::potential::{CuboidPotential, DipolePotential, Potential};
 use crate::problem::Problem;
 use crate::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, edge, milestone,
@@ -20,6 +21,9 @@ use crate::roadmap::{
 pub trait Observer: Sync {
     /// A stage begins; `share` of the whole time (0 to 1) is behind.
     fn stage(&self, name: &'static str, share: f64);
+
+    /// Of a stage that has `count` parts, `done` are done.
+    fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
 }
 
 /// An observer that looks away.
@@ -31,16 +35,16 @@ impl Observer for Silent {
 
 /// The problem that a design poses.
 pub fn problem(design: &Design) -> Problem {
-    let potential = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
-    Problem::of_tiles(
-        design.space(),
-        &design.fixed,
-        &design.moving,
-        Box::new(potential),
-    )
+    let (fixed, moving) = (&design.fixed, &design.moving);
+    let potential: Box<dyn Potential + Send> = match design.model {
+        MagnetModel::Dipole => Box::new(DipolePotential::new(&fixed.magnets, &moving.magnets)),
+        MagnetModel::Cuboid => Box::new(CuboidPotential::new(&fixed.magnets, &moving.magnets)),
+    };
+    Problem::of_tiles(design.space(), fixed, moving, potential)
 }
 
-/// The main job. The same design and settings give the same result on any number of threads.
+/// The main job. The same design and settings give the same result on any number of threads, as
+/// long as the certificate keeps within its time.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     let problem = problem(design);
     let symmetries = Symmetry::all(&design.fixed, &design.moving);
@@ -52,6 +56,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         &symmetries,
         settings,
         settings.seed,
+        &[],
         &mut clock,
     );
     clock.start("states and barriers", 0.6);
@@ -70,11 +75,15 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
             &symmetries,
             settings,
             settings.seed + repeat,
+            &[],
             &mut clock,
         );
         let other = inventory::take(design, &problem, &symmetries, &again.survey, settings);
         inventory.widen_spread(&problem, &other);
     }
+    weigh_blocks(design, &mut inventory);
+    clock.start("certificate", 0.75);
+    let cells = certification::certify(design, &problem, &mut inventory, settings, observer);
     let stages = clock.stop();
     let Inventory {
         states,
@@ -97,24 +106,40 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         ring: capture::ring(&problem),
         counts: Counts {
             energy_evaluations: problem.evaluations(),
+            cells,
             ..first.counts
         },
         stages,
     }
 }
 
-struct Surveyed {
-    survey: Survey,
-    counts: Counts,
+/// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
+/// there, so that nobody takes the dipoles' depth for the real one.
+fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
+    if design.model == MagnetModel::Cuboid {
+        return;
+    }
+    let blocks = CuboidPotential::new(&design.fixed.magnets, &design.moving.magnets);
+    for state in &mut inventory.states {
+        state.block_energy = Some(blocks.energy(&state.configuration));
+    }
 }
 
-/// One roadmap and what is found from it.
-fn survey(
+/// A survey, and how much was done for it.
+pub(crate) struct Surveyed {
+    pub survey: Survey,
+    pub counts: Counts,
+}
+
+/// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
+/// besides those that the faces suggest.
+pub(crate) fn survey(
     design: &Design,
     problem: &Problem,
     symmetries: &[Symmetry],
     settings: &Settings,
     seed: u64,
+    guesses: &[Configuration],
     clock: &mut Clock,
 ) -> Surveyed {
     let depth = energy_scale(design, problem);
@@ -151,7 +176,7 @@ fn survey(
     let survey = Survey::new(
         problem,
         &Roadmap { milestones, edges },
-        &guesses(design, problem),
+        &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {
             edge: edge_settings,
@@ -168,13 +193,13 @@ fn survey(
 /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
 /// of the flush meetings of two faces where the bound one does not attract.
 pub fn energy_scale(design: &Design, problem: &Problem) -> f64 {
-    guesses(design, problem)
+    flush_meetings(design, problem)
         .iter()
         .map(|q| problem.energy(q).abs())
         .fold(f64::MIN_POSITIVE, f64::max)
 }
 
-fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
+pub(crate) fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
     EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -187,7 +212,7 @@ fn edge_settings(settings: &Settings, depth: f64) -> EdgeSettings {
 
 /// Where minima may be expected: the bound configuration, and every pair of faces set flush
 /// against each other, pushed out into contact where their shapes overlap.
-fn guesses(design: &Design, problem: &Problem) -> Vec<Configuration> {
+fn flush_meetings(design: &Design, problem: &Problem) -> Vec<Configuration> {
     let mut all = vec![design.bound];
     for fixed in &design.fixed.faces {
         for moving in &design.moving.faces {
@@ -207,7 +232,7 @@ fn guesses(design: &Design, problem: &Problem) -> Vec<Configuration> {
 }
 
 /// Measures the stages.
-struct Clock<'a> {
+pub(crate) struct Clock<'a> {
     problem: &'a Problem,
     observer: &'a dyn Observer,
     stages: Vec<Stage>,
@@ -215,7 +240,7 @@ struct Clock<'a> {
 }
 
 impl<'a> Clock<'a> {
-    fn new(problem: &'a Problem, observer: &'a dyn Observer) -> Self {
+    pub fn new(problem: &'a Problem, observer: &'a dyn Observer) -> Self {
         Self {
             problem,
             observer,

@@ -62,6 +62,10 @@ impl CellContact {
 /// Inner points that are tried as witnesses of overlap, at most.
 const INNER: usize = 8;
 
+/// Of the points within a circle of this radius, as a share of how far they get in the cell, only
+/// one is looked at: the others would hardly say more.
+const DENSE: f64 = 0.5;
+
 /// One tile, as the other one's cells see it.
 #[derive(Clone, Debug)]
 struct Side {
@@ -121,24 +125,23 @@ impl Side {
             && self.outline.contains(at)
     }
 
-    /// What a point at `at` that gets no farther than `reach` (m) says, given that it may come
-    /// near the boundary.
+    /// What a point at `at` that gets no farther than `reach` (m) says.
     fn verdict(&self, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
         let n = self.outline.vertices().len();
-        let mut near = Vec::new();
-        let mut depth = f64::INFINITY;
+        let mut near = [0; 3];
+        let mut count = 0;
         self.edges.near(at, reach, &mut |i| {
             let (a, b) = self.outline.edge(i);
-            let distance = distance_to_segment(at, a, b);
-            if distance <= reach {
-                near.push(i);
-                depth = depth.min(distance);
+            if distance_to_segment(at, a, b) <= reach {
+                near[count] = i;
+                count += 1;
             }
-            true
+            count < near.len()
         });
+        let near = &mut near[..count];
         near.sort_unstable();
         let inside = || self.outline.contains(at);
-        match near[..] {
+        match *near {
             [] if inside() => Verdict::Blocked,
             [] => Verdict::Nothing,
             [edge] if vertex => Verdict::Edges([edge, edge]),
@@ -150,9 +153,16 @@ impl Side {
                     Verdict::Edges([i, j])
                 }
             }
-            _ if inside() => Verdict::Inside(depth),
+            _ if inside() => Verdict::Inside(self.distance_to_boundary(at)),
             _ => Verdict::Nothing,
         }
+    }
+
+    fn distance_to_boundary(&self, at: Vector2<f64>) -> f64 {
+        self.edges.nearest(at, &|i| {
+            let (a, b) = self.outline.edge(i);
+            distance_to_segment(at, a, b)
+        })
     }
 }
 
@@ -261,7 +271,11 @@ impl Sweeping<'_> {
         if self.other.boundary_is_beyond(at, reach) {
             return !self.other.outline.contains(at);
         }
-        match self.probes.probe_tree.below(branch) {
+        let tree = &self.probes.probe_tree;
+        if branch.radius < DENSE * (self.reach)(branch.centre, 0.0) {
+            return self.look_at(tree.first(branch), findings);
+        }
+        match tree.below(branch) {
             Below::Branches(branches) => branches
                 .iter()
                 .all(|branch| self.look_below(branch, findings)),

@@ -1,87 +1,79 @@
-//! Moving the tile along a straight line until it is clear of the other.
+//! Moving the tile along a straight line until it is clear of the other, or touches it.
 
 use nalgebra::Vector2;
 
-use super::{Contact, TOUCH, support};
+use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
-use crate::tile::outline::ConvexPart;
+use crate::tile::outline::cross;
+
+/// So many touching translations are tried before the tile is pushed right out.
+const TRIED: usize = 4;
 
 impl Contact {
-    /// The smallest translation t >= 0 (m) along the unit vector `direction` that makes `q` free:
-    /// 0 where it is free already.
+    /// A translation t >= 0 (m) along the unit vector `direction` that takes `q` into contact and
+    /// leaves it free; 0 where it is free already.
     ///
-    /// Each pair of convex parts overlaps on one open interval of t, found exactly from its
-    /// separating axes; the answer is the first point outside their union.
+    /// The outlines touch anew wherever a vertex of one meets an edge of the other. The nearest of
+    /// these translations are tried, so that pockets are found; where none of them is free, the
+    /// last one is taken, beyond which nothing is in the way.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
-        let across = Vector2::new(-direction.y, direction.x);
+        if self.is_free(q) {
+            return 0.0;
+        }
+        let mut touching = self.touching_translations(q, direction);
+        touching.retain(|t| *t > 0.0);
+        touching.sort_by(f64::total_cmp);
+        touching.dedup_by(|a, b| *a - *b < TOUCH);
+        let at = |t: f64| Configuration::new(q.x + direction.x * t, q.y + direction.y * t, q.theta);
+        let pocket = touching.iter().take(TRIED).find(|t| self.is_free(&at(**t)));
+        pocket.or(touching.last()).copied().unwrap_or(0.0)
+    }
+
+    /// The translation t (m) along the unit vector `direction` at which the moving tile, coming
+    /// from infinity against it, first touches the other; `None` where it passes by.
+    pub fn landing(&self, q: &Configuration, direction: Vector2<f64>) -> Option<f64> {
+        let touching = self.touching_translations(q, direction);
+        touching.into_iter().max_by(f64::total_cmp)
+    }
+
+    /// All translations t along a direction at which a vertex meets an edge.
+    fn touching_translations(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<f64> {
         let rotation = q.rotation();
-        let mut blocked: Vec<(f64, f64)> = Vec::new();
-        let mut placed: Option<(usize, ConvexPart)> = None;
-        self.fixed_tree.pairs(
-            &self.moving_tree,
-            &|p| q.position() + rotation * p,
-            &|between, radii| between.dot(&across).abs() > radii,
-            &mut |i, j| {
-                let (_, part) = match &mut placed {
-                    Some(known) if known.0 == j => known,
-                    other => other.insert((j, self.moving().parts()[j].placed(q))),
-                };
-                let fixed = &self.fixed().parts()[i];
-                let (lane, own) = (extent(fixed, &across), extent(part, &across));
-                if own.0 < lane.1 && lane.0 < own.1 {
-                    blocked.extend(overlap_interval(fixed, part, direction));
-                }
-                true
-            },
-        );
-        blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut lifted = 0.0;
-        for (start, end) in blocked {
-            if start <= lifted + TOUCH && end > lifted + TOUCH {
-                lifted = end;
-            }
-        }
-        lifted
+        let seen = |p: &Vector2<f64>| [cross(direction, *p), direction.dot(p)];
+        let moving: Vec<[f64; 2]> = self
+            .moving()
+            .vertices()
+            .iter()
+            .map(|v| seen(&(q.position() + rotation * v)))
+            .collect();
+        let fixed: Vec<[f64; 2]> = self.fixed().vertices().iter().map(seen).collect();
+        let mut found = Vec::new();
+        // (lateral position, height) of vertices, and of edges that span the lateral position.
+        meet(&moving, &fixed, |vertex, edge| found.push(edge - vertex));
+        meet(&fixed, &moving, |vertex, edge| found.push(vertex - edge));
+        found
     }
 }
 
-/// Least and largest coordinate of a polygon along a direction.
-fn extent(part: &ConvexPart, direction: &Vector2<f64>) -> (f64, f64) {
-    (support(part, direction), -support(part, &-direction))
-}
-
-/// The open interval of translations of `moving` along `direction` at which it overlaps `fixed`.
-fn overlap_interval(
-    fixed: &ConvexPart,
-    moving: &ConvexPart,
-    direction: Vector2<f64>,
-) -> Option<(f64, f64)> {
-    let (mut start, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut clip = |separation: f64, rate: f64| {
-        // Overlap needs separation + rate * t < 0.
-        if rate.abs() < 1e-15 {
-            if separation >= 0.0 {
-                end = f64::NEG_INFINITY;
+/// Calls `found(height of vertex, height of edge)` for each vertex and each edge of another polygon
+/// at the same lateral position.
+fn meet(vertices: &[[f64; 2]], polygon: &[[f64; 2]], mut found: impl FnMut(f64, f64)) {
+    for (i, a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        let (low, high) = (a[0].min(b[0]), a[0].max(b[0]));
+        for [lateral, height] in vertices {
+            if *lateral < low || *lateral > high {
+                continue;
             }
-        } else if rate > 0.0 {
-            end = end.min(-separation / rate);
-        } else {
-            start = start.max(-separation / rate);
+            if high > low {
+                let share = (lateral - a[0]) / (b[0] - a[0]);
+                found(*height, a[1] + (b[1] - a[1]) * share);
+            } else {
+                found(*height, a[1]);
+                found(*height, b[1]);
+            }
         }
-    };
-    for (point, normal) in fixed.points.iter().zip(&fixed.normals) {
-        clip(
-            support(moving, normal) - normal.dot(point),
-            normal.dot(&direction),
-        );
     }
-    for (point, normal) in moving.points.iter().zip(&moving.normals) {
-        clip(
-            support(fixed, normal) - normal.dot(point),
-            -normal.dot(&direction),
-        );
-    }
-    (start < end - TOUCH).then_some((start, end))
 }
 
 #[cfg(test)]

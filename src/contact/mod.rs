@@ -40,6 +40,9 @@ pub struct Contact {
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
+    /// The largest convex part of each tile, most likely to be in the way.
+    fixed_core: ConvexPart,
+    moving_core: ConvexPart,
 }
 
 impl Contact {
@@ -52,6 +55,8 @@ impl Contact {
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
+            fixed_core: core(fixed),
+            moving_core: core(moving),
             fixed: fixed.clone(),
             moving: moving.clone(),
         }
@@ -99,7 +104,9 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH || self.overlap_depth(q) <= TOUCH
+        self.clearance_bound(q) >= -TOUCH
+            || (separated(&self.fixed_core, &self.moving_core.placed(q), -TOUCH)
+                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH)))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -112,6 +119,20 @@ impl Contact {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
+        self.close_parts(q, |fixed, moving| {
+            deepest = deepest.max(-separation(fixed, moving));
+            true
+        });
+        deepest
+    }
+
+    /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
+    /// overlap; stops at the first for which it does not.
+    fn close_parts(
+        &self,
+        q: &Configuration,
+        mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
+    ) -> bool {
         let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
         let rotation = q.rotation();
         self.fixed_tree.near_pairs(
@@ -126,13 +147,9 @@ impl Contact {
                         other.insert((j, part.bounds(), part))
                     }
                 };
-                if !bounds.apart(&self.fixed_bounds[i]) {
-                    deepest = deepest.max(-separation(&self.fixed.parts()[i], part));
-                }
-                true
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
             },
-        );
-        deepest
+        )
     }
 }
 
@@ -143,12 +160,23 @@ pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
     one_sided_separation(a, b).max(one_sided_separation(b, a))
 }
 
+/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
+/// so.
+fn separated(a: &ConvexPart, b: &ConvexPart, least: f64) -> bool {
+    let mut all = separations(a, b).chain(separations(b, a));
+    all.any(|separation| separation >= least)
+}
+
 fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
+    separations(of, from).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How far (m) one polygon lies outside each edge of another.
+fn separations<'a>(of: &'a ConvexPart, from: &'a ConvexPart) -> impl Iterator<Item = f64> + 'a {
     of.points
         .iter()
         .zip(&of.normals)
         .map(|(point, normal)| support(from, normal) - normal.dot(point))
-        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Least coordinate of a polygon along a direction.
@@ -157,6 +185,12 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
         .iter()
         .map(|p| direction.dot(p))
         .fold(f64::INFINITY, f64::min)
+}
+
+fn core(outline: &Outline) -> ConvexPart {
+    let parts = outline.parts().iter();
+    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
+    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 
 fn compound(outline: &Outline) -> Compound {

@@ -98,6 +98,43 @@ impl CircleTree {
         }
     }
 
+    /// One of a branch's pieces: the one with the lowest number.
+    pub fn first(&self, branch: &Branch) -> usize {
+        let node = &self.nodes[branch.node];
+        let pieces = &self.order[node.first..node.end];
+        pieces.iter().copied().min().unwrap_or_default()
+    }
+
+    /// The least distance of a piece from a point, `distance` telling each piece's.
+    pub fn nearest(&self, p: Vector2<f64>, distance: &impl Fn(usize) -> f64) -> f64 {
+        self.nearest_below(&self.root(), p, distance, f64::INFINITY)
+    }
+
+    fn nearest_below(
+        &self,
+        branch: &Branch,
+        p: Vector2<f64>,
+        distance: &impl Fn(usize) -> f64,
+        best: f64,
+    ) -> f64 {
+        let least = |branch: &Branch| (p - branch.centre).norm() - branch.radius;
+        if least(branch) >= best {
+            return best;
+        }
+        match self.below(branch) {
+            Below::Pieces(pieces) => pieces.iter().map(|&k| distance(k)).fold(best, f64::min),
+            Below::Branches([a, b]) => {
+                let (first, second) = if least(&a) <= least(&b) {
+                    (a, b)
+                } else {
+                    (b, a)
+                };
+                let best = self.nearest_below(&first, p, distance, best);
+                self.nearest_below(&second, p, distance, best)
+            }
+        }
+    }
+
     /// Calls `found` for pieces that may come within `distance` of a point, until it says stop by
     /// returning false; returns whether it never did.
     pub fn near(
@@ -220,6 +257,9 @@ mod tests {
                     found.push(k);
                     true
                 });
+                let distance = |k: usize| (a[k].0 - p).norm() - a[k].1;
+                let nearest = (0..n).map(distance).fold(f64::INFINITY, f64::min);
+                assert_eq!(ta.nearest(p, &distance), nearest);
                 assert!((0..n).all(|k| (a[k].0 - p).norm() - a[k].1 > 0.1 || found.contains(&k)));
                 assert!((0..40).all(|j| gap(i, j) > 0.1 || pairs.contains(&(i, j))));
             }

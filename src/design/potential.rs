@@ -12,13 +12,18 @@ pub enum MagnetModel {
     Cuboid,
 }
 
-/// Models that a design may ask for.
-const SUPPORTED: &[MagnetModel] = &[MagnetModel::Dipole];
-
 impl MagnetModel {
     /// What the design file calls each model.
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+
+    /// What the design file calls this model.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dipole => "dipole",
+            Self::Cuboid => "cuboid",
+        }
+    }
 }
 
 pub(super) fn read(root: &Section) -> Result<MagnetModel> {
@@ -29,12 +34,5 @@ pub(super) fn read(root: &Section) -> Result<MagnetModel> {
     let Some(entry) = section.get("model") else {
         return Ok(MagnetModel::default());
     };
-    let model = entry.word(&MagnetModel::NAMES)?;
-    if !SUPPORTED.contains(&model) {
-        return Err(entry.error(
-            "uniformly magnetised blocks are not supported yet",
-            "use model = \"dipole\"",
-        ));
-    }
-    Ok(model)
+    entry.word(&MagnetModel::NAMES)
 }

@@ -202,6 +202,7 @@ impl Taker<'_> {
                 }),
             attracting,
             repelling,
+            block_energy: None,
             capture: None,
         }
     }
@@ -307,6 +308,7 @@ impl Taker<'_> {
             saddle,
             lower: None,
             upper: None,
+            caged: false,
             from_energy: self.energy(found),
             to_energy,
             spread: None,

@@ -1,5 +1,6 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
+pub mod approach;
 pub mod capture;
 pub mod certificate;
 pub mod inventory;
@@ -7,6 +8,7 @@ pub mod map;
 pub mod meeting;
 pub mod minimum;
 pub mod network;
+mod orientation;
 pub mod pathway;
 pub mod results;
 pub mod slide;

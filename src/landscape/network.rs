@@ -195,8 +195,11 @@ impl Network {
     /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
     /// algorithm, paths added up by their maximum.
     pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
+        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
+            self.is_motion(edge.weight().1, from, goals)
+        });
         let (peak, _) = astar(
-            &self.graph,
+            &allowed,
             NodeIndex::new(from),
             |node| goals.contains(&node.index()),
             |edge| Highest(edge.weight().0),
@@ -217,7 +220,9 @@ impl Network {
             Cost::Below { highest, .. } => highest,
             _ => f64::INFINITY,
         };
-        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| edge.weight().0 <= highest);
+        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
+            edge.weight().0 <= highest && self.is_motion(edge.weight().1, from, goals)
+        });
         let (total, nodes) = astar(
             &allowed,
             NodeIndex::new(from),
@@ -233,6 +238,18 @@ impl Network {
             .filter_map(|pair| self.cheapest_link(pair[0], pair[1], highest, cost))
             .collect();
         Some((nodes.last()?.index(), total, route))
+    }
+
+    /// Whether a route between these ends may use a link: one without motion only where it starts
+    /// or ends at the node that stands for `free`. Far configurations are one place to come from
+    /// and to go to, but to pass from one to another takes a motion.
+    fn is_motion(&self, number: u32, from: usize, goals: &HashSet<usize>) -> bool {
+        let link = &self.links[number as usize];
+        !matches!(link.way, Way::Same)
+            || [link.from, link.to]
+                .iter()
+                .filter(|&&node| self.nodes[node].is_none())
+                .any(|free| *free == from || goals.contains(free))
     }
 
     fn cheapest_link(

@@ -1,6 +1,8 @@
 //! Pathways: a route through the network as a fine sequence of configurations.
 
-use super::network::{Network, Route, Way};
+use std::collections::HashSet;
+
+use super::network::{Cost, Network, Route, Way};
 use super::results::{Pathway, PathwayPoint};
 use super::slide;
 use crate::configuration::Configuration;
@@ -12,6 +14,38 @@ use crate::roadmap::{Milestone, ProfileTolerance};
 const LONGEST_STEP: f64 = 5e-3;
 /// Shortest step that is halved because the energy bends (m).
 const SHORTEST_STEP: f64 = 2e-4;
+
+/// The best way between two nodes.
+#[derive(Clone, Debug)]
+pub struct Lowest {
+    /// Its highest energy (J), the least possible in the network.
+    pub peak: f64,
+    /// The goal that it reaches.
+    pub end: usize,
+    pub pathway: Pathway,
+}
+
+/// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
+/// highest energy the one with the least work, each metre counted as a hundredth of `depth` (J).
+/// Steps are halved until the energy between two points is linear to within `bend` (J).
+pub fn lowest(
+    problem: &Problem,
+    network: &Network,
+    from: usize,
+    goals: &HashSet<usize>,
+    depth: f64,
+    bend: f64,
+) -> Option<Lowest> {
+    let peak = network.minimax(from, goals)?;
+    let highest = peak + 1e-12 * depth;
+    let cost = Cost::Below {
+        highest,
+        per_metre: 0.01 * depth,
+    };
+    let (end, _, route) = network.cheapest(from, goals, cost)?;
+    let pathway = along(problem, network, &route, highest, bend);
+    Some(Lowest { peak, end, pathway })
+}
 
 /// The pathway along a route. Stretches of straight motions are cut short where the direct motion
 /// is free and stays below `highest` (J); steps are halved until the energy between two points is

@@ -40,8 +40,9 @@ impl Proportion {
         Self {
             count,
             of,
-            low: (centre - half).max(0.0),
-            high: (centre + half).min(1.0),
+            // Exactly the ends of [0, 1] there, which rounding would miss.
+            low: if count == 0 { 0.0 } else { centre - half },
+            high: if count == of { 1.0 } else { centre + half },
         }
     }
 
@@ -70,6 +71,9 @@ pub struct State {
     /// Magnet pairs within 1.5 pitches (or magnet lengths) of each other that attract, and repel.
     pub attracting: usize,
     pub repelling: usize,
+    /// Energy (J) of uniformly magnetised blocks in this configuration, where `energy` is that of
+    /// point dipoles.
+    pub block_energy: Option<f64>,
     /// Share of far starts that overdamped motion takes into this state.
     pub capture: Option<Proportion>,
 }
@@ -109,6 +113,8 @@ pub struct Barrier {
     /// Certified bounds of the saddle energy (J), where certified.
     pub lower: Option<f64>,
     pub upper: Option<f64>,
+    /// Proved that there is no way at all; the saddle energy is then infinite.
+    pub caged: bool,
     /// Energies (J) of the two ends; 0 for `Free`.
     pub from_energy: f64,
     pub to_energy: f64,

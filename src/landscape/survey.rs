@@ -166,7 +166,7 @@ impl Survey {
     }
 
     /// The node in which a descent ended, made if need be.
-    fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
+    pub(crate) fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
             Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
             Outcome::Free => {
@@ -454,7 +454,7 @@ fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Desce
 }
 
 /// A link that identifies a far configuration with `free`.
-fn same_link(from: usize, to: usize, energy: f64) -> Link {
+pub(crate) fn same_link(from: usize, to: usize, energy: f64) -> Link {
     Link {
         from,
         to,

@@ -22,6 +22,7 @@
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, of whose integrals
 //! [`cuboid`] uses those that stay closed at an angle.
 
+pub mod analytic;
 pub mod batch;
 pub mod bounds;
 pub mod cuboid;

@@ -41,6 +41,11 @@ impl ConvexPart {
         }
     }
 
+    /// Area (m^2).
+    pub fn area(&self) -> f64 {
+        signed_area(&self.points)
+    }
+
     /// The box around the part.
     pub fn bounds(&self) -> Bounds {
         Bounds::around(self.points.iter().copied())

@@ -12,9 +12,9 @@
 
 use std::f64::consts::PI;
 
-/// Largest distance (m) of a chord from the curve that it stands for: far below what is cut or
-/// printed to, and few enough points for contact to stay cheap.
-pub const CHORD_ERROR: f64 = 5e-5;
+/// Largest distance (m) of a chord from the curve that it stands for: about what is cut or printed
+/// to, and few enough points for contact to stay cheap.
+pub const CHORD_ERROR: f64 = 2e-4;
 
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;

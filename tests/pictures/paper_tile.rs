@@ -1,117 +1,63 @@
-//! A pair of tiles with its states and pathways, put together by hand: 43 cm squares, four magnets
-//! a face, NNNS against NSSS.
+//! The paper's tiles with states and pathways put together by hand.
 
-use nalgebra::Vector2;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use tilebind::contact::Contact;
+use tilebind::design::Design;
+use tilebind::landscape::map::Pair as Tiles;
+use tilebind::landscape::minimum::descend;
 use tilebind::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
 use tilebind::potential::{DipolePotential, Potential};
-use tilebind::tile::{Face, Magnet, Outline, Tile};
-use tilebind::units::MU0;
-use tilebind::{Configuration, ConfigurationSpace};
+use tilebind::{Configuration, ConfigurationSpace, Problem};
 
 const SIDE: f64 = 0.43;
+/// Turns that map the square onto itself.
 const TURNS: usize = 4;
 
+#[derive(Clone)]
 pub struct Pair {
-    pub fixed: Tile,
-    pub moving: Tile,
+    pub design: Design,
+    pub contact: Contact,
     pub potential: DipolePotential,
     pub space: ConfigurationSpace,
     pub states: Vec<State>,
-    pub barriers: Vec<Barrier>,
+    pub escapes: Vec<Option<Barrier>>,
 }
 
 pub const BOUND: Configuration = Configuration::new(SIDE, 0.0, 0.0);
 
-/// A square tile with the same code on every face, read counter-clockwise.
-pub fn tile(code: &str) -> Tile {
-    let h = SIDE / 2.0;
-    let corners = [[h, -h], [h, h], [-h, h], [-h, -h]].map(|[x, y]| Vector2::new(x, y));
-    let faces: Vec<_> = ["east", "north", "west", "south"]
-        .iter()
-        .enumerate()
-        .map(|(k, name)| Face {
-            name: (*name).to_owned(),
-            start: corners[k],
-            end: corners[(k + 1) % 4],
-        })
-        .collect();
-    let size = [0.010, 0.010, 0.003];
-    let mut magnets = Vec::new();
-    for (number, face) in faces.iter().enumerate() {
-        for (k, pole) in code.chars().enumerate() {
-            let out = face.normal() * if pole == 'N' { 1.0 } else { -1.0 };
-            magnets.push(Magnet {
-                position: face.point((k as f64 - 1.5) * 0.040, -0.005),
-                angle: out.y.atan2(out.x),
-                moment: 1.2 * size.iter().product::<f64>() / MU0,
-                size,
-                face: number,
-            });
-        }
-    }
-    Tile {
-        outline: Outline::new(corners.to_vec()).unwrap(),
-        faces,
-        magnets,
-        mass: 0.1,
-        thickness: 0.013,
-    }
-}
-
-/// Signed clearance (m) of two squares: their distance, or minus the depth of the overlap along
-/// the best separating normal.
-pub fn clearance(fixed: &Tile, moving: &Tile, q: &Configuration) -> f64 {
-    let a = fixed.outline.vertices().to_vec();
-    let b: Vec<_> = moving
-        .outline
-        .vertices()
-        .iter()
-        .map(|v| q.transform(*v))
-        .collect();
-    let normals = fixed.outline.normals().iter().copied().chain(
-        moving
-            .outline
-            .normals()
-            .iter()
-            .map(|normal| q.rotation() * normal),
-    );
-    let separation = normals
-        .flat_map(|n| [n, -n])
-        .map(|n| {
-            let low = b.iter().map(|p| n.dot(p)).fold(f64::INFINITY, f64::min);
-            let high = a.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);
-            low - high
-        })
-        .fold(f64::NEG_INFINITY, f64::max);
-    if separation <= 0.0 {
-        return separation;
-    }
-    let from_fixed = a
-        .iter()
-        .map(|p| moving.outline.signed_distance(q.inverse_transform(*p)));
-    let from_moving = b.iter().map(|p| fixed.outline.signed_distance(*p));
-    from_fixed.chain(from_moving).fold(f64::INFINITY, f64::min)
+/// The pair, put together once.
+pub fn pair() -> &'static Pair {
+    static PAIR: OnceLock<Pair> = OnceLock::new();
+    PAIR.get_or_init(Pair::new)
 }
 
 impl Pair {
-    pub fn new() -> Self {
-        let (fixed, moving) = (tile("NNNS"), tile("NSSS"));
-        let space = ConfigurationSpace {
-            half_size: [1.0, 1.0],
-            rho: moving.radius_of_gyration(),
-            free_distance: 0.9,
-        };
+    fn new() -> Self {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
+        let design = Design::load(&file).unwrap();
         let mut pair = Self {
-            potential: DipolePotential::new(&fixed.magnets, &moving.magnets),
-            fixed,
-            moving,
-            space,
+            contact: Contact::new(&design.fixed.outline, &design.moving.outline),
+            potential: DipolePotential::new(&design.fixed.magnets, &design.moving.magnets),
+            space: design.space(),
+            design,
             states: Vec::new(),
-            barriers: Vec::new(),
+            escapes: Vec::new(),
         };
         pair.add_states();
-        pair.add_barriers();
+        pair.escapes = vec![None; pair.states.len()];
+        pair.add_escapes();
         pair
+    }
+
+    pub fn tiles(&self) -> Tiles<'_> {
+        Tiles {
+            fixed: &self.design.fixed,
+            moving: &self.design.moving,
+            potential: &self.potential,
+            contact: &self.contact,
+        }
     }
 
     fn add_states(&mut self) {
@@ -120,14 +66,15 @@ impl Pair {
             (BOUND, true),
             (Configuration::new(SIDE, 0.0400, 0.0), false),
             (Configuration::new(SIDE, -0.0400, 0.0), false),
-            (Configuration::new(0.4341, 0.0761, tilt), false),
-            (Configuration::new(0.4341, -0.0843, tilt), false),
+            (Configuration::new(0.434, 0.0761, -tilt), false),
+            (Configuration::new(0.4325, -0.0843, -tilt), false),
             (Configuration::new(SIDE, 0.140, 0.0), false),
             (Configuration::new(SIDE, -0.140, 0.0), false),
             (Configuration::new(SIDE, 0.1003, 0.0), false),
             (Configuration::new(SIDE, -0.1003, 0.0), false),
         ];
         for (q, bound) in poses {
+            let q = self.minimum(q);
             let class = self.states.len();
             for side in 0..TURNS {
                 for turn in 0..TURNS {
@@ -148,6 +95,7 @@ impl Pair {
                         faces: vec![(side, (2 + 4 - turn) % 4)],
                         attracting: 4,
                         repelling: 0,
+                        block_energy: None,
                         capture: None,
                     });
                 }
@@ -155,7 +103,15 @@ impl Pair {
         }
     }
 
-    fn add_barriers(&mut self) {
+    /// The local minimum below a configuration.
+    fn minimum(&self, q: Configuration) -> Configuration {
+        let (fixed, moving) = (&self.design.fixed, &self.design.moving);
+        let potential = Box::new(self.potential.clone());
+        let problem = Problem::of_tiles(self.space.clone(), fixed, moving, potential);
+        descend(&problem, &q).way.last().unwrap().q
+    }
+
+    fn add_escapes(&mut self) {
         let copies = TURNS * TURNS;
         let off = Configuration::new(0.52, 0.02, 0.02);
         let far = Configuration::new(0.90, 0.42, 0.9);
@@ -198,13 +154,14 @@ impl Pair {
             .max_by(|a, b| a.energy.total_cmp(&b.energy))
             .unwrap();
         let margin = width.map(|share| share * saddle.energy.abs().max(1e-3));
-        self.barriers.push(Barrier {
+        self.escapes[from] = Some(Barrier {
             from: Place::State(from),
             to,
             saddle_energy: saddle.energy,
             saddle: saddle.configuration,
             lower: margin.map(|m| saddle.energy - 40.0 * m),
             upper: margin.map(|m| saddle.energy + m),
+            caged: false,
             from_energy: self.states[from].energy,
             to_energy: match to {
                 Place::Free => 0.0,
@@ -223,7 +180,7 @@ impl Pair {
         for pair in corners.windows(2) {
             for k in 0..100 {
                 let mut q = pair[0].interpolate(&pair[1], k as f64 / 99.0);
-                while clearance(&self.fixed, &self.moving, &q) < -1e-9 {
+                while self.contact.clearance(&q) < -1e-9 {
                     q.x += 1e-5;
                 }
                 let s = pathway.last().map_or(0.0, |last| {
@@ -233,7 +190,7 @@ impl Pair {
                     s,
                     configuration: q,
                     energy: self.potential.energy(&q),
-                    clearance: clearance(&self.fixed, &self.moving, &q),
+                    clearance: self.contact.clearance(&q),
                 });
             }
         }

@@ -13,10 +13,31 @@ pub(super) struct Assessment {
     /// search and proves nothing.
     pub estimate: f64,
     /// How deep the tiles overlap at the centre, as a share of how far the cell moves them; 0 where
-    /// they do not. Another guess that only steers.
+    /// they do not, plus the cell's size as a share of the tile's. Another guess that only steers:
+    /// the rank in a flood that looks for any free way at all.
     pub overlap: f64,
     /// The coordinate along which to halve the cell.
     pub axis: usize,
+}
+
+/// How much a cell's uncertainty counts in its rank.
+const UNCERTAINTY: f64 = 0.3;
+
+impl Assessment {
+    /// The rank in a flood that rises by energy: the estimate, raised by a part of its
+    /// uncertainty. A flood then enters coarse cells last, so that a divide lies in coarse cells
+    /// rather than in fine ones beside a coarse one through which it would leak.
+    pub fn by_energy(&self) -> f64 {
+        self.estimate + UNCERTAINTY * (self.estimate - self.lower)
+    }
+
+    /// This of a part of a cell of which `whole` is known.
+    pub fn within(self, whole: &Self) -> Self {
+        Self {
+            lower: self.lower.max(whole.lower),
+            ..self
+        }
+    }
 }
 
 /// Estimate of a cell whose centre lies deep in overlap: above every energy, the more so the
@@ -66,8 +87,7 @@ pub(super) fn assess(
     Some(Assessment {
         lower: tight.lower,
         estimate,
-        overlap: deepest / cell.reach(lever)
-            + std::env::var("BETA").map_or(1.0, |a| a.parse().unwrap()) * cell.reach(lever) / lever,
+        overlap: deepest / cell.reach(lever) + cell.reach(lever) / lever,
         axis: widest(&tight.form, &enclosure, cell, lever),
     })
 }

@@ -1,24 +1,55 @@
-//! Certified barriers: the minimax energy between two configurations, between two bounds.
+//! Certified barriers: the minimax energy between two configurations, between two bounds that
+//! cannot be wrong.
+//!
+//! ```text
+//! lower <= least possible highest energy of a free path <= upper
+//! ```
+//!
+//! **Upper bound.** A pathway is lifted off contact and cut into straight stretches. Each stretch
+//! is proved free by separating lines of convex parts that hold all along it, and its energy is
+//! bounded by the enclosure of a cell around it; nothing is sampled.
+//!
+//! **Lower bound.** The configuration space is covered by closed cells. For each cell either no
+//! configuration of it is free, or a number is known that the energy of no free configuration of it
+//! falls below: a second-order Taylor form with a bound of its remainder, minimised over the part
+//! of the cell that contact leaves. A path is covered by a chain of touching cells, so if every
+//! chain of cells from end to end has one with a lower bound above E, the barrier is above E.
+//!
+//! **Search.** Two floods rise from the two ends over the cells with lower bounds of at most E, the
+//! target just below the best upper bound. Where they would meet is a divide, and only its cells
+//! are subdivided (see [`flood`]): wrong guesses cost time, never the proof. The lowest pass
+//! between the floods suggests a pathway; where one along it can be proved, the upper bound falls.
+//! Where no chain is left at E = infinity the start is caged.
+//!
+//! # What is proved, and what is assumed
+//!
+//! For the model potential and the two outlines as given, with the reference point on the table:
+//!
+//! - `lower` holds for every path on which no point of a tile gets deeper than
+//!   [`RELAXED`](crate::contact::cells::RELAXED) (2e-9 m) into the other, more than every free one;
+//! - `upper` is that of the returned pathway, whose inner stretches have truly disjoint interiors
+//!   and whose first and last may overlap by [`TOUCH`](crate::contact::TOUCH), as states at
+//!   contact are given to rounding only;
+//! - rounding errors are included, see [`crate::potential::bounds`], [`crate::cell`] and
+//!   [`crate::contact::cells`]. Assumed is that f64 arithmetic is IEEE 754's, and that the
+//!   platform's sine, cosine and arc functions are right to 8 units in the last place.
+//!
+//! The same query to the same certifier gives the same bracket on any number of threads, unless
+//! the limit of time cuts it short. A bracket that was cut short is as true, only wider.
+
+mod certifier;
 mod flood;
+mod landscape;
 mod lower;
+mod query;
 mod store;
 mod upper;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use rayon::prelude::*;
+use crate::configuration::Configuration;
 
-use crate::cell::Cell;
-use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::contact::Contact;
-use crate::contact::cells::ContactCells;
-use crate::contact::sweep::Sweep;
-use crate::potential::bounds::CellBounds;
-
-use flood::{Seeds, least_level, watershed};
-use lower::{Assessment, assess};
-use store::{Key, Leaf, Store};
-use upper::{PathProof, ProvedPath};
+pub use certifier::Certifier;
 
 /// Where a certified path ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,38 +69,52 @@ impl End {
     }
 }
 
-/// How narrow a bracket is wanted and how much work it is worth.
+/// How narrow a bracket is wanted, and how much work it is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Width (J) at which to stop.
     pub tolerance: f64,
-    /// Cells assessed at most, in this query. The result depends on nothing else.
+    /// Cells assessed in this query, about, at which to stop with what is known.
     pub cells: usize,
     /// Time after which to stop with what is known; makes the result depend on the machine.
     pub time: Option<Duration>,
 }
 
+/// How far a query is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Cells assessed, and rounds of subdivision, in this query.
+    pub cells: usize,
+    pub rounds: usize,
+    /// Cells in the divide between the two ends: 0 when the bracket is narrow enough.
+    pub divide: usize,
+    /// The upper bound (J) so far.
+    pub upper: Option<f64>,
+}
+
 /// Bounds of a barrier's highest energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bracket {
-    /// Every free path between the ends reaches at least this energy (J).
+    /// Every free path between the ends reaches at least this energy (J). Infinite where `caged`.
     pub lower: f64,
-    /// Some free path stays at or below this energy (J): the pathway. `None` where none is known.
+    /// The pathway nowhere exceeds this energy (J). `None` where no pathway is known.
     pub upper: Option<f64>,
     /// Proved that no free path joins the ends at all.
     pub caged: bool,
-    /// The proved pathway, from end to end.
+    /// The proved pathway, from end to end; empty where none is known. Straight in x, y and theta
+    /// between its points.
     pub pathway: Vec<Configuration>,
-    /// Where the pathway is highest.
+    /// The highest point met on the pathway.
     pub saddle: Option<Configuration>,
-    /// Whether the pathway was found by the certificate and is lower than the one it was given.
+    /// Whether the pathway is the certificate's own, lower than the one it was given or in place
+    /// of one that could not be proved.
     pub improved: bool,
     /// Cells assessed for this query, and rounds of subdivision.
     pub cells: usize,
     pub rounds: usize,
 }
 
-/// Which of two barriers is higher.
+/// Which of two barriers is proved the higher one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ordering {
     Higher,
@@ -78,13 +123,34 @@ pub enum Ordering {
 }
 
 impl Bracket {
-    /// Width (J); infinite where there is no upper bound.
+    /// Width (J); infinite where there is no upper bound, zero where the start is caged.
     pub fn width(&self) -> f64 {
-        self.upper.map_or(f64::INFINITY, |upper| upper - self.lower)
+        match self.upper {
+            Some(upper) => upper - self.lower,
+            None if self.caged => 0.0,
+            None => f64::INFINITY,
+        }
     }
 
     /// Whether this barrier's highest energy is proved higher or lower than the other's. A barrier
-    /// without any way over it is higher than one with a way.
+    /// with no way over it is higher than one with a way.
+    ///
+    /// ```
+    /// use tilebind::landscape::certificate::{Bracket, Ordering};
+    /// let bracket = |lower: f64, upper: f64| Bracket {
+    ///     lower,
+    ///     upper: Some(upper),
+    ///     caged: false,
+    ///     pathway: Vec::new(),
+    ///     saddle: None,
+    ///     improved: false,
+    ///     cells: 0,
+    ///     rounds: 0,
+    /// };
+    /// assert_eq!(bracket(2.0, 3.0).compare(&bracket(0.0, 1.0)), Ordering::Higher);
+    /// assert_eq!(bracket(0.0, 1.0).compare(&bracket(2.0, 3.0)), Ordering::Lower);
+    /// assert_eq!(bracket(0.0, 2.5).compare(&bracket(2.0, 3.0)), Ordering::Undecided);
+    /// ```
     pub fn compare(&self, other: &Self) -> Ordering {
         if other.upper.is_some_and(|upper| self.lower > upper) {
             Ordering::Higher
@@ -103,333 +169,4 @@ pub enum CertifyError {
     NotFree(Configuration),
     #[error("({}, {}) lies off the table", .0.x, .0.y)]
     OffTheTable(Configuration),
-}
-
-/// The tiles' contact, in the forms that the two bounds need.
-struct Obstacles<'a> {
-    contact: &'a Contact,
-    cells: ContactCells,
-    sweep: Sweep,
-}
-
-impl<'a> Obstacles<'a> {
-    fn new(contact: &'a Contact) -> Self {
-        Self {
-            contact,
-            cells: ContactCells::new(contact),
-            sweep: Sweep::new(contact),
-        }
-    }
-}
-
-/// Certifies barriers of one landscape. What one query finds out about the landscape serves the
-/// next ones.
-pub struct Certifier<'a> {
-    bounds: &'a dyn CellBounds,
-    contact: Option<Obstacles<'a>>,
-    space: &'a ConfigurationSpace,
-    lever: f64,
-    store: Store,
-    assessed: usize,
-}
-
-/// Leaves subdivided in one round at least, if the divide has as many.
-const SPLITS: usize = 256;
-
-/// Halvings of a cell of the divide in one round.
-const HALVINGS: usize = 3;
-
-impl<'a> Certifier<'a> {
-    /// A certifier for the energy `bounds` over the configurations of `space` in which the tiles
-    /// of `contact`, if any, do not overlap.
-    pub fn new(
-        bounds: &'a dyn CellBounds,
-        contact: Option<&'a Contact>,
-        space: &'a ConfigurationSpace,
-    ) -> Self {
-        let mut certifier = Self {
-            bounds,
-            contact: contact.map(Obstacles::new),
-            space,
-            lever: contact.map_or(space.rho, |contact| contact.moving().circumradius()),
-            store: Store::new(space),
-            assessed: 0,
-        };
-        let first = certifier.assess_all(Store::first_keys());
-        certifier.store.fill(&first);
-        certifier
-    }
-
-    /// Brackets the minimax energy from `from` to `to`. `known` is a pathway between them, if one
-    /// is known; it need not be exactly free, as it is lifted off contact where it touches.
-    ///
-    /// # Errors
-    /// Where an end is not free or not on the table.
-    pub fn bracket(
-        &mut self,
-        from: &Configuration,
-        to: &End,
-        known: &[Configuration],
-        effort: &Effort,
-    ) -> Result<Bracket, CertifyError> {
-        self.check(from)?;
-        if let End::At(to) = to {
-            self.check(to)?;
-        }
-        let start = Instant::now();
-        let assessed = self.assessed;
-        let tolerance = effort.tolerance;
-        let mut best = self
-            .proof()
-            .prove(known, tolerance / 20.0, f64::INFINITY)
-            .ok();
-        // The ends are on every path.
-        let floor = [Some(from), to.configuration()]
-            .into_iter()
-            .flatten()
-            .map(|q| {
-                let (value, rounding) = self.proof().value(q);
-                value - rounding
-            })
-            .fold(f64::NEG_INFINITY, f64::max);
-        let mut improved = false;
-        let mut rounds = 0;
-        let mut caged = false;
-        loop {
-            let level = best
-                .as_ref()
-                .map_or(f64::INFINITY, |path| path.upper - tolerance);
-            let found = watershed(&self.store, &self.seeds(from, to), level);
-            if std::env::var("CERT").is_ok() {
-                eprintln!(
-                    "round {rounds} level {:.4} pass {:?} divide {} leaves {} live {} cells {} t {:?} best {:?}",
-                    level * 1e3,
-                    found.pass.as_ref().map(|p| (p.0 * 1e3, p.1.len())),
-                    found.divide.len(),
-                    self.store.len(),
-                    self.store.live().count(),
-                    self.assessed - assessed,
-                    start.elapsed(),
-                    best.as_ref().map(|b| b.upper * 1e3)
-                );
-            }
-            let Some((pass, chain)) = found.pass else {
-                caged = best.is_none();
-                break;
-            };
-            if level <= floor {
-                break;
-            }
-            let mut parts = found.divide;
-            parts.truncate((self.store.len() / 16).max(SPLITS));
-            let worthwhile = level + 0.75 * tolerance;
-            if pass < worthwhile {
-                let (path, owners) = self.path_along(from, to, &chain);
-                match self
-                    .proof()
-                    .prove(&path, tolerance / 20.0, level + 0.9 * tolerance)
-                {
-                    Ok(path) => {
-                        improved = !known.is_empty();
-                        best = Some(path);
-                        continue;
-                    }
-                    Err(point) => {
-                        let blamed =
-                            owners[point.saturating_sub(1)..(point + 1).min(owners.len())].iter();
-                        parts.extend(blamed);
-                        parts.sort_unstable();
-                        parts.dedup();
-                    }
-                }
-            }
-            let exhausted = self.assessed - assessed >= effort.cells
-                || effort.time.is_some_and(|limit| start.elapsed() >= limit);
-            if exhausted || !self.subdivide(&parts, level) {
-                break;
-            }
-            rounds += 1;
-        }
-        let lower = least_level(&self.store, &self.seeds(from, to));
-        let lower = lower.max(floor);
-        let (upper, pathway, saddle) = match best {
-            Some(ProvedPath {
-                upper,
-                peak,
-                points,
-            }) => (Some(upper), points, Some(peak)),
-            None => (None, Vec::new(), None),
-        };
-        Ok(Bracket {
-            lower,
-            upper,
-            caged,
-            pathway,
-            saddle,
-            improved,
-            cells: self.assessed - assessed,
-            rounds,
-        })
-    }
-
-    /// Cells assessed so far, over all queries.
-    pub fn assessed(&self) -> usize {
-        self.assessed
-    }
-
-    fn check(&self, q: &Configuration) -> Result<(), CertifyError> {
-        if !self.space.contains(q) {
-            return Err(CertifyError::OffTheTable(*q));
-        }
-        match &self.contact {
-            Some(obstacles) if !obstacles.contact.is_free(q) => Err(CertifyError::NotFree(*q)),
-            _ => Ok(()),
-        }
-    }
-
-    fn proof(&self) -> PathProof<'_> {
-        PathProof {
-            bounds: self.bounds,
-            contact: self
-                .contact
-                .as_ref()
-                .map(|known| (known.contact, &known.sweep)),
-            rho: self.space.rho,
-        }
-    }
-
-    fn assess(&self, key: &Key) -> Option<Assessment> {
-        let cells = self.contact.as_ref().map(|known| &known.cells);
-        assess(self.bounds, cells, self.lever, &self.store.cell(key))
-    }
-
-    fn assess_all(&mut self, keys: Vec<Key>) -> Vec<(Key, Assessment)> {
-        self.assessed += keys.len();
-        keys.into_par_iter()
-            .filter_map(|key| Some((key, self.assess(&key)?)))
-            .collect()
-    }
-
-    /// The parts of a leaf after a few halvings of what stays passable, and how many cells were
-    /// assessed.
-    fn parts(&self, key: &Key, axis: usize, level: f64) -> (Vec<(Key, Assessment)>, usize) {
-        let mut done = Vec::new();
-        let mut assessed = 0;
-        let mut open = vec![(*key, axis, 0)];
-        while let Some((key, axis, depth)) = open.pop() {
-            let Some(halves) = key.halves(axis) else {
-                continue;
-            };
-            assessed += 2;
-            for half in halves {
-                let Some(known) = self.assess(&half) else {
-                    continue;
-                };
-                let divisible = half.halves(known.axis).is_some();
-                if depth + 1 < HALVINGS && known.lower <= level && divisible {
-                    open.push((half, known.axis, depth + 1));
-                } else {
-                    done.push((half, known));
-                }
-            }
-        }
-        (done, assessed)
-    }
-
-    /// Subdivides leaves; false if none can be.
-    fn subdivide(&mut self, ids: &[u32], level: f64) -> bool {
-        let divisible: Vec<u32> = ids
-            .iter()
-            .copied()
-            .filter(|&id| {
-                let leaf = self.store.leaf(id);
-                leaf.key.halves(leaf.known.axis).is_some()
-            })
-            .collect();
-        let parts: Vec<_> = divisible
-            .par_iter()
-            .map(|&id| {
-                let leaf = self.store.leaf(id);
-                self.parts(&leaf.key, leaf.known.axis, level)
-            })
-            .collect();
-        for (&id, (parts, assessed)) in divisible.iter().zip(&parts) {
-            self.store.replace(id, parts);
-            self.assessed += assessed;
-        }
-        !divisible.is_empty()
-    }
-
-    /// The leaves that hold either end.
-    fn seeds(&self, from: &Configuration, to: &End) -> Seeds {
-        let holding = |holds: &dyn Fn(&Leaf, &Cell) -> Option<f64>| {
-            self.store
-                .live()
-                .filter_map(|(id, leaf)| Some((id, holds(leaf, &self.store.cell(&leaf.key))?)))
-                .collect()
-        };
-        let at = |q: &Configuration, cell: &Cell| cell.contains(q).then_some(f64::NEG_INFINITY);
-        Seeds {
-            from: holding(&|_, cell| at(from, cell)),
-            to: match to {
-                End::At(to) => holding(&|_, cell| at(to, cell)),
-                End::Free => holding(&|leaf, cell| {
-                    if self.space.is_far(&cell.centre) {
-                        return Some(leaf.known.estimate);
-                    }
-                    let end = self.far_end(cell)?;
-                    Some(self.proof().value(&end).0)
-                }),
-            },
-        }
-    }
-
-    /// A configuration with the tiles far apart, near the middle of a cell that holds one.
-    fn far_end(&self, cell: &Cell) -> Option<Configuration> {
-        if !self.space.is_far(&farthest(cell)) {
-            return None;
-        }
-        let centre = cell.centre;
-        let distance = centre.x.hypot(centre.y);
-        let stretch = (self.space.free_distance / distance).max(1.0) * (1.0 + 1e-12);
-        let end = Configuration::new(centre.x * stretch, centre.y * stretch, centre.theta);
-        [end, farthest(cell)]
-            .into_iter()
-            .find(|end| self.space.contains(end) && self.space.is_far(end))
-    }
-
-    /// A polyline along a chain of leaves: from end to end through the leaves' centres and the
-    /// middles of what consecutive ones have in common. With each point comes its leaf.
-    fn path_along(
-        &self,
-        from: &Configuration,
-        to: &End,
-        chain: &[u32],
-    ) -> (Vec<Configuration>, Vec<u32>) {
-        let mut path = vec![(*from, chain[0])];
-        for (k, &id) in chain.iter().enumerate().skip(1) {
-            path.push((self.store.between(chain[k - 1], id), id));
-            if k + 1 < chain.len() {
-                path.push((self.store.cell(&self.store.leaf(id).key).centre, id));
-            }
-        }
-        let last = chain[chain.len() - 1];
-        let end = match to {
-            End::At(to) => Some(*to),
-            End::Free => self.far_end(&self.store.cell(&self.store.leaf(last).key)),
-        };
-        path.extend(end.map(|end| (end, last)));
-        path.into_iter().unzip()
-    }
-}
-
-/// The configuration of a cell that is farthest from the origin in the plane, at the cell's middle
-/// angle.
-fn farthest(cell: &Cell) -> Configuration {
-    let away = |c: f64, h: f64| c + h.copysign(c);
-    Configuration::new(
-        away(cell.centre.x, cell.half[0]),
-        away(cell.centre.y, cell.half[1]),
-        cell.centre.theta,
-    )
 }

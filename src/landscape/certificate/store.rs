@@ -59,6 +59,10 @@ pub(super) struct Leaf {
 pub(super) struct Store {
     half_size: [f64; 2],
     leaves: Vec<Leaf>,
+    // What the floods look at most, side by side.
+    lower: Vec<f64>,
+    by_energy: Vec<f64>,
+    by_overlap: Vec<f64>,
 }
 
 impl Store {
@@ -66,6 +70,9 @@ impl Store {
         Self {
             half_size: space.half_size,
             leaves: Vec::new(),
+            lower: Vec::new(),
+            by_energy: Vec::new(),
+            by_overlap: Vec::new(),
         }
     }
 
@@ -105,6 +112,21 @@ impl Store {
 
     pub fn leaf(&self, id: u32) -> &Leaf {
         &self.leaves[id as usize]
+    }
+
+    /// A leaf's lower bound of the energy (J).
+    pub fn lower(&self, id: u32) -> f64 {
+        self.lower[id as usize]
+    }
+
+    /// The rank of each leaf in a flood by energy.
+    pub fn by_energy(&self) -> &[f64] {
+        &self.by_energy
+    }
+
+    /// The rank of each leaf in a flood by overlap.
+    pub fn by_overlap(&self) -> &[f64] {
+        &self.by_overlap
     }
 
     /// Number of leaves that are or ever were.
@@ -148,6 +170,9 @@ impl Store {
             for &n in &neighbours {
                 self.leaves[n as usize].neighbours.push(id);
             }
+            self.lower.push(known.lower);
+            self.by_energy.push(known.by_energy());
+            self.by_overlap.push(known.overlap);
             self.leaves.push(Leaf {
                 key,
                 known,

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::cell::Cell;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::sweep::Sweep;
 use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
 use crate::potential::bounds::CellBounds;
@@ -12,11 +12,11 @@ use crate::potential::bounds::CellBounds;
 /// them does not cut into it.
 const LIFT: f64 = 1e-6;
 
-/// Clearance (m) asked of a lifted stretch: more than rounding, so that it is truly free.
-const STRICT: f64 = -1e-12;
+/// A stretch is halved at most this often to prove it free.
+const DEPTH: usize = 12;
 
-/// A stretch is halved at most this often.
-const DEPTH: usize = 24;
+/// A stretch is halved at most this often to bound its energy.
+const FINEST: usize = 24;
 
 /// A pathway proved free throughout, and the proved bound of its energy.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,14 +31,13 @@ pub(super) struct ProvedPath {
 pub(super) struct PathProof<'a> {
     pub bounds: &'a dyn CellBounds,
     pub contact: Option<(&'a Contact, &'a Sweep)>,
-    /// Metric length (m) of one radian.
-    pub rho: f64,
+    pub space: &'a ConfigurationSpace,
 }
 
 impl PathProof<'_> {
-    /// Proves a pathway through the given points: straight stretches, lifted off contact between
-    /// the two ends and refined where needed. The energy's bound is sharpened until it exceeds the
-    /// highest energy met by no more than `tolerance` (J).
+    /// Proves a pathway through the given points: straight stretches, lifted off contact and
+    /// refined where they cannot be proved as they are. The energy's bound is sharpened until it
+    /// exceeds the highest energy met by no more than `tolerance` (J).
     ///
     /// # Errors
     /// The number of a point before which the pathway cannot be proved free, or rises above
@@ -55,18 +54,15 @@ impl PathProof<'_> {
         let mut points = vec![*first];
         let mut owners = vec![0];
         for (k, q) in path.iter().enumerate().skip(1) {
-            let next = if k + 1 == path.len() {
-                *last
-            } else {
-                self.lifted(q).ok_or(k)?
-            };
-            if self.value(&next).0 > give_up {
+            self.extend(&mut points, q, k + 1 == path.len()).ok_or(k)?;
+            let added = &points[owners.len()..];
+            let allowed = |q: &Configuration| self.space.contains(q) && self.value(q).0 <= give_up;
+            if !added.iter().all(allowed) {
                 return Err(k);
             }
-            let end = k == 1 || k + 1 == path.len();
-            self.join(&mut points, &next, end, DEPTH).ok_or(k)?;
             owners.resize(points.len(), k);
         }
+        debug_assert_eq!(points.last(), Some(last));
         let (upper, peak) = self
             .highest(&points, tolerance, give_up)
             .map_err(|stretch| owners[stretch + 1])?;
@@ -77,31 +73,49 @@ impl PathProof<'_> {
         })
     }
 
-    /// Appends a proved free way from the last point to `to`.
+    /// Appends a proved free way from the last point to `to` or, unless it is the `end`, to where
+    /// `to` is lifted off contact.
+    fn extend(&self, points: &mut Vec<Configuration>, to: &Configuration, end: bool) -> Option<()> {
+        if self.is_free(points.last()?, to) {
+            points.push(*to);
+            return Some(());
+        }
+        let lifted = if end { None } else { self.lifted(to) };
+        let length = points.len();
+        for target in lifted.iter().chain([to]) {
+            if self.join(points, target, DEPTH).is_some() {
+                return Some(());
+            }
+            points.truncate(length);
+        }
+        None
+    }
+
+    /// Appends a proved free way from the last point to `to`, bent off contact where needed.
     fn join(
         &self,
         points: &mut Vec<Configuration>,
         to: &Configuration,
-        end: bool,
         depth: usize,
     ) -> Option<()> {
         let from = *points.last()?;
-        let Some((_, sweep)) = self.contact else {
-            points.push(*to);
-            return Some(());
-        };
-        // The pathway's ends may touch; all else is strictly free.
-        let allowed = if end { TOUCH } else { STRICT };
-        if sweep.is_free(&from, to, allowed) {
+        if self.is_free(&from, to) {
             points.push(*to);
             return Some(());
         }
         if depth == 0 {
             return None;
         }
-        let middle = self.lifted(&from.interpolate(to, 0.5))?;
-        self.join(points, &middle, end, depth - 1)?;
-        self.join(points, to, end, depth - 1)
+        let middle = from.interpolate(to, 0.5);
+        let middle = self.lifted(&middle).unwrap_or(middle);
+        self.join(points, &middle, depth - 1)?;
+        self.join(points, to, depth - 1)
+    }
+
+    /// Whether the straight way is proved free throughout.
+    fn is_free(&self, from: &Configuration, to: &Configuration) -> bool {
+        self.contact
+            .is_none_or(|(_, sweep)| sweep.is_free(from, to, TOUCH))
     }
 
     /// The configuration moved off contact until the tiles are [`LIFT`] apart.
@@ -109,7 +123,7 @@ impl PathProof<'_> {
         let Some((contact, _)) = self.contact else {
             return Some(*q);
         };
-        let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.rho * self.rho));
+        let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.space.rho.powi(2)));
         let mut at = *q;
         for _ in 0..12 {
             if contact.clearance_bound(&at) >= LIFT {
@@ -134,15 +148,16 @@ impl PathProof<'_> {
         None
     }
 
-    /// The energy (J) of one configuration, and its rounding.
+    /// Lower and upper bound of the energy (J) of one configuration; they differ by rounding only.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
         let known = self.bounds.enclose(&Cell {
             centre: *q,
             half: [0.0; 3],
         });
+        let rounding = known.form.rounding(&[0.0; 3]);
         (
-            known.form.value,
-            known.high.max(-known.low) + known.form.rounding(&[0.0; 3]),
+            known.form.value + known.low - rounding,
+            known.form.value + known.high + rounding,
         )
     }
 
@@ -157,9 +172,9 @@ impl PathProof<'_> {
         let mut floor = f64::NEG_INFINITY;
         let mut peak = points[0];
         let mut raise = |q: &Configuration| {
-            let (value, rounding) = self.value(q);
-            if value + rounding > floor {
-                floor = value + rounding;
+            let value = self.value(q).1;
+            if value > floor {
+                floor = value;
                 peak = *q;
             }
             floor
@@ -177,7 +192,7 @@ impl PathProof<'_> {
         while let Some((a, b, stretch, depth)) = open.pop() {
             let known = self.bounds.enclose(&Cell::spanned_by(&a, &b));
             let highest = known.form.greatest_along(&a.step_to(&b).into()) + known.high;
-            if highest <= level + tolerance || depth == DEPTH {
+            if highest <= level + tolerance || depth == FINEST {
                 if highest > give_up {
                     return Err(stretch);
                 }

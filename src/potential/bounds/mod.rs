@@ -15,6 +15,17 @@ pub struct Enclosure {
     pub high: f64,
 }
 
+impl Enclosure {
+    /// Of an energy of which nothing is known.
+    pub fn unknown() -> Self {
+        Self {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+            ..Self::default()
+        }
+    }
+}
+
 /// An energy that can be bounded over cells.
 pub trait CellBounds: Sync {
     /// Encloses U over the free configurations of a cell. Where nothing is known `low` is minus

@@ -9,15 +9,34 @@ use super::picture::{Area, Picture, PictureError, Underlay};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Axis, INK, LABEL, Text, chart, pixel, title, units};
-use crate::landscape::map::{Approach, ApproachSlices, Grid, Sample};
+use crate::landscape::approach::{Approach, ApproachSlices, SliceSettings};
+use crate::landscape::map::{Grid, Pair, Sample};
 use crate::units::prefix_of;
 
-const SIZE: (u32, u32) = (1000, 530);
-/// Width of a panel (pixels).
-const PANEL: f64 = 415.0;
+const SIZE: (u32, u32) = (1000, 640);
+/// Width and height of a panel (pixels).
+const PANEL: (f64, f64) = (490.0, 520.0);
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [84.0, 14.0, 62.0, 84.0];
-const IMAGE: usize = 300;
+/// Pixels of an embedded image along either side.
+const IMAGE: usize = 330;
+/// Grid points along either side.
+const SAMPLES: usize = 161;
+
+/// The motion in front of the target face, and the slices to draw.
+pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {
+    let Pair { fixed, moving, .. } = scene.pair;
+    let approach = Approach::new(fixed, moving, scene.target, scene.bound);
+    let length = fixed.faces[scene.target.0].length();
+    let settings = SliceSettings {
+        tilt: std::f64::consts::FRAC_PI_4,
+        gap: 0.2 * length,
+        slide: 0.5 * length,
+        samples: SAMPLES,
+    };
+    let slices = ApproachSlices::new(&scene.pair, &approach, &settings);
+    (approach, slices)
+}
 
 struct Panel<'a> {
     grid: &'a Grid<Sample>,
@@ -62,20 +81,20 @@ pub fn draw(
             scene.name
         );
         title(root, &text)?;
-        let (first, rest) = root.split_horizontally(units(PANEL));
-        let (second, _) = rest.split_horizontally(units(PANEL));
+        let (upper, _) = root.split_vertically(units(PANEL.1));
+        let (first, rest) = upper.split_horizontally(units(PANEL.0));
+        let (second, _) = rest.split_horizontally(units(PANEL.0));
         for (area, panel) in [first, second].iter().zip(&panels) {
             panel.draw(area, root, underlays, scale, &range)?;
         }
-        let left = 2.0 * PANEL + 18.0;
-        let bar = [left, MARGIN[0] + 28.0, left + 22.0, 400.0];
+        let top = PANEL.1 + 32.0;
+        let bar = [MARGIN[3], top, 720.0, top + 20.0];
         colour_bar(root, underlays, scale, &range, bar)?;
         let mut entries = STATE_KEYS.to_vec();
-        if panels.iter().any(|panel| panel.has_blocked()) {
+        if panels.iter().any(Panel::has_blocked) {
             entries.push((Key::Blocked, "no contact"));
         }
-        keys(root, underlays, (left, 432.0), &entries)?;
-        Ok(())
+        keys(root, underlays, (770.0, top), &entries)
     })
 }
 

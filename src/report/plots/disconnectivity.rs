@@ -6,106 +6,45 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Labels, Mark, Pixel, marker, polyline};
+use super::labels::Labels;
+use super::marks::{Mark, Pixel, marker, polyline};
+use super::merge_tree::{Join, Tree, merge};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::{Class, Scene};
 use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
-use crate::landscape::{Barrier, Place, StateKind};
+use crate::landscape::{Place, StateKind};
 
 const SIZE: (u32, u32) = (1000, 700);
+/// Classes shown.
 const MOST: usize = 11;
 
-/// A merge tree of classes of states.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Tree {
-    /// A class by its number; `None` for free tiles.
-    Leaf { class: Option<usize>, energy: f64 },
-    Merge {
-        /// Saddle energy (J).
-        energy: f64,
-        /// Certified bounds of the saddle energy (J).
-        bounds: Option<(f64, f64)>,
-        children: Box<[Tree; 2]>,
-    },
-}
-
-impl Tree {
-    /// Lowest energy (J) of the tree's states.
-    fn lowest(&self) -> f64 {
-        match self {
-            Self::Leaf { energy, .. } => *energy,
-            Self::Merge { children, .. } => children[0].lowest().min(children[1].lowest()),
-        }
-    }
-
-    fn holds(&self, wanted: Option<usize>) -> bool {
-        match self {
-            Self::Leaf { class, .. } => *class == wanted,
-            Self::Merge { children, .. } => children.iter().any(|child| child.holds(wanted)),
-        }
-    }
-
-    fn leaves(&self) -> usize {
-        match self {
-            Self::Leaf { .. } => 1,
-            Self::Merge { children, .. } => children.iter().map(Tree::leaves).sum(),
-        }
-    }
-}
-
-/// Joins classes over their barriers, the lowest saddle first. Classes that no barrier joins stay
-/// trees of their own.
-fn merge(scene: &Scene, classes: &[Class]) -> Vec<Tree> {
-    let shown = |place: Place| match place {
-        Place::Free => true,
-        Place::State(_) => scene
-            .class_of(place)
-            .is_some_and(|number| classes.iter().any(|class| class.state.class == number)),
-    };
-    let mut barriers: Vec<&Barrier> = scene
-        .barriers
+/// The merge tree of the classes, with free tiles at U = 0.
+fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
+    let mut leaves: Vec<_> = classes
         .iter()
-        .filter(|barrier| shown(barrier.from) && shown(barrier.to))
+        .map(|class| (Some(class.state.class), class.state.energy))
         .collect();
-    barriers.sort_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy));
-    let mut trees: Vec<Tree> = classes
-        .iter()
-        .map(|class| Tree::Leaf {
-            class: Some(class.state.class),
-            energy: class.state.energy,
+    leaves.push((None, 0.0));
+    let joins = scene.all_barriers().filter_map(|barrier| {
+        let end = |place: Place| match place {
+            Place::Free => Some(None),
+            Place::State(_) => Some(Some(scene.class_of(place)?)),
+        };
+        // Tiles far apart have U = 0, and no way to them has a lower highest energy.
+        let least = if [barrier.from, barrier.to].contains(&Place::Free) {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        };
+        let bounds = barrier.lower.zip(barrier.upper);
+        Some(Join {
+            ends: [end(barrier.from)?, end(barrier.to)?],
+            energy: barrier.saddle_energy.max(least),
+            bounds: bounds.map(|(lower, upper)| (lower.max(least), upper.max(least))),
         })
-        .collect();
-    trees.push(Tree::Leaf {
-        class: None,
-        energy: 0.0,
     });
-    for barrier in barriers {
-        let find = |trees: &[Tree], place| {
-            let class = scene.class_of(place);
-            trees.iter().position(|tree| tree.holds(class))
-        };
-        let (Some(a), Some(b)) = (find(&trees, barrier.from), find(&trees, barrier.to)) else {
-            continue;
-        };
-        if a == b {
-            continue;
-        }
-        let second = trees.remove(a.max(b));
-        let first = trees.remove(a.min(b));
-        let mut children = [first, second];
-        children.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
-        trees.push(Tree::Merge {
-            energy: barrier.saddle_energy,
-            bounds: barrier.lower.zip(barrier.upper),
-            children: Box::new(children),
-        });
-    }
-    trees.retain(|tree| {
-        !matches!(tree, Tree::Leaf { class: None, .. }) || scene.barriers.is_empty()
-    });
-    trees.sort_by(|x, y| x.lowest().total_cmp(&y.lowest()));
-    trees
+    merge(leaves, joins.collect(), scale)
 }
 
 /// The graph of the lowest classes of states; `None` where there is no state.
@@ -115,7 +54,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         return Ok(None);
     }
     let classes = &all[..all.len().min(MOST)];
-    let trees = merge(scene, classes);
+    let trees = merge_tree(scene, classes, scale);
     let leaves: usize = trees.iter().map(Tree::leaves).sum();
     let (low, high) = extent(&trees, scale);
     Picture::draw(SIZE, |root, _| {
@@ -153,7 +92,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
                 .collect(),
             name: "energy U".into(),
         };
-        let chart = chart(root, [54.0, 20.0, 14.0, 100.0], &x_axis, &y_axis, true)?;
+        let chart = chart(root, [54.0, 20.0, 46.0, 100.0], &x_axis, &y_axis, true)?;
         let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
         let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
         polyline(root, &[left, right], INK, 1.6)?;
@@ -165,7 +104,6 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         ];
         let mut drawing = Drawing {
             root,
-            scene,
             scale,
             classes,
             at: &at,
@@ -173,30 +111,48 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             next_leaf: 0,
             merges: Vec::new(),
         };
+        drawing.labels.keep_off_line(&[left, right]);
         for tree in &trees {
             let x = drawing.tree(tree)?;
-            let top = tree_energy(tree);
-            polyline(root, &[at(x, top), (at(x, top).0, frame[1])], INK, 1.8)?;
+            let top = tree.energy();
+            let end = (at(x, top).0, frame[1]);
+            polyline(root, &[at(x, top), end], INK, 1.8)?;
+            if trees.len() > 1 && !tree.holds(None) {
+                let beside = (end.0 + 6.0, end.1 + 8.0);
+                let font = Text::new(SMALL).colour(SOFT);
+                font.write(root, "no way found", beside, (HPos::Left, VPos::Center))?;
+            }
         }
-        drawing.merge_labels()
+        drawing.merge_labels()?;
+        let mut key = "each line a kind of state: its number, its energy, \u{d7} the copies of it \
+            that symmetry makes"
+            .to_owned();
+        if scene
+            .all_barriers()
+            .any(|b| b.lower.is_some() && b.upper.is_some())
+        {
+            key.push_str("; green: certified bounds");
+        }
+        Text::new(SMALL).colour(SOFT).write(
+            root,
+            &key,
+            (100.0, f64::from(SIZE.1) - 24.0),
+            (HPos::Left, VPos::Center),
+        )
     })
     .map(Some)
 }
 
-fn tree_energy(tree: &Tree) -> f64 {
-    match tree {
-        Tree::Leaf { energy, .. } | Tree::Merge { energy, .. } => *energy,
-    }
-}
-
 /// Positions from below the lowest state's label to above the highest saddle.
 fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
-    fn highest(tree: &Tree) -> f64 {
-        match tree {
-            Tree::Leaf { energy, .. } => *energy,
-            Tree::Merge { energy, bounds, .. } => bounds.map_or(*energy, |(_, up)| up.max(*energy)),
-        }
-    }
+    let highest = |tree: &Tree| match tree {
+        Tree::Merge {
+            energy,
+            bounds: Some((_, upper)),
+            ..
+        } => upper.max(*energy),
+        other => other.energy(),
+    };
     let low = trees.iter().map(Tree::lowest).fold(0.0, f64::min);
     let high = trees.iter().map(highest).fold(0.0, f64::max);
     let (low, high) = (scale.position(low), scale.position(high));
@@ -206,7 +162,6 @@ fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
 
 struct Drawing<'a, 'b> {
     root: &'a Area<'b>,
-    scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
     classes: &'a [Class<'a>],
     at: &'a dyn Fn(f64, f64) -> Pixel,
@@ -229,15 +184,16 @@ impl Drawing<'_, '_> {
                 let mut ends = Vec::new();
                 for child in children.iter() {
                     let x = self.tree(child)?;
-                    let line = [(self.at)(x, tree_energy(child)), (self.at)(x, *energy)];
+                    let line = [(self.at)(x, child.energy()), (self.at)(x, *energy)];
                     polyline(self.root, &line, INK, 1.8)?;
                     self.labels.keep_off_line(&line);
                     ends.push(x);
                 }
-                let (a, b) = ((self.at)(ends[0], *energy), (self.at)(ends[1], *energy));
-                polyline(self.root, &[a, b], INK, 1.8)?;
-                self.labels.keep_off_line(&[a, b]);
-                let x = (ends[0] + ends[1]) / 2.0;
+                let (first, last) = (ends[0], ends[ends.len() - 1]);
+                let bar = [(self.at)(first, *energy), (self.at)(last, *energy)];
+                polyline(self.root, &bar, INK, 1.8)?;
+                self.labels.keep_off_line(&bar);
+                let x = (first + last) / 2.0;
                 if let Some(bounds) = bounds {
                     self.error_bar(x, *bounds)?;
                 }

@@ -1,7 +1,9 @@
 //! A film strip of the docking motion.
 
+use nalgebra::Vector2;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::heat::{POLE_KEYS, keys};
 use super::marks::{View, polyline, tile};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::{EnergyScale, minus};
@@ -34,17 +36,18 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
     let rows = frames.len().div_ceil(COLUMNS);
     let total = HEAD + rows as f64 * (height + CAPTION + GAP);
     let pixels_a_metre = (width / span_x).min(height / span_y);
-    Picture::draw((WIDTH as u32, total.ceil() as u32), |root, _| {
+    Picture::draw((WIDTH as u32, total.ceil() as u32), |root, underlays| {
         title(root, &format!("{}: docking", scene.name))?;
+        for (key, left) in POLE_KEYS.chunks(1).zip([740.0, 866.0]) {
+            keys(root, underlays, (left, 28.0), key)?;
+        }
         for (k, point) in frames.iter().enumerate() {
             let left = GAP + (k % COLUMNS) as f64 * (width + GAP);
             let top = HEAD + (k / COLUMNS) as f64 * (height + CAPTION + GAP);
-            let middle = [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0];
             let view = View {
-                origin: (
-                    left + width / 2.0 - middle[0] * pixels_a_metre,
-                    top + height / 2.0 + middle[1] * pixels_a_metre,
-                ),
+                centre: Vector2::new((low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0),
+                origin: (left + width / 2.0, top + height / 2.0),
+                turn: 0.0,
                 scale: pixels_a_metre,
             };
             let frame = [left, top, left + width, top + height];
@@ -84,7 +87,7 @@ fn draw_frame(
     Text::new(SMALL).bold().colour(SOFT).write(
         root,
         &number.to_string(),
-        (left + 8.0, top + 6.0),
+        (left + 4.0, bottom + 9.0),
         (HPos::Left, VPos::Top),
     )?;
     let middle = (left + right) / 2.0;

@@ -124,7 +124,7 @@ pub fn frame(chart: &Chart, x: &[f64], y: &[f64]) -> Box4 {
     [low.0, high.1, high.0, low.1]
 }
 
-/// The colours with their energies.
+/// The colours with their energies, in a bar from left to right.
 pub fn colour_bar(
     root: &Area,
     underlays: &mut Vec<Underlay>,
@@ -134,27 +134,22 @@ pub fn colour_bar(
 ) -> Result<(), PictureError> {
     let span = range.high - range.low;
     underlays.push(Underlay {
-        bitmap: range.bitmap((2, COLOURS), |_, v| Some(range.low + span * v)),
+        bitmap: range.bitmap((COLOURS, 2), |u, _| Some(range.low + span * u)),
         rectangle: [left, top, right, bottom].map(units),
     });
     outline(root, [left, top, right, bottom], INK)?;
-    Text::new(LABEL).write(
-        root,
-        "energy U",
-        (left, top - 10.0),
-        (HPos::Left, VPos::Bottom),
-    )?;
+    let middle = (left - 14.0, (top + bottom) / 2.0);
+    Text::new(LABEL).write(root, "U", middle, (HPos::Right, VPos::Center))?;
     for energy in scale.ticks(range.low, range.high) {
-        let y = bottom - (bottom - top) * (scale.position(energy) - range.low) / span;
-        let (start, reach, width, text, font) = if energy == 0.0 {
-            let font = Text::new(SMALL).bold();
-            (left, right + 9.0, 1.6, "0".into(), font)
+        let x = left + (right - left) * (scale.position(energy) - range.low) / span;
+        let (start, width, text, font) = if energy == 0.0 {
+            (top, 1.6, "0".into(), Text::new(SMALL).bold())
         } else {
             let text = scale.label(energy, 1);
-            (right, right + 5.0, 1.0, text, Text::new(SMALL))
+            (bottom, 1.0, text, Text::new(SMALL))
         };
-        polyline(root, &[(start, y), (reach, y)], INK, width)?;
-        font.write(root, &text, (right + 12.0, y), (HPos::Left, VPos::Center))?;
+        polyline(root, &[(x, start), (x, bottom + 6.0)], INK, width)?;
+        font.write(root, &text, (x, bottom + 9.0), (HPos::Center, VPos::Top))?;
     }
     Ok(())
 }
@@ -180,13 +175,13 @@ pub const POLE_KEYS: [(Key, &str); 2] = [
 /// Height of an entry of a key (pixels).
 const ENTRY: f64 = 25.0;
 
-/// Explains marks, one below the other; gives the height of the next entry.
+/// Explains marks, one below the other.
 pub fn keys(
     root: &Area,
     underlays: &mut Vec<Underlay>,
     (left, top): Pixel,
     entries: &[(Key, &str)],
-) -> Result<f64, PictureError> {
+) -> Result<(), PictureError> {
     let mut y = top;
     for (key, text) in entries {
         let (a, b) = (left, left + 22.0);
@@ -214,5 +209,5 @@ pub fn keys(
         Text::new(SMALL).write(root, text, (left + 32.0, y), (HPos::Left, VPos::Center))?;
         y += ENTRY;
     }
-    Ok(y)
+    Ok(())
 }

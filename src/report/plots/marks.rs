@@ -1,11 +1,11 @@
 //! Marks on pictures: lines, markers, tiles, labels that keep out of each other's way.
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::picture::{Area, PictureError};
-use super::style::{BLUE, INK, SOFT, Text, VERMILLION, YELLOW, line, point};
+use super::style::{BLUE, INK, Text, VERMILLION, YELLOW, line, point};
 use crate::configuration::Configuration;
 use crate::landscape::StateKind;
 use crate::tile::{Magnet, Tile};
@@ -21,8 +21,22 @@ pub fn polyline(
     colour: impl Color,
     width: f64,
 ) -> Result<(), PictureError> {
-    let points: Vec<_> = points.iter().map(|p| point(*p)).collect();
-    if points.len() > 1 {
+    let Some((last, rest)) = points.split_last() else {
+        return Ok(());
+    };
+    // Points too close together to be seen apart only make the file longer.
+    let mut kept: Vec<Pixel> = Vec::with_capacity(points.len());
+    for p in rest {
+        if kept
+            .last()
+            .is_none_or(|k| (k.0 - p.0).hypot(k.1 - p.1) > 0.5)
+        {
+            kept.push(*p);
+        }
+    }
+    kept.push(*last);
+    if kept.len() > 1 {
+        let points: Vec<_> = kept.into_iter().map(point).collect();
         root.draw(&PathElement::new(points, line(colour, width)))?;
     }
     Ok(())
@@ -125,18 +139,20 @@ pub fn marker(root: &Area, mark: Mark, (x, y): Pixel, radius: f64) -> Result<(),
 /// How metres of the fixed tile's frame become pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Pixel of the origin.
+    /// The point (m) that is drawn at `origin`.
+    pub centre: Vector2<f64>,
+    /// The pixel of `centre`.
     pub origin: Pixel,
+    /// Angle (rad) by which the plane is turned on the picture.
+    pub turn: f64,
     /// Pixels a metre.
     pub scale: f64,
 }
 
 impl View {
     pub fn pixel(&self, p: Vector2<f64>) -> Pixel {
-        (
-            self.origin.0 + p.x * self.scale,
-            self.origin.1 - p.y * self.scale,
-        )
+        let p = Rotation2::new(self.turn) * (p - self.centre) * self.scale;
+        (self.origin.0 + p.x, self.origin.1 - p.y)
     }
 }
 
@@ -196,111 +212,4 @@ fn draw_magnet(
         }
     }
     Ok(())
-}
-
-/// Places labels beside what they name so that none covers another or a marker.
-pub struct Labels {
-    within: Box4,
-    taken: Vec<Box4>,
-}
-
-impl Labels {
-    pub fn new(within: Box4) -> Self {
-        Self {
-            within,
-            taken: Vec::new(),
-        }
-    }
-
-    /// Keeps labels off a disc.
-    pub fn keep_off(&mut self, (x, y): Pixel, radius: f64) {
-        self.taken
-            .push([x - radius, y - radius, x + radius, y + radius]);
-    }
-
-    /// Keeps labels off a line.
-    pub fn keep_off_line(&mut self, points: &[Pixel]) {
-        for pair in points.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 5.0).ceil().max(1.0);
-            for k in 0..=steps as usize {
-                let t = k as f64 / steps;
-                self.keep_off((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t), 2.0);
-            }
-        }
-    }
-
-    /// Writes `text` near `anchor`, joined to it by a thin line where it is not beside it. Leaves
-    /// it out where there is no room near.
-    pub fn place(
-        &mut self,
-        root: &Area,
-        text: &str,
-        font: Text,
-        anchor: Pixel,
-        outwards: Vector2<f64>,
-    ) -> Result<(), PictureError> {
-        // Fonts other than the measured one may be a tenth wider.
-        let (width, height) = (1.08 * font.width(text) + 6.0, 1.25 * font.size + 2.0);
-        let Some(place) = self.free_place(anchor, width, height, outwards) else {
-            return Ok(());
-        };
-        self.taken.push(place);
-        let [left, top, right, bottom] = place;
-        let nearest = (anchor.0.clamp(left, right), anchor.1.clamp(top, bottom));
-        if (nearest.0 - anchor.0).hypot(nearest.1 - anchor.1) > 14.0 {
-            polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
-            polyline(root, &[anchor, nearest], SOFT, 1.0)?;
-        }
-        let ground = [(left, top), (right, top), (right, bottom), (left, bottom)];
-        polygon(root, &ground, WHITE.mix(0.82), None)?;
-        let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
-        font.write(root, text, middle, (HPos::Center, VPos::Center))
-    }
-
-    /// The nearest free place, those in the direction `outwards` first.
-    fn free_place(
-        &self,
-        (x, y): Pixel,
-        width: f64,
-        height: f64,
-        outwards: Vector2<f64>,
-    ) -> Option<Box4> {
-        let directions = 16;
-        let mut candidates = Vec::new();
-        for ring in 0..7 {
-            for k in 0..directions {
-                let angle = k as f64 * std::f64::consts::TAU / directions as f64;
-                let (dx, dy) = (angle.cos(), angle.sin());
-                let away = 1.0 - (dx * outwards.x + dy * outwards.y);
-                let reach = 11.0 + 16.0 * ring as f64;
-                let centre = (
-                    x + dx * (reach + width / 2.0),
-                    y + dy * (reach + height / 2.0),
-                );
-                let place = [
-                    centre.0 - width / 2.0,
-                    centre.1 - height / 2.0,
-                    centre.0 + width / 2.0,
-                    centre.1 + height / 2.0,
-                ];
-                candidates.push((reach + 24.0 * away, place));
-            }
-        }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-        candidates
-            .into_iter()
-            .map(|(_, place)| place)
-            .find(|place| self.is_free(place))
-    }
-
-    fn is_free(&self, [left, top, right, bottom]: &Box4) -> bool {
-        let [l, t, r, b] = &self.within;
-        let inside = left >= l && top >= t && right <= r && bottom <= b;
-        inside
-            && self
-                .taken
-                .iter()
-                .all(|[l, t, r, b]| right <= l || r <= left || bottom <= t || b <= top)
-    }
 }

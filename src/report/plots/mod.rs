@@ -13,10 +13,13 @@
 mod approach;
 mod canvas;
 mod disconnectivity;
+pub mod dock;
 mod energy_map;
 mod film;
 mod heat;
+mod labels;
 mod marks;
+mod merge_tree;
 mod picture;
 mod profiles;
 mod raster;
@@ -29,7 +32,6 @@ use rayon::prelude::*;
 pub use picture::{Picture, PictureError};
 pub use scene::Scene;
 
-use crate::landscape::map::{Approach, ApproachSlices, EnergyMap, MapSettings, SliceSettings};
 use scale::EnergyScale;
 
 /// A picture and the stem of the files that hold it.
@@ -44,15 +46,14 @@ pub struct NamedPicture {
 /// # Errors
 /// See [`PictureError`].
 pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
-    let map = EnergyMap::new(&scene.pair, &map_settings(scene));
-    let approach = Approach::new(
-        scene.pair.fixed,
-        scene.pair.moving,
-        scene.target,
-        scene.bound,
-    );
-    let slices = ApproachSlices::new(&scene.pair, &approach, &slice_settings(scene));
-    let grids = [&map.lowest, &slices.gap, &slices.slide];
+    let maps = energy_map::Maps::new(scene);
+    let (approach, slices) = approach::slices(scene);
+    let grids = [
+        &maps.whole.lowest,
+        &maps.target.lowest,
+        &slices.gap,
+        &slices.slide,
+    ];
     let sampled = grids
         .iter()
         .flat_map(|grid| grid.values.iter().flatten())
@@ -61,7 +62,7 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
 
     type Drawing<'a> = &'a (dyn Fn() -> Result<Option<Picture>, PictureError> + Sync);
     let drawings: [(&str, Drawing); 5] = [
-        ("map", &|| energy_map::draw(scene, &map, &scale).map(Some)),
+        ("map", &|| energy_map::draw(scene, &maps, &scale).map(Some)),
         ("approach", &|| {
             approach::draw(scene, &approach, &slices, &scale).map(Some)
         }),
@@ -77,25 +78,4 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
         .into_iter()
         .filter_map(|(name, picture)| picture.map(|picture| NamedPicture { name, picture }))
         .collect())
-}
-
-/// The map reaches a fifth of the tiles' size beyond where they can touch, or to the table's edge.
-fn map_settings(scene: &Scene) -> MapSettings {
-    let reach =
-        1.2 * (scene.pair.fixed.outline.circumradius() + scene.pair.moving.outline.circumradius());
-    MapSettings {
-        half_size: scene.space.half_size.map(|half| half.min(reach)),
-        samples: 160,
-        orientations: 48,
-    }
-}
-
-fn slice_settings(scene: &Scene) -> SliceSettings {
-    let length = scene.pair.fixed.faces[scene.target.0].length();
-    SliceSettings {
-        tilt: std::f64::consts::FRAC_PI_4,
-        gap: 0.2 * length,
-        slide: 0.5 * length,
-        samples: 121,
-    }
 }

@@ -9,6 +9,7 @@ use tiny_skia::{Color, Pixmap, PixmapPaint, PremultipliedColorU8, Transform};
 
 use super::canvas::Canvas;
 use super::raster::{Raster, draw_stretched};
+use super::style::FAMILY;
 
 /// Drawing units per pixel. plotters places everything on whole units; tenths of a pixel keep
 /// gentle slopes smooth.
@@ -90,9 +91,13 @@ fn svg(
     height: u32,
 ) -> Result<String, PictureError> {
     let body = elements.split_once('>').map_or("", |(_, body)| body);
+    // What all elements share is said once.
+    let body = body
+        .replace(" opacity=\"1\"", "")
+        .replace(&format!(" font-family=\"{FAMILY}\""), "");
     let mut document = format!(
         "<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
-         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n\
+         stroke-linejoin=\"round\" font-family=\"{FAMILY}\" xmlns=\"http://www.w3.org/2000/svg\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>",
         width * UNITS,
         height * UNITS,
@@ -109,7 +114,7 @@ fn svg(
             bottom - top,
         );
     }
-    document.push_str(body);
+    document.push_str(&body);
     Ok(document)
 }
 

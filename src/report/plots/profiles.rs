@@ -4,7 +4,8 @@ use nalgebra::Vector2;
 use plotters::prelude::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Labels, Mark, Pixel, marker, polygon, polyline};
+use super::labels::Labels;
+use super::marks::{Mark, Pixel, marker, polygon, polyline};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
@@ -24,7 +25,7 @@ const MARGIN: [f64; 4] = [32.0, 20.0, 60.0, 80.0];
 
 /// One panel a pathway out of a state; `None` where no pathway is known.
 pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let mut barriers = scene.escapes();
+    let mut barriers = scene.main_escapes();
     barriers.truncate(MOST);
     if barriers.is_empty() {
         return Ok(None);
@@ -61,6 +62,15 @@ struct Panel<'a, 'b> {
     bottom: f64,
 }
 
+/// The length (m) a panel shows: of an end that lies below the energy `low` (J) nothing.
+fn shown_length(barrier: &Barrier, low: f64) -> f64 {
+    let path = &barrier.pathway;
+    let whole = path[path.len() - 1].s - path[0].s;
+    let seen = path.iter().rfind(|p| p.energy >= low);
+    let seen = seen.map_or(whole, |p| 1.08 * (p.s - path[0].s));
+    seen.min(whole).max(f64::MIN_POSITIVE)
+}
+
 fn draw_panel(
     area: &Area,
     root: &Area,
@@ -71,7 +81,7 @@ fn draw_panel(
     let path = &barrier.pathway;
     let (low, high) = shown_energies(barrier);
     let start = path[0].s;
-    let length = (path[path.len() - 1].s - start).max(f64::MIN_POSITIVE);
+    let length = shown_length(barrier, low);
     // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
     let (joule, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
     let (metre, metre_prefix) = prefix_of(0.999 * length);
@@ -157,8 +167,7 @@ impl Panel<'_, '_> {
         }
         labels.keep_off_line(&[(self.left, zero), (self.right, zero)]);
         self.barrier(&mut labels)?;
-        let last_seen = pieces.last().and_then(|piece| piece.last()).copied();
-        self.ends(&mut labels, &curve, last_seen)
+        self.ends(&mut labels, &curve)
     }
 
     /// The certified bounds of the saddle energy as a band with its figures.
@@ -208,10 +217,6 @@ impl Panel<'_, '_> {
         }
         marker(self.root, Mark::Saddle, saddle, 5.0)?;
         labels.keep_off(saddle, 6.0);
-        let text = format!("barrier {}", self.scale.label(barrier.forward(), 4));
-        let middle = (foot.0, (foot.1 + saddle.1) / 2.0);
-        let font = Text::new(SMALL).bold().colour(VERMILLION);
-        labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))?;
         let text = format!("saddle {}", self.scale.label(barrier.saddle_energy, 4));
         labels.place(
             self.root,
@@ -219,16 +224,15 @@ impl Panel<'_, '_> {
             Text::new(SMALL),
             saddle,
             Vector2::new(0.3, -1.0),
-        )
+        )?;
+        let text = format!("barrier {}", self.scale.label(barrier.forward(), 4));
+        let middle = (foot.0, (foot.1 + saddle.1) / 2.0);
+        let font = Text::new(SMALL).bold().colour(VERMILLION);
+        labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))
     }
 
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
-    fn ends(
-        &self,
-        labels: &mut Labels,
-        curve: &[Pixel],
-        last_seen: Option<Pixel>,
-    ) -> Result<(), PictureError> {
+    fn ends(&self, labels: &mut Labels, curve: &[Pixel]) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let name = |place: Place, energy: f64| {
             format!(
@@ -250,9 +254,9 @@ impl Panel<'_, '_> {
             labels.keep_off(end, 7.0);
             labels.place(self.root, &text, font, end, Vector2::new(-0.8, -0.3))
         } else {
-            let exit = last_seen.unwrap_or((end.0, self.bottom));
             let text = format!("\u{2193} {text}");
-            let exit = (exit.0, exit.1 - 8.0);
+            let seen = curve.iter().rfind(|p| p.1 <= self.bottom - 12.0);
+            let exit = seen.copied().unwrap_or((end.0, self.bottom - 12.0));
             labels.place(self.root, &text, font, exit, Vector2::new(-1.0, 0.0))
         }
     }
@@ -285,4 +289,23 @@ fn above(curve: &[Pixel], floor: f64) -> Vec<Vec<Pixel>> {
         pieces.push(piece);
     }
     pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_curve_is_cut_where_it_dips_below_the_floor() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 12.0), (3.0, 8.0), (4.0, 12.0)];
+        let first = vec![(0.0, 0.0), (1.0, 8.0), (1.5, 10.0)];
+        let second = vec![(2.5, 10.0), (3.0, 8.0), (3.5, 10.0)];
+        assert_eq!(above(&curve, 10.0), [first, second]);
+    }
+
+    #[test]
+    fn a_curve_above_the_floor_stays_whole() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 3.0)];
+        assert_eq!(above(&curve, 10.0), [curve.to_vec()]);
+    }
 }

@@ -104,3 +104,50 @@ impl EnergyScale {
 pub fn minus(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_odd_ascending_and_fill_the_scale() {
+        let scale = EnergyScale::holding([-0.065, 0.002, f64::INFINITY]);
+        assert_eq!(scale.position(0.0), 0.0);
+        assert_eq!(scale.position(-0.065), -1.0);
+        let energies = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.06];
+        for pair in energies.windows(2) {
+            assert!(scale.position(pair[0]) < scale.position(pair[1]));
+        }
+        for u in energies {
+            assert_eq!(scale.position(-u), -scale.position(u));
+        }
+        // Far from zero a decade is a decade.
+        let decade = scale.position(1e-2) - scale.position(1e-3);
+        let other = scale.position(1e-3) - scale.position(1e-4);
+        assert!((decade / other - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn zero_is_pale_and_the_ends_are_dark() {
+        assert_eq!(colour(-1.0), VIK[0]);
+        assert_eq!(colour(0.0), VIK[8]);
+        assert_eq!(colour(1.0), VIK[16]);
+        assert!(colour(0.0).iter().all(|&c| c > 220));
+    }
+
+    #[test]
+    fn ticks_hold_zero_and_stay_within() {
+        let scale = EnergyScale::holding([-0.065]);
+        let ticks = scale.ticks(-1.0, 0.3);
+        assert!(ticks.contains(&0.0) && ticks.contains(&-0.01));
+        assert!(ticks.iter().all(|&u| scale.position(u) <= 0.3));
+        assert!(ticks.is_sorted());
+    }
+
+    #[test]
+    fn what_the_scale_cannot_tell_from_zero_is_zero() {
+        let scale = EnergyScale::holding([-0.065]);
+        assert_eq!(scale.label(-3e-12, 3), "0 J");
+        assert_eq!(scale.label(-0.06547, 4), "\u{2212}65.47 mJ");
+    }
+}

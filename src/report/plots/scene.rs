@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::marks::Mark;
+use crate::analysis::Analysis;
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::design::Design;
 use crate::landscape::map::Pair;
 use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
+use crate::problem::Problem;
 
 /// An analysed pair of tiles.
 #[derive(Clone, Copy)]
@@ -19,6 +22,8 @@ pub struct Scene<'a> {
     /// The target faces of the fixed and of the moving tile.
     pub target: (usize, usize),
     pub states: &'a [State],
+    /// The lowest way out of each state.
+    pub escapes: &'a [Option<Barrier>],
     pub barriers: &'a [Barrier],
 }
 
@@ -31,6 +36,25 @@ pub struct Class<'a> {
 }
 
 impl<'a> Scene<'a> {
+    /// What an analysis found; `None` for a problem without contact, which is no pair of tiles.
+    pub fn new(design: &'a Design, problem: &'a Problem, analysis: &'a Analysis) -> Option<Self> {
+        Some(Self {
+            name: &design.name,
+            pair: Pair {
+                fixed: &design.fixed,
+                moving: &design.moving,
+                potential: problem.potential(),
+                contact: problem.contact.as_ref()?,
+            },
+            space: &problem.space,
+            bound: design.bound,
+            target: design.target,
+            states: &analysis.states,
+            escapes: &analysis.escapes,
+            barriers: &analysis.barriers,
+        })
+    }
+
     pub fn state(&self, id: usize) -> Option<&'a State> {
         self.states.iter().find(|state| state.id == id)
     }
@@ -43,7 +67,7 @@ impl<'a> Scene<'a> {
                 .entry(state.class)
                 .or_insert(Class { state, copies: 0 });
             entry.copies += 1;
-            if self.from_bound(state) < self.from_bound(entry.state) - 1e-9 {
+            if self.distance_from_bound(state) < self.distance_from_bound(entry.state) - 1e-9 {
                 entry.state = state;
             }
         }
@@ -53,7 +77,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Distance of a state from the bound configuration (m).
-    fn from_bound(&self, state: &State) -> f64 {
+    fn distance_from_bound(&self, state: &State) -> f64 {
         self.space.distance(&state.configuration, &self.bound)
     }
 
@@ -66,32 +90,21 @@ impl<'a> Scene<'a> {
     }
 
     /// The way out of each class over its lowest barrier, the deepest class first; only those with
-    /// a pathway. Among equals the pathway of the copy nearest to the bound configuration.
-    pub fn escapes(&self) -> Vec<&'a Barrier> {
-        let mut escapes: Vec<&Barrier> = Vec::new();
-        for class in self.classes() {
-            let distance = |barrier: &Barrier| match barrier.from {
-                Place::State(id) => self.state(id).map_or(f64::INFINITY, |s| self.from_bound(s)),
-                Place::Free => f64::INFINITY,
-            };
-            let way_out = self
-                .barriers
-                .iter()
-                .filter(|barrier| barrier.pathway.len() > 1)
-                .filter(|barrier| self.class_of(barrier.from) == Some(class.state.class))
-                .filter(|barrier| self.class_of(barrier.to) != Some(class.state.class))
-                .min_by(|a, b| {
-                    let close = 1e-9 * (a.saddle_energy.abs() + b.saddle_energy.abs());
-                    let by_distance = distance(a).total_cmp(&distance(b));
-                    if (a.saddle_energy - b.saddle_energy).abs() <= close {
-                        by_distance
-                    } else {
-                        a.saddle_energy.total_cmp(&b.saddle_energy)
-                    }
-                });
-            escapes.extend(way_out);
-        }
-        escapes
+    /// a pathway.
+    pub fn main_escapes(&self) -> Vec<&'a Barrier> {
+        self.classes()
+            .into_iter()
+            .filter_map(|class| {
+                let from = Place::State(class.state.id);
+                self.escapes.iter().flatten().find(|b| b.from == from)
+            })
+            .filter(|barrier| barrier.pathway.len() > 1)
+            .collect()
+    }
+
+    /// All barriers, the escapes among them.
+    pub fn all_barriers(&self) -> impl Iterator<Item = &'a Barrier> {
+        self.escapes.iter().flatten().chain(self.barriers)
     }
 
     /// The way from far away into the bound state nearest to the bound configuration.
@@ -102,7 +115,7 @@ impl<'a> Scene<'a> {
                 .filter(|state| state.kind == StateKind::Bound),
             Place::Free => None,
         };
-        let ways = self.barriers.iter().filter_map(|barrier| {
+        let ways = self.all_barriers().filter_map(|barrier| {
             if barrier.pathway.len() < 2 {
                 return None;
             }
@@ -112,8 +125,11 @@ impl<'a> Scene<'a> {
                 _ => None,
             }
         });
-        ways.min_by(|(a, _), (b, _)| self.from_bound(a).total_cmp(&self.from_bound(b)))
-            .map(|(_, pathway)| pathway)
+        ways.min_by(|(a, _), (b, _)| {
+            self.distance_from_bound(a)
+                .total_cmp(&self.distance_from_bound(b))
+        })
+        .map(|(_, pathway)| pathway)
     }
 
     /// The marker of a place.

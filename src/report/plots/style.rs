@@ -23,7 +23,8 @@ pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub const YELLOW: RGBColor = RGBColor(240, 228, 66);
 pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 
-const FAMILY: FontFamily = FontFamily::Name("Noto Sans, Helvetica, Arial, sans-serif");
+/// Fonts of about the width that labels are laid out for, the last of them any browser's own.
+pub const FAMILY: &str = "Noto Sans, Helvetica, Arial, sans-serif";
 /// Sizes of text (pixels).
 pub const TITLE: f64 = 20.0;
 pub const LABEL: f64 = 15.0;
@@ -83,7 +84,7 @@ impl Text {
         } else {
             FontStyle::Normal
         };
-        FontDesc::new(FAMILY, size, weight)
+        FontDesc::new(FontFamily::Name(FAMILY), size, weight)
             .color(&self.colour)
             .pos(Pos::new(horizontal, vertical))
     }
@@ -229,4 +230,30 @@ pub fn pixel(chart: &Chart, x: f64, y: f64) -> (f64, f64) {
         f64::from(x) / f64::from(UNITS),
         f64::from(y) / f64::from(UNITS),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_numbers_within_the_range() {
+        let labels = |axis: Axis| -> Vec<String> {
+            axis.ticks.into_iter().map(|(_, label)| label).collect()
+        };
+        let wide = labels(Axis::linear(-0.73..0.73, 7, "x (m)"));
+        assert_eq!(wide, ["\u{2212}0.5", "0.0", "0.5"]);
+        let gaps = labels(Axis::linear(0.0..86.0, 9, "gap (mm)"));
+        assert_eq!(gaps[..3], ["0", "10", "20"]);
+        assert_eq!(gaps.len(), 9);
+    }
+
+    #[test]
+    fn text_has_the_width_of_its_font() {
+        let text = Text::new(20.0);
+        assert_eq!(text.width(""), 0.0);
+        // Digits of Noto Sans are 0.572 em wide.
+        assert!((text.width("00") - 22.88).abs() < 0.01);
+        assert!(text.bold().width("m") > text.width("m"));
+    }
 }

@@ -1,0 +1,138 @@
+//! Certified bounds for the barriers of an inventory.
+
+use std::time::{Duration, Instant};
+
+use crate::analysis::Settings;
+use crate::configuration::Configuration;
+use crate::design::{Design, MagnetModel};
+use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
+use crate::landscape::inventory::Inventory;
+use crate::landscape::{Barrier, Place, StateKind, pathway};
+use crate::pipeline::{self, Observer};
+use crate::potential::bounds::DipoleBounds;
+use crate::problem::Problem;
+
+/// Cells spent on one barrier at most, so that a hard one leaves time for the others.
+const MOST_CELLS: usize = 1_000_000;
+/// Energy tolerance of pathways, as a fraction of the bond's depth.
+const BEND: f64 = 1e-3;
+
+/// Brackets every barrier of an inventory between two bounds that hold for the model, and takes
+/// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
+/// proof is tried that there is none. Returns the number of cells assessed.
+///
+/// The bounds are narrowed to `settings.tolerance`; after `settings.certify_seconds` in all, the
+/// bounds known by then are kept, so that only results within the limit are the same on every
+/// machine. Nothing is certified for magnets modelled as blocks.
+pub fn certify(
+    design: &Design,
+    problem: &Problem,
+    inventory: &mut Inventory,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> usize {
+    let limit = Duration::from_secs_f64(settings.certify_seconds.clamp(0.0, 1e9));
+    // Bounds over cells are known for point dipoles only.
+    if limit.is_zero() || design.model != MagnetModel::Dipole {
+        return 0;
+    }
+    let depth = pipeline::energy_scale(design, problem);
+    let tolerance = settings.tolerance.unwrap_or(0.01 * depth);
+    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
+    let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
+    let since = Instant::now();
+    inventory.barriers.extend(missing_way_out(inventory));
+    let count = inventory.barriers.len();
+    for number in 0..count {
+        observer.part("certificate", number, count);
+        let barrier = &mut inventory.barriers[number];
+        let Place::State(from) = barrier.from else {
+            continue;
+        };
+        let to = match barrier.to {
+            Place::State(to) => End::At(inventory.states[to].configuration),
+            Place::Free => End::Free,
+        };
+        let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+        let effort = Effort {
+            tolerance,
+            cells: MOST_CELLS,
+            time: Some(limit.saturating_sub(since.elapsed())),
+        };
+        let start = inventory.states[from].configuration;
+        if let Ok(bracket) = certifier.bracket(&start, &to, &known, &effort) {
+            take_over(problem, barrier, &bracket, BEND * depth);
+        }
+    }
+    spread_to_escapes(inventory);
+    certifier.assessed()
+}
+
+/// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and
+/// infinite.
+fn missing_way_out(inventory: &Inventory) -> Option<Barrier> {
+    let bound = inventory
+        .states
+        .first()
+        .filter(|state| state.kind == StateKind::Bound)?;
+    let place = Place::State(bound.id);
+    if inventory
+        .barriers
+        .iter()
+        .any(|b| b.from == place && b.to == Place::Free)
+    {
+        return None;
+    }
+    Some(Barrier {
+        from: place,
+        to: Place::Free,
+        saddle_energy: f64::INFINITY,
+        saddle: bound.configuration,
+        lower: None,
+        upper: None,
+        caged: false,
+        from_energy: bound.energy,
+        to_energy: 0.0,
+        spread: None,
+        pathway: Vec::new(),
+    })
+}
+
+fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
+    barrier.lower = bracket.lower.is_finite().then_some(bracket.lower);
+    barrier.upper = bracket.upper;
+    barrier.caged = bracket.caged;
+    if !bracket.improved {
+        return;
+    }
+    let pathway = pathway::of_configurations(problem, &bracket.pathway, bend);
+    let highest = pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy));
+    if let Some(highest) = highest {
+        barrier.saddle_energy = highest.energy;
+        barrier.saddle = highest.configuration;
+        barrier.pathway = pathway;
+    }
+}
+
+/// Gives the bounds of a class's escape to the escapes of all its states, and a lower pathway to
+/// the escape of its first.
+fn spread_to_escapes(inventory: &mut Inventory) {
+    for id in 0..inventory.states.len() {
+        let class = inventory.states[id].class;
+        let Some(to) = inventory.escapes[class].as_ref().map(|escape| escape.to) else {
+            continue;
+        };
+        let certified = inventory
+            .barriers
+            .iter()
+            .find(|barrier| barrier.from == Place::State(class) && barrier.to == to);
+        if let (Some(certified), Some(escape)) = (certified, &mut inventory.escapes[id]) {
+            if id == class {
+                *escape = certified.clone();
+            } else {
+                escape.lower = certified.lower;
+                escape.upper = certified.upper;
+            }
+        }
+    }
+}

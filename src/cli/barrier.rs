@@ -1,0 +1,157 @@
+//! `tilebind barrier`.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use serde::Serialize;
+use tilebind::Configuration;
+use tilebind::analysis::Settings;
+use tilebind::landscape::certificate::End;
+use tilebind::query::{self, Answer, Query, QueryError};
+use tilebind::report::{csv, json, writer};
+
+use super::progress::Progress;
+use super::{Failure, input, interrupt, print};
+
+/// Print the barrier between two poses, between certified bounds, as JSON
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+The barrier is the lowest possible value of the highest energy on the way, over all ways.
+
+Examples:
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0.04,0 --to 0.43,0,0
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv"
+)]
+pub struct Barrier {
+    /// The design file
+    design: PathBuf,
+
+    /// Pose at which the way starts (m, m, rad)
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = input::pose)]
+    from: Configuration,
+
+    /// Pose at which it ends, or `free`: anywhere with the tiles far apart
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = end)]
+    to: End,
+
+    /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    tolerance: Option<f64>,
+
+    /// Stop narrowing the bounds after this time (s); 0 for no bounds
+    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
+    certify_seconds: f64,
+
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Milestones of the roadmap
+    #[arg(long, value_name = "N", default_value_t = 8000,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    milestones: u32,
+
+    /// File for the pathway (CSV)
+    #[arg(long, value_name = "FILE")]
+    pathway: Option<PathBuf>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Print no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// A barrier as in report.json, its ends given by their poses.
+#[derive(Serialize)]
+#[allow(non_snake_case)]
+struct Entry {
+    from: [f64; 3],
+    to: EndEntry,
+    /// Null where there is no way.
+    saddle_energy_J: f64,
+    saddle_pose: Option<[f64; 3]>,
+    lower_J: Option<f64>,
+    upper_J: Option<f64>,
+    forward_J: f64,
+    reverse_J: f64,
+    /// Proved that there is no way.
+    caged: bool,
+    pathway: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum EndEntry {
+    Pose([f64; 3]),
+    Place(&'static str),
+}
+
+impl Barrier {
+    pub fn run(self) -> Result<(), Failure> {
+        let design = input::load(&self.design)?;
+        input::use_threads(self.threads)?;
+        interrupt::prepare()?;
+        let progress = Progress::new(self.quiet);
+        let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
+            let message = error.to_string();
+            match error {
+                QueryError::NoWay => Failure::Run(message),
+                _ => Failure::Usage(message),
+            }
+        })?;
+        progress.finish();
+        if let Some(file) = &self.pathway {
+            let table = csv::pathway(&answer.pathway);
+            interrupt::without(|| writer::write_file(file, table.as_bytes()))?;
+        }
+        print(&json::text(&self.entry(&answer)))
+    }
+
+    fn query(&self) -> Query {
+        Query {
+            from: self.from,
+            to: self.to,
+            settings: Settings {
+                seed: self.seed,
+                milestones: self.milestones as usize,
+                ..Settings::default()
+            },
+            tolerance: self.tolerance,
+            certify: Duration::from_secs_f64(self.certify_seconds.min(1e9)),
+        }
+    }
+
+    fn entry(&self, answer: &Answer) -> Entry {
+        Entry {
+            from: self.from.to_array(),
+            to: match self.to {
+                End::At(pose) => EndEntry::Pose(pose.to_array()),
+                End::Free => EndEntry::Place("free"),
+            },
+            saddle_energy_J: json::positive_zero(answer.saddle_energy),
+            saddle_pose: answer.saddle.map(|q| q.to_array().map(json::positive_zero)),
+            lower_J: answer.lower.filter(|lower| lower.is_finite()),
+            upper_J: answer.upper,
+            forward_J: json::positive_zero(answer.forward()),
+            reverse_J: json::positive_zero(answer.reverse()),
+            caged: answer.caged,
+            pathway: self.pathway.clone(),
+        }
+    }
+}
+
+/// A pose or `free`.
+fn end(text: &str) -> Result<End, String> {
+    match text {
+        "free" => Ok(End::Free),
+        _ => input::pose(text)
+            .map(End::At)
+            .map_err(|error| format!("{error}; or `free`")),
+    }
+}

@@ -1,0 +1,197 @@
+//! `tilebind dock`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::dynamics::docking::{self, Docking, DockingError, DockingMap, DockingSettings, End};
+use tilebind::dynamics::{Fan, Sample};
+use tilebind::report::plots::dock;
+use tilebind::report::{docking as report, writer};
+
+use super::progress::Progress;
+use super::{Failure, input, interrupt, print};
+
+/// Send the moving tile towards the fixed one many times and count how it ends
+#[derive(Args)]
+#[command(after_help = "\
+Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
+one, speed, and the velocity's direction about that to the fixed tile. Without --engine the table
+has its rim and the drag is 0.005 per second.
+
+Examples:
+  tilebind dock shapes/paper-tile.toml --runs 2000 --engine
+  tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
+  tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5")]
+pub struct Dock {
+    /// The design file
+    design: PathBuf,
+
+    /// Trajectories
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+
+    /// Folder for dock.json, runs.csv, map.csv, trajectory.csv and the pictures
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Seed of all random numbers; a trajectory depends on it and on its own number only
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// How long each trajectory lasts (s)
+    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = input::positive)]
+    duration: f64,
+
+    /// The experiment made with the Open Dynamics Engine too: drag 0.5 per second, no rim
+    #[arg(long, conflicts_with_all = ["drag", "no_walls", "fan", "shaking", "duration"])]
+    engine: bool,
+
+    /// Drag rate (1/s)
+    #[arg(long, value_name = "C", default_value_t = 0.005, value_parser = input::not_negative)]
+    drag: f64,
+
+    /// Coefficient of friction between the tiles and of a tile and the rim
+    #[arg(long, value_name = "MU", default_value_t = 0.3, value_parser = input::not_negative)]
+    friction: f64,
+
+    /// Lets tiles leave the table
+    #[arg(long)]
+    no_walls: bool,
+
+    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m)
+    #[arg(long, value_name = "X,Y,E_J,S", allow_hyphen_values = true, value_parser = fan)]
+    fan: Vec<Fan>,
+
+    /// Effective energy kT (J) of a random shaking force
+    #[arg(long, value_name = "E_J", value_parser = input::not_negative)]
+    shaking: Option<f64>,
+
+    /// Number of the trajectory that is written to trajectory.csv [default: the first bound one]
+    #[arg(long, value_name = "N")]
+    trajectory: Option<u32>,
+
+    /// Threads [default: all cores]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Print dock.json instead of the summary
+    #[arg(long)]
+    json: bool,
+
+    /// Print neither progress nor the summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Cells of the map along the orientation and the speed.
+const CELLS: [usize; 2] = [12, 13];
+/// Trajectories on the picture.
+const DRAWN: usize = 60;
+/// Time between two points of a trajectory that is drawn or written (s).
+const INTERVAL: f64 = 0.02;
+
+impl Dock {
+    pub fn run(self) -> Result<(), Failure> {
+        let design = input::load(&self.design)?;
+        input::use_threads(self.threads)?;
+        interrupt::prepare()?;
+        let settings = self.settings();
+        let progress = Progress::new(self.quiet);
+        let done = std::sync::atomic::AtomicUsize::new(0);
+        let step = || {
+            let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            progress.share("trajectories", done as f64 / settings.runs as f64);
+        };
+        let docking = docking::dock(&design, &settings, &step).map_err(usage)?;
+        let map = DockingMap::new(&docking, CELLS);
+        let json = report::json(&design, &docking, &map);
+        if let Some(folder) = &self.out {
+            let mut files = vec![
+                ("dock.json", json.clone().into_bytes()),
+                ("runs.csv", report::runs_csv(&docking).into_bytes()),
+                ("map.csv", map.csv().into_bytes()),
+            ];
+            let trace = |index| docking::trajectory(&design, &settings, index, INTERVAL);
+            let picked = trace(self.picked(&docking)).map_err(usage)?;
+            files.push((
+                "trajectory.csv",
+                report::trajectory_csv(&picked).into_bytes(),
+            ));
+            let drawn: Vec<(End, Vec<Sample>)> = docking
+                .runs
+                .iter()
+                .take(DRAWN)
+                .map(|run| Ok((run.end, trace(run.index)?)))
+                .collect::<Result<_, _>>()
+                .map_err(usage)?;
+            let picture = |error| Failure::from(writer::WriteError::from(error));
+            let chances = dock::map(&design, &map).map_err(picture)?;
+            let paths = dock::trajectories(&design, &drawn).map_err(picture)?;
+            files.push(("chances.svg", chances.svg.into_bytes()));
+            files.push(("chances.png", chances.png));
+            files.push(("trajectories.svg", paths.svg.into_bytes()));
+            files.push(("trajectories.png", paths.png));
+            interrupt::without(|| {
+                files
+                    .iter()
+                    .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
+            })?;
+        }
+        progress.finish();
+        if self.json {
+            print(&json)
+        } else if self.quiet {
+            Ok(())
+        } else {
+            print(&report::summary(&design, &docking, &map))
+        }
+    }
+
+    fn settings(&self) -> DockingSettings {
+        let mut settings = if self.engine {
+            DockingSettings::engine_comparison()
+        } else {
+            DockingSettings::default()
+        };
+        if !self.engine {
+            settings.motion.drag = self.drag;
+            settings.motion.walls = !self.no_walls;
+            settings.motion.fans.clone_from(&self.fan);
+            settings.motion.shaking = self.shaking;
+            settings.duration = self.duration;
+        }
+        settings.motion.friction = self.friction;
+        settings.runs = self.runs as usize;
+        settings.seed = self.seed;
+        settings
+    }
+
+    fn picked(&self, docking: &Docking) -> usize {
+        self.trajectory.map_or_else(
+            || {
+                let bound = docking.runs.iter().find(|run| run.is_bound());
+                bound.map_or(0, |run| run.index)
+            },
+            |index| index as usize,
+        )
+    }
+}
+
+fn usage(error: DockingError) -> Failure {
+    Failure::Usage(error.to_string())
+}
+
+/// A fan as `X,Y,E_J,S`.
+fn fan(text: &str) -> Result<Fan, String> {
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as 0.6,0.6,1e-3,0.2";
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect::<Option<_>>()
+        .ok_or(FORM)?;
+    match numbers[..] {
+        [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
+        _ => Err(FORM.to_owned()),
+    }
+}

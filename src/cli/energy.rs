@@ -1,0 +1,75 @@
+//! `tilebind energy`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use tilebind::design::MagnetModel;
+use tilebind::report::json;
+use tilebind::{Configuration, Problem, pipeline};
+
+use super::{Failure, input, print};
+
+/// Print energy, force, torque and clearance at given poses, as JSON
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  tilebind energy shapes/paper-tile.toml --pose 0.43,0,0 --pose 0.43,-0.04,0")]
+pub struct Energy {
+    /// The design file
+    design: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    model: Option<MagnetModel>,
+
+    /// Pose of the moving tile in the fixed tile's frame (m, m, rad); may be repeated
+    #[arg(
+        long = "pose",
+        value_name = "X,Y,THETA",
+        required = true,
+        allow_hyphen_values = true,
+        value_parser = input::pose
+    )]
+    poses: Vec<Configuration>,
+}
+
+/// What is known of a pose.
+#[derive(Serialize)]
+#[allow(non_snake_case)]
+struct Entry {
+    pose: [f64; 3],
+    energy_J: f64,
+    /// On the moving tile.
+    force_N: [f64; 2],
+    /// On the moving tile, about its reference point.
+    torque_Nm: f64,
+    /// Negative where the tiles overlap.
+    clearance_m: f64,
+    free: bool,
+}
+
+impl Energy {
+    pub fn run(self) -> Result<(), Failure> {
+        let design = input::load_as(&self.design, self.model)?;
+        let problem = pipeline::problem(&design);
+        let entries: Vec<Entry> = self.poses.iter().map(|q| entry(&problem, q)).collect();
+        print(&json::text(&entries))
+    }
+}
+
+fn entry(problem: &Problem, q: &Configuration) -> Entry {
+    let (energy, gradient) = problem.energy_and_gradient(q);
+    let free = problem.is_clear(q);
+    let clearance = problem.clearance(q);
+    let [fx, fy, torque] = [-gradient.x, -gradient.y, -gradient.z].map(json::positive_zero);
+    Entry {
+        pose: q.to_array().map(json::positive_zero),
+        energy_J: json::positive_zero(energy),
+        force_N: [fx, fy],
+        torque_Nm: torque,
+        // Tiles that touch may overlap by a rounding error.
+        clearance_m: json::positive_zero(if free { clearance.max(0.0) } else { clearance }),
+        free,
+    }
+}

@@ -1,0 +1,59 @@
+//! How a command ends when it does not succeed.
+
+use std::io;
+use std::process::ExitCode;
+
+use tilebind::design::DesignError;
+use tilebind::report::writer::WriteError;
+
+/// Exit status of a command that was interrupted (`EX_TEMPFAIL` of sysexits.h).
+pub const INTERRUPTED: u8 = 75;
+
+/// Why a command did not do what was asked of it.
+#[derive(Debug)]
+pub enum Failure {
+    /// The command line or a design file is wrong: status 2.
+    Usage(String),
+    /// The run failed: status 1.
+    Run(String),
+    /// Nobody reads the output any more: no failure of ours, status 0.
+    OutputClosed,
+}
+
+impl Failure {
+    /// Tells the user and gives the exit status.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Self::Usage(message) => {
+                eprintln!("error: {message}");
+                ExitCode::from(2)
+            }
+            Self::Run(message) => {
+                eprintln!("error: {message}");
+                ExitCode::from(1)
+            }
+            Self::OutputClosed => ExitCode::SUCCESS,
+        }
+    }
+}
+
+impl From<DesignError> for Failure {
+    fn from(error: DesignError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::Run(error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::OutputClosed,
+            _ => Self::Run(format!("cannot write the results: {error}")),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What users type: designs, poses, numbers with limits.
+
+use std::path::Path;
+
+use tilebind::Configuration;
+use tilebind::design::{Design, MagnetModel};
+
+use super::Failure;
+
+/// Reads a design; its warnings go to standard error.
+pub fn load(path: &Path) -> Result<Design, Failure> {
+    let design = Design::load(path)?;
+    for warning in &design.warnings {
+        eprintln!("warning: {warning}");
+    }
+    Ok(design)
+}
+
+/// A design with its magnets modelled as `model` says, if it says so.
+pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
+    let mut design = load(path)?;
+    design.model = model.unwrap_or(design.model);
+    Ok(design)
+}
+
+/// A magnet model by the name that design files use.
+pub fn model(text: &str) -> Result<MagnetModel, String> {
+    MagnetModel::NAMES
+        .into_iter()
+        .find(|(name, _)| *name == text)
+        .map(|(_, model)| model)
+        .ok_or_else(|| "a model is dipole or cuboid".to_owned())
+}
+
+/// A pose as `X,Y,THETA` (m, m, rad).
+pub fn pose(text: &str) -> Result<Configuration, String> {
+    const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0";
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect::<Option<_>>()
+        .ok_or(FORM)?;
+    let numbers: [f64; 3] = numbers.try_into().map_err(|_| FORM)?;
+    Ok(numbers.into())
+}
+
+/// A positive number.
+pub fn positive(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x > 0.0)
+        .ok_or_else(|| "a number greater than 0 is needed".to_owned())
+}
+
+/// A number that is not negative.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x >= 0.0)
+        .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+}
+
+/// A fraction greater than 0 and less than 1.
+pub fn fraction(text: &str) -> Result<f64, String> {
+    positive(text)
+        .ok()
+        .filter(|x| *x < 1.0)
+        .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+}
+
+/// Sets the number of threads, all cores where `None`.
+pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build_global()
+        .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses() {
+        assert_eq!(pose("0.43,-1e-2,0").unwrap().to_array(), [0.43, -0.01, 0.0]);
+        assert_eq!(pose("-1, 2 ,-3").unwrap().to_array(), [-1.0, 2.0, -3.0]);
+        for wrong in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,NaN", "1,inf,0"] {
+            assert!(pose(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn limits() {
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
+        assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+    }
+}

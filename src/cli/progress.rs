@@ -1,0 +1,55 @@
+//! Progress on a terminal; silence anywhere else.
+
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tilebind::pipeline::Observer;
+
+/// Steps of the bar.
+const STEPS: u64 = 100;
+
+/// A bar with the name of the stage, on standard error.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar where standard error is a terminal and `quiet` is not asked for.
+    pub fn new(quiet: bool) -> Self {
+        let shown = !quiet && std::io::stderr().is_terminal();
+        let target = if shown {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {elapsed:>4}  {msg}") {
+            bar.set_style(style);
+        }
+        if shown {
+            bar.enable_steady_tick(Duration::from_millis(200));
+        }
+        Self(bar)
+    }
+
+    /// Shows what is being done and which share of it (0 to 1) is behind.
+    pub fn share(&self, name: &'static str, share: f64) {
+        self.0.set_position((share * STEPS as f64) as u64);
+        self.0.set_message(name);
+    }
+
+    /// Takes the bar off the terminal.
+    pub fn finish(&self) {
+        self.0.finish_and_clear();
+    }
+}
+
+impl Observer for Progress {
+    fn stage(&self, name: &'static str, share: f64) {
+        self.share(name, share);
+    }
+
+    fn part(&self, name: &'static str, done: usize, count: usize) {
+        self.0
+            .set_message(format!("{name}, {done} of {count} done"));
+    }
+}

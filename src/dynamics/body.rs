@@ -1,0 +1,81 @@
+//! The moving tile as a rigid body.
+
+use nalgebra::{Vector2, Vector3};
+
+use crate::configuration::{Configuration, wrap_angle};
+use crate::tile::Tile;
+
+/// Mass and inertia of the moving tile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass (kg m^2).
+    pub inertia: f64,
+    /// Centre of mass in the tile's frame (m).
+    pub centre: Vector2<f64>,
+}
+
+/// Where the moving tile is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    pub configuration: Configuration,
+    /// Velocity of the centre of mass (m/s, m/s) and turning rate (rad/s).
+    pub velocity: Vector3<f64>,
+}
+
+/// The centre of mass (m), the orientation (rad, not wrapped) and their rates of change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Phase {
+    pub place: Vector3<f64>,
+    pub velocity: Vector3<f64>,
+}
+
+impl Body {
+    /// The body of a tile whose mass is spread evenly over its outline.
+    pub fn of_tile(tile: &Tile) -> Self {
+        Self {
+            mass: tile.mass,
+            inertia: tile.inertia(),
+            centre: tile.outline.centroid(),
+        }
+    }
+
+    /// Kinetic energy (J): `m |v|^2 / 2 + I w^2 / 2`.
+    pub fn kinetic_energy(&self, velocity: &Vector3<f64>) -> f64 {
+        0.5 * (self.mass * velocity.xy().norm_squared() + self.inertia * velocity.z * velocity.z)
+    }
+
+    /// Mass, mass and moment of inertia: the diagonal of the mass matrix about the centre of mass.
+    pub fn masses(&self) -> Vector3<f64> {
+        Vector3::new(self.mass, self.mass, self.inertia)
+    }
+
+    pub(super) fn phase(&self, motion: &Motion) -> Phase {
+        let q = &motion.configuration;
+        let centre = q.transform(self.centre);
+        Phase {
+            place: Vector3::new(centre.x, centre.y, q.theta),
+            velocity: motion.velocity,
+        }
+    }
+
+    pub(super) fn motion(&self, phase: &Phase) -> Motion {
+        Motion {
+            configuration: self.configuration(&phase.place),
+            velocity: phase.velocity,
+        }
+    }
+
+    /// The configuration whose centre of mass and orientation are given.
+    pub(super) fn configuration(&self, place: &Vector3<f64>) -> Configuration {
+        let theta = wrap_angle(place.z);
+        let lever = self.lever(theta);
+        Configuration::new(place.x - lever.x, place.y - lever.y, theta)
+    }
+
+    /// The centre of mass as seen from the reference point, in the table's axes (m).
+    pub(super) fn lever(&self, theta: f64) -> Vector2<f64> {
+        Configuration::new(0.0, 0.0, theta).rotation() * self.centre
+    }
+}

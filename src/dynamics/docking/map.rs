@@ -1,0 +1,93 @@
+//! The chance of a match over orientation and speed: the paper's figure 6.
+
+use super::Docking;
+use crate::landscape::Proportion;
+
+/// One cell of the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapCell {
+    /// Relative orientation (rad), lowest and highest.
+    pub orientation: [f64; 2],
+    /// Speed (m/s), lowest and highest.
+    pub speed: [f64; 2],
+    pub matched: Proportion,
+}
+
+/// Chances of a match over relative orientation and speed at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DockingMap {
+    /// Cells along the orientation and along the speed.
+    pub size: [usize; 2],
+    /// Cells, orientation by orientation within each speed.
+    pub cells: Vec<MapCell>,
+}
+
+impl DockingMap {
+    /// The trajectories of an experiment sorted into `size` cells over the range of its starts.
+    pub fn new(docking: &Docking, size: [usize; 2]) -> Self {
+        let starts = &docking.settings.starts;
+        let across = [-starts.orientation, starts.orientation];
+        let up = starts.speed;
+        let cell = |value: f64, [low, high]: [f64; 2], n: usize| {
+            let t = (value - low) / (high - low).max(f64::MIN_POSITIVE) * n as f64;
+            (t.max(0.0) as usize).min(n - 1)
+        };
+        let mut counts = vec![(0, 0); size[0] * size[1]];
+        for run in &docking.runs {
+            let i = cell(run.start.orientation, across, size[0]);
+            let j = cell(run.start.speed, up, size[1]);
+            let count = &mut counts[j * size[0] + i];
+            count.0 += usize::from(run.is_bound());
+            count.1 += 1;
+        }
+        let ends = |k: usize, [low, high]: [f64; 2], n: usize| {
+            [k, k + 1].map(|k| low + (high - low) * k as f64 / n as f64)
+        };
+        let cells = counts
+            .iter()
+            .enumerate()
+            .map(|(k, &(matched, of))| MapCell {
+                orientation: ends(k % size[0], across, size[0]),
+                speed: ends(k / size[0], up, size[1]),
+                matched: Proportion::new(matched, of),
+            });
+        Self {
+            cells: cells.collect(),
+            size,
+        }
+    }
+
+    /// Counts and intervals, one cell a line.
+    pub fn csv(&self) -> String {
+        let head = "orientation_low_rad,orientation_high_rad,speed_low_m_per_s,speed_high_m_per_s,\
+                    matched,runs,share,share_low,share_high\n";
+        let lines = self.cells.iter().map(|cell| {
+            let ([a, b], [c, d], p) = (cell.orientation, cell.speed, cell.matched);
+            format!(
+                "{a:.4},{b:.4},{c:.4},{d:.4},{},{},{:.6},{:.6},{:.6}\n",
+                p.count,
+                p.of,
+                p.share(),
+                p.low,
+                p.high
+            )
+        });
+        std::iter::once(head.to_owned()).chain(lines).collect()
+    }
+}
+
+/// Share matched of the trajectories that started with an orientation and a speed in the given
+/// ranges (rad, m/s).
+pub fn share_within(docking: &Docking, orientation: [f64; 2], speed: [f64; 2]) -> Proportion {
+    let inside = |value: f64, [low, high]: [f64; 2]| value >= low && value <= high;
+    let chosen = docking
+        .runs
+        .iter()
+        .filter(|run| inside(run.start.orientation, orientation) && inside(run.start.speed, speed));
+    let (mut matched, mut of) = (0, 0);
+    for run in chosen {
+        matched += usize::from(run.is_bound());
+        of += 1;
+    }
+    Proportion::new(matched, of)
+}

@@ -1,0 +1,85 @@
+//! When the tiles are matched.
+
+use nalgebra::Vector2;
+
+use super::DockingError;
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::symmetry::Symmetry;
+
+/// A match as the paper declares it: every magnet of the target face is within a threshold of its
+/// partner on the other tile. Faces that a symmetry of the tiles maps onto the target faces count
+/// as much as these.
+#[derive(Clone, Debug)]
+pub struct MatchRule {
+    /// Largest distance of two partners' centres (m).
+    pub threshold: f64,
+    /// Centres of the partners in the fixed and in the moving tile's frame (m).
+    pairs: Vec<(Vector2<f64>, Vector2<f64>)>,
+    symmetries: Vec<Symmetry>,
+}
+
+impl MatchRule {
+    /// The rule of a design. Without a `threshold` (m) it is 1.5 lengths of the longest magnet of
+    /// the target face; where partners are more than one length apart in the bound configuration,
+    /// that distance and half a length.
+    ///
+    /// # Errors
+    /// Where one of the target faces has no magnets.
+    pub fn new(design: &Design, threshold: Option<f64>) -> Result<Self, DockingError> {
+        let on = |magnets: &'_ [crate::tile::Magnet], face: usize| -> Vec<_> {
+            magnets.iter().filter(|m| m.face == face).cloned().collect()
+        };
+        let fixed = on(&design.fixed.magnets, design.target.0);
+        let moving = on(&design.moving.magnets, design.target.1);
+        let apart = |a: &Vector2<f64>, b: &Vector2<f64>| (design.bound.transform(*b) - a).norm();
+        let mut pairs = Vec::new();
+        for magnet in &fixed {
+            let partner = moving
+                .iter()
+                .map(|m| m.position)
+                .min_by(|a, b| apart(&magnet.position, a).total_cmp(&apart(&magnet.position, b)));
+            pairs.extend(partner.map(|partner| (magnet.position, partner)));
+        }
+        if pairs.is_empty() {
+            return Err(DockingError::NoMagnets);
+        }
+        let length = fixed
+            .iter()
+            .chain(&moving)
+            .map(|m| m.size[0])
+            .fold(0.0, f64::max);
+        let bound = pairs
+            .iter()
+            .map(|(a, b)| apart(a, b))
+            .fold(length, f64::max);
+        Ok(Self {
+            threshold: threshold.unwrap_or(bound + 0.5 * length),
+            pairs,
+            symmetries: Symmetry::all(&design.fixed, &design.moving),
+        })
+    }
+
+    /// Whether the tiles are matched at `q`.
+    pub fn holds(&self, q: &Configuration) -> bool {
+        self.symmetries.iter().any(|symmetry| {
+            let image = symmetry.apply(q);
+            self.pairs
+                .iter()
+                .all(|(a, b)| (image.transform(*b) - a).norm() <= self.threshold)
+        })
+    }
+
+    /// The distance (metric of the space) of `q` to the nearest symmetric copy of `other`.
+    pub(super) fn distance(
+        &self,
+        space: &crate::ConfigurationSpace,
+        q: &Configuration,
+        other: &Configuration,
+    ) -> f64 {
+        self.symmetries
+            .iter()
+            .map(|symmetry| space.distance(&symmetry.apply(q), other))
+            .fold(f64::INFINITY, f64::min)
+    }
+}

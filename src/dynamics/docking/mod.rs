@@ -1,0 +1,357 @@
+//! Docking: what becomes of tiles that are sent towards each other.
+
+mod map;
+mod matching;
+mod rate;
+mod starts;
+
+pub use map::{DockingMap, MapCell, share_within};
+pub use matching::MatchRule;
+pub use rate::OnRate;
+pub use starts::{Start, Starts, stream};
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::{Body, MotionSettings, Sample, SettingsError, Simulation, Stop};
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::Proportion;
+use crate::landscape::minimum::{Outcome, drift};
+use crate::pipeline;
+use crate::problem::Problem;
+
+/// Two resting places closer than this (m, metric of the space) lie in the same trap.
+const SAME_TRAP: f64 = 5e-3;
+/// Steps in contact between two looks at whether the tiles are matched.
+const STEPS_BETWEEN_LOOKS: usize = 5;
+
+/// All that decides a docking experiment, besides the design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DockingSettings {
+    pub runs: usize,
+    pub seed: u64,
+    /// How long each trajectory lasts (s).
+    pub duration: f64,
+    pub starts: Starts,
+    pub motion: MotionSettings,
+    /// Threshold of a match (m); see [`MatchRule::new`] where `None`.
+    pub threshold: Option<f64>,
+}
+
+impl Default for DockingSettings {
+    fn default() -> Self {
+        Self {
+            runs: 2000,
+            seed: 1,
+            duration: 5.0,
+            starts: Starts::default(),
+            motion: MotionSettings::default(),
+            threshold: None,
+        }
+    }
+}
+
+impl DockingSettings {
+    /// The experiment that was also made with the Open Dynamics Engine on the paper's tile: the
+    /// default starts, drag 0.5 per second, no rim, 5 s. See [`ENGINE`] for what it found.
+    pub fn engine_comparison() -> Self {
+        Self {
+            motion: MotionSettings {
+                drag: 0.5,
+                walls: false,
+                ..MotionSettings::default()
+            },
+            ..Self::default()
+        }
+    }
+}
+
+/// What the Open Dynamics Engine found in [`DockingSettings::engine_comparison`] on the paper's
+/// tile, with 2000 starts at steps of 1 ms to 0.2 ms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineFigures {
+    /// Share matched, lowest and highest over the steps.
+    pub matched: [f64; 2],
+    /// Half width of the interval of a share.
+    pub margin: f64,
+    /// Share slid, about.
+    pub slid: f64,
+    /// Range of speeds (m/s) in which most match, and the share there.
+    pub best: ([f64; 2], f64),
+}
+
+/// See [`EngineFigures`].
+pub const ENGINE: EngineFigures = EngineFigures {
+    matched: [0.072, 0.082],
+    margin: 0.011,
+    slid: 0.04,
+    best: ([0.2, 0.6], 0.12),
+};
+
+/// Why docking could not be simulated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DockingError {
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error("a match is declared by the magnets of the target faces, but one of them has none")]
+    NoMagnets,
+}
+
+/// What became of one start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// Matched since this time (s), and still so at the end.
+    Bound {
+        since: f64,
+    },
+    /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
+    /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
+    Misbound {
+        trap: Option<usize>,
+    },
+    Free,
+}
+
+/// One trajectory, in short.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DockingRun {
+    pub index: usize,
+    pub start: Start,
+    pub last: Sample,
+    pub end: End,
+    pub free_steps: usize,
+    pub contact_steps: usize,
+}
+
+impl DockingRun {
+    pub fn is_bound(&self) -> bool {
+        matches!(self.end, End::Bound { .. })
+    }
+}
+
+/// The minimum below unmatched ends, symmetric copies counted as one. It may be the bond itself,
+/// where friction holds tiles short of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trap {
+    pub configuration: Configuration,
+    /// U (J).
+    pub energy: f64,
+    pub caught: Proportion,
+}
+
+/// The outcome of a docking experiment.
+#[derive(Clone, Debug)]
+pub struct Docking {
+    pub settings: DockingSettings,
+    pub threshold: f64,
+    pub runs: Vec<DockingRun>,
+    pub bound: Proportion,
+    pub misbound: Proportion,
+    pub free: Proportion,
+    /// Traps, that with most trajectories first.
+    pub traps: Vec<Trap>,
+    /// Wall time (s) on all threads together, and how many threads.
+    pub wall_s: f64,
+    pub threads: usize,
+}
+
+/// Simulates docking. The same design and settings give the same result on any number of threads.
+/// `done` is called after each trajectory.
+///
+/// # Errors
+/// Where a setting makes no sense or no match can be declared.
+pub fn dock(
+    design: &Design,
+    settings: &DockingSettings,
+    done: &(dyn Fn() + Sync),
+) -> Result<Docking, DockingError> {
+    let problem = pipeline::problem(design);
+    let experiment = Experiment::new(design, &problem, settings)?;
+    let clock = Instant::now();
+    let ended: Vec<_> = (0..settings.runs)
+        .into_par_iter()
+        .map(|index| {
+            let ended = experiment.run(index);
+            done();
+            ended
+        })
+        .collect();
+    Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
+}
+
+/// The samples of one trajectory of an experiment, at most `interval` (s) apart in free flight.
+///
+/// # Errors
+/// As [`dock`].
+pub fn trajectory(
+    design: &Design,
+    settings: &DockingSettings,
+    index: usize,
+    interval: f64,
+) -> Result<Vec<Sample>, DockingError> {
+    let problem = pipeline::problem(design);
+    let mut settings = settings.clone();
+    settings.motion.longest_step = settings.motion.longest_step.min(interval);
+    let experiment = Experiment::new(design, &problem, &settings)?;
+    let mut rng = stream(settings.seed, index);
+    let start = settings.starts.draw(design, &mut rng);
+    let mut samples = vec![experiment.simulation.sample(&start.motion)];
+    let mut last = None;
+    experiment
+        .simulation
+        .run(&start.motion, settings.duration, &mut rng, &mut |sample| {
+            let earlier = samples.last().map_or(0.0, |s: &Sample| s.time);
+            if sample.time - earlier >= 0.5 * interval {
+                samples.push(*sample);
+            }
+            last = Some(*sample);
+            false
+        });
+    samples.extend(last.filter(|last| samples.last() != Some(last)));
+    Ok(samples)
+}
+
+struct Experiment<'a> {
+    design: &'a Design,
+    problem: &'a Problem,
+    settings: &'a DockingSettings,
+    simulation: Simulation<'a>,
+    rule: MatchRule,
+}
+
+/// A trajectory and, where it ended in no match but caught, the minimum below its end.
+type Ended = (DockingRun, Option<(Configuration, f64)>);
+
+impl<'a> Experiment<'a> {
+    fn new(
+        design: &'a Design,
+        problem: &'a Problem,
+        settings: &'a DockingSettings,
+    ) -> Result<Self, DockingError> {
+        let body = Body::of_tile(&design.moving);
+        Ok(Self {
+            design,
+            problem,
+            settings,
+            simulation: Simulation::new(problem, body, &settings.motion)?,
+            rule: MatchRule::new(design, settings.threshold)?,
+        })
+    }
+
+    fn run(&self, index: usize) -> Ended {
+        let mut rng = stream(self.settings.seed, index);
+        let start = self.settings.starts.draw(self.design, &mut rng);
+        let mut since = None;
+        let mut steps = 0;
+        let mut look = |sample: &Sample| {
+            let matched = self.rule.holds(&sample.motion.configuration);
+            since = if matched {
+                since.or(Some(sample.time))
+            } else {
+                None
+            };
+        };
+        let run = self.simulation.run(
+            &start.motion,
+            self.settings.duration,
+            &mut rng,
+            &mut |sample| {
+                steps += 1;
+                if !sample.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
+                    look(sample);
+                }
+                false
+            },
+        );
+        look(&run.last);
+        let caught = run.stop == Stop::Rest || run.last.total() < 0.0;
+        let mut trap = None;
+        let end = match since {
+            Some(since) => End::Bound { since },
+            None if run.last.in_contact_range && caught => {
+                trap = minimum_below(self.problem, &run.last.motion.configuration)
+                    .map(|q| (q, self.problem.energy(&q)));
+                End::Misbound { trap: None }
+            }
+            None => End::Free,
+        };
+        let run = DockingRun {
+            index,
+            start,
+            last: run.last,
+            end,
+            free_steps: run.free_steps,
+            contact_steps: run.contact_steps,
+        };
+        (run, trap)
+    }
+
+    /// Counts the ends, telling traps apart.
+    fn docking(&self, ended: Vec<Ended>, wall_s: f64) -> Docking {
+        let n = ended.len();
+        let mut places: Vec<(Configuration, f64, usize)> = Vec::new();
+        let mut runs = Vec::with_capacity(n);
+        for (mut run, minimum) in ended {
+            if let Some((q, energy)) = minimum {
+                let known = places
+                    .iter()
+                    .position(|(p, ..)| self.rule.distance(&self.problem.space, &q, p) < SAME_TRAP);
+                let number = known.unwrap_or_else(|| {
+                    places.push((q, energy, 0));
+                    places.len() - 1
+                });
+                places[number].2 += 1;
+                run.end = End::Misbound { trap: Some(number) };
+            }
+            runs.push(run);
+        }
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by_key(|&k| std::cmp::Reverse(places[k].2));
+        for run in &mut runs {
+            if let End::Misbound { trap: Some(number) } = &mut run.end {
+                *number = order.iter().position(|k| k == number).unwrap_or(*number);
+            }
+        }
+        let count = |is: &dyn Fn(&End) -> bool| {
+            Proportion::new(runs.iter().filter(|run| is(&run.end)).count(), n)
+        };
+        Docking {
+            settings: self.settings.clone(),
+            threshold: self.rule.threshold,
+            bound: count(&|end| matches!(end, End::Bound { .. })),
+            misbound: count(&|end| matches!(end, End::Misbound { .. })),
+            free: count(&|end| matches!(end, End::Free)),
+            traps: order
+                .iter()
+                .map(|&k| Trap {
+                    configuration: places[k].0,
+                    energy: places[k].1,
+                    caught: Proportion::new(places[k].2, n),
+                })
+                .collect(),
+            runs,
+            wall_s,
+            threads: rayon::current_num_threads(),
+        }
+    }
+}
+
+/// Where slow motion leads from `q`, lifted out of contact first where the tiles overlap by the
+/// little that rapier lets them.
+pub(super) fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Configuration> {
+    let mut q = *q;
+    if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {
+        let away = q.position().normalize();
+        let position = q.position() + away * contact.lift(&q, away);
+        q = Configuration::new(position.x, position.y, q.theta);
+    }
+    match drift(problem, &q) {
+        Outcome::Minimum(found) => Some(found.point.q),
+        Outcome::Free | Outcome::Stuck => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+//! The on-rate: how often tiles attach.
+
+use super::{Docking, End};
+
+/// The rate of attachment over a series of trials.
+///
+/// The trajectories of an experiment are taken one after the other, each lasting until its match
+/// or to its end; the times between matches are then those of one pair of tiles that is set apart
+/// at random again and again. The rate is a Monte Carlo integral over the starts' distribution
+/// and depends on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnRate {
+    pub attachments: usize,
+    /// Time of all trials together (s).
+    pub time: f64,
+    /// Attachments per second.
+    pub rate: f64,
+    /// Its 95 % interval: the count's, for a Poisson process, by `(sqrt(n + 3/8) +- 0.98)^2 - 3/8`
+    /// (Anscombe 1948, doi:10.1093/biomet/35.3-4.246).
+    pub interval: [f64; 2],
+    /// Times between attachments (s).
+    pub times: Vec<f64>,
+    /// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found,
+    /// `(D - 0.2/n) (sqrt n + 0.26 + 0.5 / sqrt n)` (Stephens 1974,
+    /// doi:10.1080/01621459.1974.10480196).
+    pub statistic: f64,
+}
+
+impl OnRate {
+    /// Above this the statistic refutes an exponential distribution at the level of 5 %.
+    pub const CRITICAL: f64 = 1.094;
+
+    pub fn new(docking: &Docking) -> Self {
+        let mut times = Vec::new();
+        let (mut time, mut since) = (0.0, 0.0);
+        for run in &docking.runs {
+            match run.end {
+                End::Bound { since: matched } => {
+                    time += matched;
+                    times.push(time - since);
+                    since = time;
+                }
+                _ => time += docking.settings.duration,
+            }
+        }
+        let n = times.len() as f64;
+        let root = (n + 0.375).sqrt();
+        let per_time = |count: f64| if time > 0.0 { count / time } else { 0.0 };
+        let end = |root: f64| per_time((root.max(0.0).powi(2) - 0.375).max(0.0));
+        Self {
+            attachments: times.len(),
+            time,
+            rate: per_time(n),
+            interval: [end(root - 0.98), end(root + 0.98)],
+            statistic: exponential_statistic(&times),
+            times,
+        }
+    }
+
+    /// Whether the times between attachments are compatible with an exponential distribution.
+    pub fn is_exponential(&self) -> bool {
+        self.statistic <= Self::CRITICAL
+    }
+}
+
+fn exponential_statistic(times: &[f64]) -> f64 {
+    if times.is_empty() {
+        return 0.0;
+    }
+    let n = times.len() as f64;
+    let mean = times.iter().sum::<f64>() / n;
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let largest = sorted.iter().enumerate().fold(0.0, |largest: f64, (k, t)| {
+        let expected = 1.0 - (-t / mean).exp();
+        let k = k as f64;
+        largest.max(expected - k / n).max((k + 1.0) / n - expected)
+    });
+    (largest - 0.2 / n) * (n.sqrt() + 0.26 + 0.5 / n.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::docking::stream;
+    use rand::RngExt;
+
+    #[test]
+    fn exponential_times_pass_and_others_do_not() {
+        let mut rng = stream(1, 0);
+        let uniform: Vec<f64> = (0..200).map(|_| rng.random()).collect();
+        let exponential: Vec<f64> = uniform.iter().map(|u| -(1.0 - u).ln()).collect();
+        assert!(exponential_statistic(&exponential) < OnRate::CRITICAL);
+        assert!(exponential_statistic(&uniform) > 2.0 * OnRate::CRITICAL);
+    }
+}

@@ -1,0 +1,83 @@
+//! Where docking trajectories start.
+
+use nalgebra::{Vector2, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::dynamics::Motion;
+
+/// The distribution of starts; every range is drawn from uniformly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Starts {
+    /// Distance of the moving tile's reference point from the fixed tile's (m).
+    pub distance: [f64; 2],
+    /// Its direction differs from the fixed target face's by at most this (rad).
+    pub direction: f64,
+    /// Its orientation differs from the bound one by at most this (rad).
+    pub orientation: f64,
+    /// Speed of its centre of mass (m/s).
+    pub speed: [f64; 2],
+    /// The velocity's direction differs from that to the fixed tile's reference point by at most
+    /// this (rad).
+    pub aim: f64,
+    /// Turning rate, either way (rad/s).
+    pub spin: f64,
+}
+
+impl Default for Starts {
+    /// Distance 0.62 to 1.0 m within 45 degrees of the face, aimed within 0.3 rad at the fixed
+    /// tile, orientation within 1.5 rad of the bound one, 0 to 1.3 m/s, no spin.
+    fn default() -> Self {
+        Self {
+            distance: [0.62, 1.0],
+            direction: std::f64::consts::FRAC_PI_4,
+            orientation: 1.5,
+            speed: [0.0, 1.3],
+            aim: 0.3,
+            spin: 0.0,
+        }
+    }
+}
+
+/// One start with the quantities it was drawn by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    pub motion: Motion,
+    /// Orientation relative to the bound one (rad).
+    pub orientation: f64,
+    /// Speed (m/s).
+    pub speed: f64,
+}
+
+/// The random numbers of one trajectory, independent of all others.
+pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream((1 << 41) + index as u64);
+    rng
+}
+
+impl Starts {
+    pub(super) fn draw(&self, design: &Design, rng: &mut ChaCha8Rng) -> Start {
+        let mut uniform = |low: f64, high: f64| low + (high - low) * rng.random::<f64>();
+        let distance = uniform(self.distance[0], self.distance[1]);
+        let normal = design.fixed.faces[design.target.0].normal();
+        let bearing = normal.y.atan2(normal.x) + uniform(-self.direction, self.direction);
+        let place = Vector2::new(bearing.cos(), bearing.sin()) * distance;
+        let orientation = uniform(-self.orientation, self.orientation);
+        let speed = uniform(self.speed[0], self.speed[1]);
+        let course = bearing + std::f64::consts::PI + uniform(-self.aim, self.aim);
+        let spin = uniform(-self.spin, self.spin);
+        let theta = design.bound.theta + orientation;
+        let configuration = Configuration::from([place.x, place.y, theta]);
+        Start {
+            motion: Motion {
+                configuration,
+                velocity: Vector3::new(speed * course.cos(), speed * course.sin(), spin),
+            },
+            orientation,
+            speed,
+        }
+    }
+}

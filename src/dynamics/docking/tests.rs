@@ -1,0 +1,87 @@
+use super::*;
+use crate::dynamics::tests::paper_tile;
+
+fn few(runs: usize) -> DockingSettings {
+    DockingSettings {
+        runs,
+        ..DockingSettings::engine_comparison()
+    }
+}
+
+#[test]
+fn chances_agree_with_the_open_dynamics_engine() {
+    let docking = dock(&paper_tile(), &few(500), &|| ()).unwrap();
+    let [low, high] = ENGINE.matched;
+    assert!(
+        docking.bound.low < high + ENGINE.margin,
+        "{:?}",
+        docking.bound
+    );
+    assert!(
+        docking.bound.high > low - ENGINE.margin,
+        "{:?}",
+        docking.bound
+    );
+    // The most frequent trap is the bond slid by one magnet.
+    assert!((docking.traps[0].energy + 16.026e-3).abs() < 1e-5);
+}
+
+#[test]
+fn every_run_is_the_same_on_any_number_of_threads_and_by_itself() {
+    let design = paper_tile();
+    let settings = few(24);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| dock(&design, &settings, &|| ()).unwrap().runs)
+    };
+    let runs = on(1);
+    assert_eq!(runs, on(3));
+    let samples = trajectory(&design, &settings, 7, 1.0).unwrap();
+    assert_eq!(samples[0].motion, runs[7].start.motion);
+    assert_eq!(*samples.last().unwrap(), runs[7].last);
+}
+
+#[test]
+fn mirrored_tiles_dock_alike_from_either_side() {
+    // A code that reads the same both ways makes the pair its own mirror image.
+    let text = std::fs::read_to_string("shapes/paper-tile.toml").unwrap();
+    let text = text.replace("NNNS", "NSSN").replace("NSSS", "SNNS");
+    let design = Design::parse(&text, "mirror.toml").unwrap();
+    let mut settings = few(500);
+    settings.starts.speed = [0.1, 0.7];
+    let docking = dock(&design, &settings, &|| ()).unwrap();
+    let speeds = settings.starts.speed;
+    let left = share_within(&docking, [-1.5, 0.0], speeds);
+    let right = share_within(&docking, [0.0, 1.5], speeds);
+    assert!(left.count + right.count > 20, "{left:?} {right:?}");
+    assert!(
+        left.low < right.high && right.low < left.high,
+        "{left:?} {right:?}"
+    );
+}
+
+#[test]
+fn a_match_needs_every_pair_and_holds_for_all_alike_faces() {
+    let design = paper_tile();
+    let rule = MatchRule::new(&design, None).unwrap();
+    assert!((rule.threshold - 0.015).abs() < 1e-12);
+    assert!(rule.holds(&design.bound));
+    // Two faces on: the same bond of another pair of faces.
+    assert!(rule.holds(&Configuration::new(0.0, 0.43, 0.0)));
+    assert!(rule.holds(&Configuration::new(-0.43, 0.0, 1.5707963267948966)));
+    // Partners 10 mm apart across the gap, slid by 11.1 mm: 14.9 mm; by 11.3 mm: 15.1 mm.
+    assert!(rule.holds(&Configuration::new(0.43, 0.0111, 0.0)));
+    assert!(!rule.holds(&Configuration::new(0.43, 0.0113, 0.0)));
+    assert!(!rule.holds(&Configuration::new(0.43, 0.04, 0.0)));
+}
+
+#[test]
+fn tiles_without_magnets_on_the_target_are_refused() {
+    let mut design = paper_tile();
+    design.moving.magnets.retain(|m| m.face != design.target.1);
+    let refused = dock(&design, &few(1), &|| ()).unwrap_err();
+    assert_eq!(refused, DockingError::NoMagnets);
+}

@@ -1,0 +1,34 @@
+//! Tiles that really move: the moving tile as a rigid body on the air table.
+//!
+//! With q the centre of mass and the orientation, M = diag(m, m, I) about the centre of mass and
+//! C = c M for a drag rate c (1/s),
+//!
+//! `M q'' = -C q' + Q(q, t)`,
+//!
+//! where Q holds the magnetic force and torque, minus the gradient of the
+//! [potential](crate::potential), the push of fans and the forces of contact. (Equation (5.1.3) of the paper
+//! adds a force per mass to a torque per inertia in one line; this is what it means.) Drag is
+//! stated as a rate, since a share of the velocity taken away each step would make results depend
+//! on the step.
+//!
+//! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with
+//! step control, no step being longer than the clearance allows. Within the range of contact
+//! rapier takes over with short steps of fixed length; magnets and fans act on it as in the
+//! leapfrog method.
+
+mod body;
+pub mod check;
+mod collision;
+pub mod docking;
+mod flight;
+mod force;
+mod settings;
+mod simulation;
+
+pub use body::{Body, Motion};
+pub use force::Fan;
+pub use settings::{MotionSettings, SettingsError};
+pub use simulation::{Run, Sample, Simulation, Stop};
+
+#[cfg(test)]
+mod tests;

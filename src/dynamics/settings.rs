@@ -1,0 +1,108 @@
+//! What decides a trajectory besides the tiles and the start.
+
+use super::force::Fan;
+
+/// The air table and the numerics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionSettings {
+    /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the turning
+    /// rate fall as e^(-c t). The default is the paper's coefficient 0.0005, read as kg/s, for its
+    /// tile of 100 g.
+    pub drag: f64,
+    /// Share of the approach velocity that a knock gives back.
+    pub restitution: f64,
+    /// Coulomb's coefficient of friction between the tiles, and of a tile and the rim.
+    pub friction: f64,
+    /// Whether the table's rim holds the tile back.
+    pub walls: bool,
+    pub fans: Vec<Fan>,
+    /// Effective energy kT (J) of a random shaking force: together with the drag it keeps the
+    /// kinetic energy at kT / 2 for each degree of freedom.
+    pub shaking: Option<f64>,
+    /// Error of a step of free flight (m).
+    pub tolerance: f64,
+    /// Longest step of free flight (s).
+    pub longest_step: f64,
+    /// Contact begins at this clearance (m) and ends at twice as much.
+    pub contact_range: f64,
+    /// Longest step in contact (s).
+    pub contact_step: f64,
+    /// Longest way (m) of any point of the tile in one step in contact.
+    pub contact_travel: f64,
+}
+
+impl Default for MotionSettings {
+    fn default() -> Self {
+        Self {
+            drag: 0.005,
+            restitution: 0.01,
+            friction: 0.3,
+            walls: true,
+            fans: Vec::new(),
+            shaking: None,
+            tolerance: 1e-8,
+            longest_step: 0.1,
+            contact_range: 1e-3,
+            contact_step: 1e-3,
+            contact_travel: 1e-4,
+        }
+    }
+}
+
+/// A setting that makes no sense.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    #[error("{name} must be {wanted}, not {value}")]
+    OutOfRange {
+        name: &'static str,
+        wanted: &'static str,
+        value: f64,
+    },
+    #[error("shaking heats the tile without end where there is no drag: set a drag rate above 0")]
+    ShakingWithoutDrag,
+}
+
+impl MotionSettings {
+    /// # Errors
+    /// Where a number is out of its range, or the tile is shaken without drag.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        let not_negative = |name, value| in_range(name, "0 or more", value, value >= 0.0);
+        let positive = |name, value| in_range(name, "above 0", value, value > 0.0);
+        not_negative("the drag rate", self.drag)?;
+        not_negative("the friction", self.friction)?;
+        let between = (0.0..=1.0).contains(&self.restitution);
+        in_range("the restitution", "from 0 to 1", self.restitution, between)?;
+        positive("the tolerance", self.tolerance)?;
+        positive("the longest step", self.longest_step)?;
+        positive("the contact range", self.contact_range)?;
+        positive("the contact step", self.contact_step)?;
+        positive("the way of a contact step", self.contact_travel)?;
+        for fan in &self.fans {
+            positive("a fan's width", fan.width)?;
+        }
+        if let Some(energy) = self.shaking {
+            not_negative("the shaking's energy", energy)?;
+            if self.drag == 0.0 {
+                return Err(SettingsError::ShakingWithoutDrag);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn in_range(
+    name: &'static str,
+    wanted: &'static str,
+    value: f64,
+    holds: bool,
+) -> Result<(), SettingsError> {
+    if holds && value.is_finite() {
+        Ok(())
+    } else {
+        Err(SettingsError::OutOfRange {
+            name,
+            wanted,
+            value,
+        })
+    }
+}

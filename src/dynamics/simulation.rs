@@ -1,0 +1,434 @@
+//! One trajectory: free flight and contact in turn.
+
+use nalgebra::Vector3;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::body::{Body, Motion, Phase};
+use super::collision::{Collision, Surface};
+use super::flight;
+use super::force::Forces;
+use super::settings::{MotionSettings, SettingsError};
+use crate::problem::Problem;
+
+/// Contact steps between two looks at the clearance.
+const STEPS_BETWEEN_LOOKS: usize = 8;
+/// A tile in contact rests when no point of it moves faster than this (m/s) ...
+const REST_SPEED: f64 = 1e-5;
+/// ... for this long (s).
+const REST_TIME: f64 = 0.02;
+/// Time between two random kicks (s).
+const KICK_INTERVAL: f64 = 5e-3;
+/// Free steps are at least this long (s): no force of magnets bends a path faster.
+const SHORTEST_STEP: f64 = 1e-7;
+
+/// The moving tile at one moment of a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time since the start (s).
+    pub time: f64,
+    pub motion: Motion,
+    /// Energy of magnets and fans (J).
+    pub potential: f64,
+    /// Kinetic energy (J).
+    pub kinetic: f64,
+    /// Whether the tile is within the range of contact of the other tile or the rim.
+    pub in_contact_range: bool,
+}
+
+impl Sample {
+    /// Kinetic and potential energy together (J).
+    pub fn total(&self) -> f64 {
+        self.potential + self.kinetic
+    }
+}
+
+/// Why a trajectory ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// Its time was over.
+    Time,
+    /// The tile rests in contact, where nothing will move it any more.
+    Rest,
+    /// Whoever watched it wanted no more.
+    Watcher,
+}
+
+/// A finished trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    pub last: Sample,
+    pub stop: Stop,
+    /// Steps of free flight, and of contact.
+    pub free_steps: usize,
+    pub contact_steps: usize,
+}
+
+/// The moving tile as a rigid body on the air table. See the [module](super) for the equations.
+pub struct Simulation<'a> {
+    problem: &'a Problem,
+    body: Body,
+    settings: &'a MotionSettings,
+    /// Largest distance of a point of the tile from its centre of mass (m).
+    reach: f64,
+}
+
+impl<'a> Simulation<'a> {
+    /// # Errors
+    /// Where a setting makes no sense, see [`SettingsError`].
+    pub fn new(
+        problem: &'a Problem,
+        body: Body,
+        settings: &'a MotionSettings,
+    ) -> Result<Self, SettingsError> {
+        settings.check()?;
+        let circumradius = problem
+            .contact
+            .as_ref()
+            .map_or(problem.space.rho, |c| c.moving().circumradius());
+        Ok(Self {
+            problem,
+            body,
+            settings,
+            reach: circumradius + body.centre.norm(),
+        })
+    }
+
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The sample of a motion at time 0.
+    pub fn sample(&self, motion: &Motion) -> Sample {
+        let mut trajectory = Trajectory::new(self, motion);
+        trajectory.look();
+        trajectory.sample()
+    }
+
+    /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
+    /// trajectory by returning true; `rng` feeds the shaking.
+    pub fn run(
+        &self,
+        start: &Motion,
+        duration: f64,
+        rng: &mut ChaCha8Rng,
+        watch: &mut dyn FnMut(&Sample) -> bool,
+    ) -> Run {
+        let mut trajectory = Trajectory::new(self, start);
+        let stop = trajectory.advance(duration, rng, watch);
+        Run {
+            last: trajectory.sample(),
+            stop,
+            free_steps: trajectory.free_steps,
+            contact_steps: trajectory.contact_steps,
+        }
+    }
+
+    /// Whether anything can move a tile that rests.
+    fn rest_lasts(&self) -> bool {
+        self.settings.shaking.is_none() && self.settings.fans.iter().all(|fan| fan.amplitude == 0.0)
+    }
+
+    /// Distance (m) to the other tile or the rim, whichever is less; a lower bound where it is
+    /// large.
+    fn clearance(&self, phase: &Phase) -> f64 {
+        /// Above this a bound is good enough (m).
+        const LARGE: f64 = 0.05;
+        let q = self.body.configuration(&phase.place);
+        let tile = self
+            .problem
+            .contact
+            .as_ref()
+            .map_or(f64::INFINITY, |contact| {
+                let bound = contact.clearance_bound(&q);
+                if bound > LARGE {
+                    bound
+                } else {
+                    contact.clearance(&q)
+                }
+            });
+        let Some([x, y]) = self.rim() else {
+            return tile;
+        };
+        let bound = (x - q.x.abs()).min(y - q.y.abs()) - self.reach - self.body.centre.norm();
+        if bound > 0.0 {
+            return tile.min(bound);
+        }
+        let corners = self
+            .problem
+            .contact
+            .iter()
+            .flat_map(|c| c.moving().vertices());
+        corners
+            .map(|corner| q.transform(*corner))
+            .map(|p| (x - p.x.abs()).min(y - p.y.abs()))
+            .fold(tile, f64::min)
+    }
+
+    fn rim(&self) -> Option<[f64; 2]> {
+        self.settings.walls.then_some(self.problem.space.half_size)
+    }
+
+    /// Speed of the tile's fastest point, at most (m/s).
+    fn fastest(&self, velocity: &Vector3<f64>) -> f64 {
+        velocity.xy().norm() + self.reach * velocity.z.abs()
+    }
+
+    fn forces(&self) -> Forces<'a> {
+        Forces {
+            potential: self.problem.potential(),
+            fans: &self.settings.fans,
+            body: self.body,
+            // Where the tile is shaken, kicks and drag come together.
+            drag: if self.settings.shaking.is_some() {
+                0.0
+            } else {
+                self.settings.drag
+            },
+        }
+    }
+}
+
+/// A trajectory under way.
+struct Trajectory<'a, 'b> {
+    simulation: &'b Simulation<'a>,
+    forces: Forces<'a>,
+    collision: Option<Collision>,
+    phase: Phase,
+    time: f64,
+    potential: f64,
+    touching: bool,
+    /// What the kinetic energy gains (J) from the moment of the velocity to that of the place: in
+    /// contact the velocity belongs to the middle of the last step.
+    lag: f64,
+    /// Distance (m) that no point of the tile may move before the clearance is looked at again.
+    room: f64,
+    free_step: f64,
+    free_steps: usize,
+    contact_steps: usize,
+}
+
+impl<'a, 'b> Trajectory<'a, 'b> {
+    fn new(simulation: &'b Simulation<'a>, start: &Motion) -> Self {
+        Self {
+            simulation,
+            forces: simulation.forces(),
+            collision: None,
+            phase: simulation.body.phase(start),
+            time: 0.0,
+            potential: 0.0,
+            touching: false,
+            lag: 0.0,
+            room: 0.0,
+            free_step: 1e-3,
+            free_steps: 0,
+            contact_steps: 0,
+        }
+    }
+
+    fn sample(&self) -> Sample {
+        Sample {
+            time: self.time,
+            motion: self.simulation.body.motion(&self.phase),
+            potential: self.potential,
+            kinetic: (self.simulation.body.kinetic_energy(&self.phase.velocity) + self.lag)
+                .max(0.0),
+            in_contact_range: self.touching,
+        }
+    }
+
+    /// Measures the clearance and decides between flight and contact.
+    fn look(&mut self) {
+        let range = self.simulation.settings.contact_range;
+        let clearance = self.simulation.clearance(&self.phase);
+        self.touching = clearance <= range;
+        self.room = clearance - 0.5 * range;
+        self.potential = self.forces.conservative(&self.phase.place, self.time).0;
+    }
+
+    fn advance(
+        &mut self,
+        duration: f64,
+        rng: &mut ChaCha8Rng,
+        watch: &mut dyn FnMut(&Sample) -> bool,
+    ) -> Stop {
+        self.look();
+        let shaken = self.simulation.settings.shaking;
+        let mut stop = None;
+        while stop.is_none() && self.time < duration {
+            let until = match shaken {
+                Some(_) => (self.time + KICK_INTERVAL).min(duration),
+                None => duration,
+            };
+            let since = self.time;
+            while stop.is_none() && self.time < until {
+                stop = if self.touching {
+                    self.touch(until, watch)
+                } else {
+                    self.fly(until, watch)
+                };
+            }
+            if let Some(energy) = shaken {
+                self.kick(energy, self.time - since, rng);
+            }
+        }
+        stop.unwrap_or(Stop::Time)
+    }
+
+    /// Free flight until contact is near or the time is over.
+    fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Sample) -> bool) -> Option<Stop> {
+        let settings = self.simulation.settings;
+        let rho = self.simulation.problem.space.rho;
+        let mut acceleration = self.forces.acceleration(&self.phase, self.time);
+        while self.time < until {
+            let left = until - self.time;
+            let h = self
+                .free_step
+                .min(settings.longest_step)
+                .min(self.time_to_travel(&acceleration, self.room.max(0.0)))
+                .max(SHORTEST_STEP)
+                .min(left);
+            let trial = flight::attempt(&self.forces, &self.phase, acceleration, self.time, h, rho);
+            let factor = flight::step_factor(trial.error / settings.tolerance);
+            if trial.error > settings.tolerance && h > SHORTEST_STEP {
+                self.free_step = h * factor;
+                continue;
+            }
+            self.free_step = if factor < 1.0 {
+                h * factor
+            } else {
+                self.free_step.max(h * factor)
+            };
+            self.room -= self.way(&acceleration, h);
+            self.phase = trial.phase;
+            acceleration = trial.acceleration;
+            self.time = if h == left { until } else { self.time + h };
+            self.free_steps += 1;
+            if self.room <= 0.5 * settings.contact_range {
+                self.look();
+            } else {
+                self.potential = self.forces.conservative(&self.phase.place, self.time).0;
+            }
+            if watch(&self.sample()) {
+                return Some(Stop::Watcher);
+            }
+            if self.touching {
+                break;
+            }
+        }
+        None
+    }
+
+    /// How far (m) a point of the tile moves in a time, at most, were the acceleration steady.
+    fn way(&self, acceleration: &Vector3<f64>, h: f64) -> f64 {
+        let simulation = self.simulation;
+        h * simulation.fastest(&self.phase.velocity)
+            + 0.5 * h * h * simulation.fastest(acceleration)
+    }
+
+    /// How long (s) until a point of the tile may have moved by `way` (m), were the acceleration
+    /// steady.
+    fn time_to_travel(&self, acceleration: &Vector3<f64>, way: f64) -> f64 {
+        if way.is_infinite() {
+            return f64::INFINITY;
+        }
+        let speed = self.simulation.fastest(&self.phase.velocity);
+        let growth = self.simulation.fastest(acceleration);
+        2.0 * way / (speed + (speed * speed + 2.0 * growth * way).sqrt()).max(f64::MIN_POSITIVE)
+    }
+
+    /// Contact until the tile has left, rests, or the time is over.
+    fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Sample) -> bool) -> Option<Stop> {
+        let simulation = self.simulation;
+        let settings = simulation.settings;
+        let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
+        let mut collision = self.collision.take().or_else(|| simulation.collision())?;
+        collision.place(&self.phase);
+        // The leapfrog's velocities belong to the middles of its steps: a step begins with the
+        // push of half the step before and half of this one.
+        let mut before = 0.0;
+        let mut stop = None;
+        let mut rested = 0.0;
+        for step in 1.. {
+            let left = until - self.time;
+            let travel = self.time_to_travel(&acceleration, settings.contact_travel);
+            let h = travel.min(settings.contact_step).min(left);
+            let since = self.phase;
+            self.phase = collision.step(&(acceleration * (0.5 * (before + h) / h)), h);
+            before = h;
+            self.phase.place.z += std::f64::consts::TAU
+                * ((since.place.z - self.phase.place.z) / std::f64::consts::TAU).round();
+            if self.forces.drag > 0.0 {
+                self.phase.velocity *= (-self.forces.drag * h).exp();
+                collision.set_velocity(&self.phase.velocity);
+            }
+            self.time = if h == left { until } else { self.time + h };
+            self.contact_steps += 1;
+            (self.potential, acceleration) = self.forces.conservative(&self.phase.place, self.time);
+            let force = acceleration.component_mul(&simulation.body.masses());
+            self.lag = 0.5 * h * force.dot(&self.phase.velocity);
+            if watch(&self.sample()) {
+                stop = Some(Stop::Watcher);
+                break;
+            }
+            let fast = simulation.fastest(&self.phase.velocity) > REST_SPEED;
+            rested = if fast { 0.0 } else { rested + h };
+            if rested >= REST_TIME && simulation.rest_lasts() {
+                stop = Some(Stop::Rest);
+                break;
+            }
+            if self.time >= until {
+                break;
+            }
+            if step % STEPS_BETWEEN_LOOKS == 0 {
+                let clearance = simulation.clearance(&self.phase);
+                if clearance > 2.0 * settings.contact_range {
+                    self.phase.velocity += acceleration * (0.5 * h);
+                    self.lag = 0.0;
+                    self.room = clearance - 0.5 * settings.contact_range;
+                    self.touching = false;
+                    self.free_step = h;
+                    break;
+                }
+            }
+        }
+        self.collision = Some(collision);
+        stop
+    }
+
+    /// Drag and random kicks over a time `h`: an Ornstein-Uhlenbeck step of the velocity, exact,
+    /// `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit variance, for each
+    /// degree of freedom with its mass or moment of inertia.
+    fn kick(&mut self, energy: f64, h: f64, rng: &mut ChaCha8Rng) {
+        let decay = (-self.simulation.settings.drag * h).exp();
+        let masses = self.simulation.body.masses();
+        for i in 0..3 {
+            let spread = (energy / masses[i] * (1.0 - decay * decay)).sqrt();
+            self.phase.velocity[i] = self.phase.velocity[i] * decay + spread * normal(rng);
+        }
+    }
+}
+
+/// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).
+pub(super) fn normal(rng: &mut ChaCha8Rng) -> f64 {
+    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
+    radius * (std::f64::consts::TAU * rng.random::<f64>()).cos()
+}
+
+impl Simulation<'_> {
+    /// `None` where there is nothing to touch.
+    fn collision(&self) -> Option<Collision> {
+        let contact = self.problem.contact.as_ref()?;
+        let surface = Surface {
+            restitution: self.settings.restitution,
+            friction: self.settings.friction,
+        };
+        Some(Collision::new(
+            (contact.fixed(), contact.moving()),
+            &self.body,
+            self.rim(),
+            surface,
+            self.settings.contact_range,
+        ))
+    }
+}

@@ -1,0 +1,134 @@
+//! Slices through the landscape in front of the target face.
+
+use nalgebra::Vector2;
+use rayon::prelude::*;
+
+use super::map::{Grid, Pair, Sample, evenly, with_energies};
+use crate::configuration::{Configuration, wrap_angle};
+use crate::contact::Contact;
+use crate::tile::{Face, Tile};
+
+/// Two slices in front of the target face, the moving tile's target face turned towards it.
+///
+/// The moving tile is turned by the tilt about the middle of its target face, shifted by the slide
+/// along the fixed tile's target face, and brought up along that face's normal until it touches;
+/// the gap is then opened along the normal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ApproachSlices {
+    /// Tilt (rad) along x, gap (m) along y, at slide 0.
+    pub gap: Grid<Sample>,
+    /// Tilt (rad) along x, slide (m) along y, in contact.
+    pub slide: Grid<Sample>,
+}
+
+/// Extent and resolution of [`ApproachSlices`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliceSettings {
+    /// Largest tilt to either side (rad).
+    pub tilt: f64,
+    /// Largest gap (m).
+    pub gap: f64,
+    /// Largest slide to either side (m).
+    pub slide: f64,
+    /// Grid points along each axis.
+    pub samples: usize,
+}
+
+/// The motion of the moving tile in front of the target face.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<'a> {
+    bound: Configuration,
+    /// Middle of the moving tile's target face in its own frame (m).
+    pivot: Vector2<f64>,
+    face: &'a Face,
+}
+
+impl<'a> Approach<'a> {
+    /// `target` are the faces of the fixed and the moving tile that `bound` lays together.
+    pub fn new(
+        fixed: &'a Tile,
+        moving: &Tile,
+        target: (usize, usize),
+        bound: Configuration,
+    ) -> Self {
+        Self {
+            bound,
+            pivot: moving.faces[target.1].middle(),
+            face: &fixed.faces[target.0],
+        }
+    }
+
+    /// The configuration with this tilt (rad), slide (m) and distance (m) along the normal from
+    /// the bound position.
+    pub fn configuration(&self, tilt: f64, slide: f64, distance: f64) -> Configuration {
+        let pivot = self.bound.transform(self.pivot)
+            + self.face.tangent() * slide
+            + self.face.normal() * distance;
+        let turned = Configuration::new(0.0, 0.0, wrap_angle(self.bound.theta + tilt));
+        let position = pivot - turned.transform(self.pivot);
+        Configuration::new(position.x, position.y, turned.theta)
+    }
+
+    /// Tilt (rad) and slide (m) of a configuration.
+    pub fn tilt_and_slide(&self, q: &Configuration) -> (f64, f64) {
+        let moved = q.transform(self.pivot) - self.bound.transform(self.pivot);
+        (
+            wrap_angle(q.theta - self.bound.theta),
+            moved.dot(&self.face.tangent()),
+        )
+    }
+
+    /// The configuration with this tilt and slide in which the moving tile, coming from far away,
+    /// first touches, `gap` (m) drawn back; `None` where it passes by.
+    pub fn before_contact(
+        &self,
+        contact: &Contact,
+        tilt: f64,
+        slide: f64,
+        gap: f64,
+    ) -> Option<Configuration> {
+        let level = self.configuration(tilt, slide, 0.0);
+        let distance = contact.landing(&level, self.face.normal())?;
+        Some(self.configuration(tilt, slide, distance + gap))
+    }
+}
+
+impl ApproachSlices {
+    pub fn new(pair: &Pair, approach: &Approach, settings: &SliceSettings) -> Self {
+        let tilts = evenly(-settings.tilt, settings.tilt, settings.samples);
+        let gaps = evenly(0.0, settings.gap, settings.samples);
+        let slides = evenly(-settings.slide, settings.slide, settings.samples);
+        let contact = pair.contact;
+        let gap = sampled(pair, &tilts, &gaps, |tilt, gap| {
+            approach.before_contact(contact, tilt, 0.0, gap)
+        });
+        let slide = sampled(pair, &tilts, &slides, |tilt, slide| {
+            approach.before_contact(contact, tilt, slide, 0.0)
+        });
+        Self { gap, slide }
+    }
+}
+
+fn sampled(
+    pair: &Pair,
+    x: &[f64],
+    y: &[f64],
+    configuration: impl Fn(f64, f64) -> Option<Configuration> + Sync,
+) -> Grid<Sample> {
+    let values = y
+        .par_iter()
+        .flat_map_iter(|&y| {
+            let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
+            let free: Vec<_> = row.iter().flatten().copied().collect();
+            let mut samples = with_energies(pair.potential, &free).into_iter();
+            row.into_iter()
+                .map(move |q| q.and_then(|_| samples.next()))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    Grid {
+        x: x.to_vec(),
+        y: y.to_vec(),
+        values,
+    }
+}

@@ -1,0 +1,133 @@
+//! The certifier: one subdivision of the configuration space that serves many queries.
+
+use rayon::prelude::*;
+
+use super::landscape::Landscape;
+use super::lower::Assessment;
+use super::query::Query;
+use super::store::{Key, Store};
+use super::{Bracket, CertifyError, Effort, End, Progress};
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::contact::Contact;
+use crate::potential::bounds::CellBounds;
+
+/// Halvings of a leaf, one after the other, in one round.
+const HALVINGS: usize = 3;
+
+/// Certifies barriers of one landscape. What one query finds out about the landscape serves the
+/// next ones.
+pub struct Certifier<'a> {
+    pub(super) landscape: Landscape<'a>,
+    pub(super) store: Store,
+    pub(super) assessed: usize,
+}
+
+impl<'a> Certifier<'a> {
+    /// A certifier for the energy `bounds` over the configurations of `space` in which the tiles
+    /// of `contact`, if any, do not overlap.
+    pub fn new(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+    ) -> Self {
+        let landscape = Landscape::new(bounds, contact, space);
+        let mut store = Store::new(space);
+        let keys = Store::first_keys();
+        let assessed = keys.len();
+        let first: Vec<_> = keys
+            .into_par_iter()
+            .filter_map(|key| Some((key, landscape.assess(&store.cell(&key))?)))
+            .collect();
+        store.fill(&first);
+        Self {
+            landscape,
+            store,
+            assessed,
+        }
+    }
+
+    /// Brackets the minimax energy from `from` to `to`. `known` is a pathway between them, if one
+    /// is known; it need not be exactly free, as it is lifted off contact where it touches.
+    ///
+    /// # Errors
+    /// Where an end is not free or not on the table.
+    pub fn bracket(
+        &mut self,
+        from: &Configuration,
+        to: &End,
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        self.bracket_watched(from, to, known, effort, &mut |_| true)
+    }
+
+    /// The same, telling `watch` of every round; where it returns false the query stops with what
+    /// is known.
+    ///
+    /// # Errors
+    /// Where an end is not free or not on the table.
+    pub fn bracket_watched(
+        &mut self,
+        from: &Configuration,
+        to: &End,
+        known: &[Configuration],
+        effort: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<Bracket, CertifyError> {
+        self.landscape.check(from)?;
+        if let Some(to) = to.configuration() {
+            self.landscape.check(to)?;
+        }
+        Ok(Query::new(self, *from, *to, effort, known).run(watch))
+    }
+
+    /// Cells assessed so far, over all queries.
+    pub fn assessed(&self) -> usize {
+        self.assessed
+    }
+
+    /// Subdivides leaves, going on where a part may still be passed at `level` (J); returns how
+    /// many of them could be subdivided.
+    pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
+        let divided: Vec<_> = ids
+            .par_iter()
+            .map(|&id| {
+                let leaf = self.store.leaf(id);
+                self.parts(&leaf.key, &leaf.known, level)
+            })
+            .collect();
+        let mut count = 0;
+        for (&id, (parts, assessed)) in ids.iter().zip(&divided) {
+            if *assessed > 0 {
+                self.store.replace(id, parts);
+                self.assessed += assessed;
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// The parts of a leaf that are not blocked, and how many cells were assessed to find them: 0
+    /// if the leaf is too small to be halved.
+    fn parts(&self, key: &Key, known: &Assessment, level: f64) -> (Vec<(Key, Assessment)>, usize) {
+        let mut parts = vec![(*key, *known)];
+        let mut assessed = 0;
+        for _ in 0..HALVINGS {
+            let mut smaller = Vec::new();
+            for (key, known) in parts {
+                let halves = key.halves(known.axis).filter(|_| known.lower <= level);
+                let Some(halves) = halves else {
+                    smaller.push((key, known));
+                    continue;
+                };
+                assessed += 2;
+                smaller.extend(halves.into_iter().filter_map(|half| {
+                    let part = self.landscape.assess(&self.store.cell(&half))?;
+                    Some((half, part.within(&known)))
+                }));
+            }
+            parts = smaller;
+        }
+        (parts, assessed)
+    }
+}

@@ -1,0 +1,247 @@
+//! One query: the search for a pathway and for the proof that none lies much lower.
+
+use std::time::Instant;
+
+use super::certifier::Certifier;
+use super::flood::{Seeds, least_level, watershed};
+use super::store::Leaf;
+use super::upper::ProvedPath;
+use super::{Bracket, Effort, End, Progress};
+use crate::cell::Cell;
+use crate::configuration::Configuration;
+
+/// Leaves subdivided in one round: at least this many, and this share of all.
+const SPLITS: usize = 256;
+const SPLIT_SHARE: usize = 16;
+
+/// Leaves subdivided between two looks at the clock.
+const BATCH: usize = 512;
+
+/// A pathway's energy is bounded to this share of the tolerance.
+const SHARPNESS: f64 = 0.05;
+
+/// A new pathway is looked for where the pass lies below the best one by the first share of the
+/// tolerance, and taken where it is lower by the second.
+const WORTHWHILE: f64 = 0.25;
+const GAIN: f64 = 0.1;
+
+pub(super) struct Query<'q, 'a> {
+    certifier: &'q mut Certifier<'a>,
+    from: Configuration,
+    to: End,
+    effort: Effort,
+    started: Instant,
+    assessed_before: usize,
+    /// Energy (J) that the ends, which are on every path, do reach.
+    floor: f64,
+    best: Option<ProvedPath>,
+    improved: bool,
+    caged: bool,
+    rounds: usize,
+}
+
+impl<'q, 'a> Query<'q, 'a> {
+    pub fn new(
+        certifier: &'q mut Certifier<'a>,
+        from: Configuration,
+        to: End,
+        effort: &Effort,
+        known: &[Configuration],
+    ) -> Self {
+        let proof = certifier.landscape.proof();
+        let floor = [Some(&from), to.configuration()]
+            .into_iter()
+            .flatten()
+            .map(|q| proof.value(q).0)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let mut query = Self {
+            from,
+            to,
+            effort: *effort,
+            started: Instant::now(),
+            assessed_before: certifier.assessed,
+            floor,
+            best: None,
+            improved: false,
+            caged: false,
+            rounds: 0,
+            certifier,
+        };
+        query.best = query
+            .joined_to_the_ends(known)
+            .and_then(|path| query.prove(&path, f64::INFINITY).ok());
+        query
+    }
+
+    /// Searches until the bracket is narrow enough or the effort is spent.
+    pub fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bracket {
+        while self.level() > self.floor {
+            let level = self.level();
+            let found = watershed(&self.certifier.store, &self.seeds(), level);
+            let going_on = watch(&Progress {
+                cells: self.cells(),
+                rounds: self.rounds,
+                divide: found.divide.len(),
+                upper: self.best.as_ref().map(|path| path.upper),
+            });
+            let Some((pass, chain)) = found.pass else {
+                self.caged = self.best.is_none();
+                break;
+            };
+            let mut to_divide = found.divide;
+            to_divide.truncate(SPLITS.max(self.certifier.store.len() / SPLIT_SHARE));
+            if pass < level + (1.0 - WORTHWHILE) * self.effort.tolerance {
+                match self.improve(&chain) {
+                    Ok(()) => continue,
+                    Err(blamed) => {
+                        to_divide.extend(blamed);
+                        to_divide.sort_unstable();
+                        to_divide.dedup();
+                    }
+                }
+            }
+            if !going_on || self.spent() || self.subdivide(&to_divide, level) == 0 {
+                break;
+            }
+            self.rounds += 1;
+        }
+        self.conclude()
+    }
+
+    /// The energy (J) above which the barrier has to be proved to lie.
+    fn level(&self) -> f64 {
+        self.best
+            .as_ref()
+            .map_or(f64::INFINITY, |path| path.upper - self.effort.tolerance)
+    }
+
+    fn cells(&self) -> usize {
+        self.certifier.assessed - self.assessed_before
+    }
+
+    fn spent(&self) -> bool {
+        self.cells() >= self.effort.cells
+            || self
+                .effort
+                .time
+                .is_some_and(|limit| self.started.elapsed() >= limit)
+    }
+
+    fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
+        let mut count = 0;
+        for batch in ids.chunks(BATCH) {
+            count += self.certifier.subdivide(batch, level);
+            if self.spent() {
+                break;
+            }
+        }
+        count
+    }
+
+    fn prove(&self, path: &[Configuration], ceiling: f64) -> Result<ProvedPath, usize> {
+        let sharpness = SHARPNESS * self.effort.tolerance;
+        self.certifier
+            .landscape
+            .proof()
+            .prove(path, sharpness, ceiling)
+    }
+
+    /// Tries to prove a lower pathway along a chain of leaves; else says which leaves are to blame.
+    fn improve(&mut self, chain: &[u32]) -> Result<(), Vec<u32>> {
+        let (path, owners) = self.path_along(chain);
+        let ceiling = self.level() + (1.0 - GAIN) * self.effort.tolerance;
+        match self.prove(&path, ceiling) {
+            Ok(proved) if proved.upper <= ceiling || self.best.is_none() => {
+                self.best = Some(proved);
+                self.improved = true;
+                Ok(())
+            }
+            Ok(_) => Err(Vec::new()),
+            Err(point) => {
+                let stretch = point.saturating_sub(1)..(point + 1).min(owners.len());
+                Err(owners[stretch].to_vec())
+            }
+        }
+    }
+
+    /// A polyline along a chain of leaves: from end to end through the leaves' centres and the
+    /// middles of what consecutive ones have in common. With each point comes its leaf.
+    fn path_along(&self, chain: &[u32]) -> (Vec<Configuration>, Vec<u32>) {
+        let store = &self.certifier.store;
+        let cell = |id: u32| store.cell(&store.leaf(id).key);
+        let mut path = vec![(self.from, chain[0])];
+        for pair in chain.windows(2) {
+            path.push((store.between(pair[0], pair[1]), pair[1]));
+            path.push((cell(pair[1]).centre, pair[1]));
+        }
+        let last = chain[chain.len() - 1];
+        if chain.len() > 1 {
+            path.pop();
+        }
+        let end = match self.to {
+            End::At(to) => Some(to),
+            End::Free => self.certifier.landscape.far_end(&cell(last)),
+        };
+        path.extend(end.map(|end| (end, last)));
+        path.into_iter().unzip()
+    }
+
+    /// A known pathway, from end to end; `None` where it does not lead to the end.
+    fn joined_to_the_ends(&self, known: &[Configuration]) -> Option<Vec<Configuration>> {
+        let last = known.last()?;
+        let mut path = vec![self.from];
+        path.extend(known.iter().filter(|q| **q != self.from));
+        match self.to {
+            End::At(to) if to != *last => path.push(to),
+            End::Free if !self.certifier.landscape.space.is_far(last) => return None,
+            _ => {}
+        }
+        Some(path)
+    }
+
+    /// The leaves that hold either end.
+    fn seeds(&self) -> Seeds {
+        let Certifier {
+            store, landscape, ..
+        } = &*self.certifier;
+        let holding = |holds: &dyn Fn(&Leaf, &Cell) -> Option<f64>| {
+            store
+                .live()
+                .filter_map(|(id, leaf)| Some((id, holds(leaf, &store.cell(&leaf.key))?)))
+                .collect()
+        };
+        let at = |q: &Configuration, cell: &Cell| cell.contains(q).then_some(f64::NEG_INFINITY);
+        Seeds {
+            from: holding(&|_, cell| at(&self.from, cell)),
+            to: match &self.to {
+                End::At(to) => holding(&|_, cell| at(to, cell)),
+                End::Free => holding(&|leaf, cell| {
+                    if landscape.space.is_far(&cell.centre) {
+                        return Some(leaf.known.estimate);
+                    }
+                    let end = landscape.far_end(cell)?;
+                    Some(landscape.proof().value(&end).1)
+                }),
+            },
+        }
+    }
+
+    fn conclude(self) -> Bracket {
+        let lower = least_level(&self.certifier.store, &self.seeds()).max(self.floor);
+        let (cells, rounds) = (self.cells(), self.rounds);
+        let (upper, saddle, pathway) = match self.best {
+            Some(path) => (Some(path.upper), Some(path.peak), path.points),
+            None => (None, None, Vec::new()),
+        };
+        Bracket {
+            lower,
+            upper,
+            caged: self.caged,
+            pathway,
+            saddle,
+            improved: self.improved,
+            cells,
+            rounds,
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The command line: what is asked for goes to the library, what comes back to files and the
+//! terminal.
+
+mod cli;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// How two magnetic tiles bind: states, traps, energy barriers and pathways over (x, y, theta).
+#[derive(Parser)]
+#[command(
+    version,
+    propagate_version = true,
+    subcommand_required = true,
+    arg_required_else_help = true,
+    after_help = "\
+Exit status: 0 done; 1 the run failed; 2 the command line or a design file is wrong (nothing
+written); 75 interrupted.
+
+Start here:
+  tilebind analyse shapes/paper-tile.toml --out target/paper-tile"
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Analyse(cli::analyse::Analyse),
+    Energy(cli::energy::Energy),
+    Barrier(cli::barrier::Barrier),
+    Dock(cli::dock::Dock),
+    Completions(cli::completions::Completions),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Analyse(command) => command.run(),
+        Command::Energy(command) => command.run(),
+        Command::Barrier(command) => command.run(),
+        Command::Dock(command) => command.run(),
+        Command::Completions(command) => command.run::<Arguments>(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,198 @@
+//! Labels that keep out of each other's way.
+
+use nalgebra::Vector2;
+use plotters::prelude::{Color, WHITE};
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::marks::{Box4, Pixel, polygon, polyline};
+use super::picture::{Area, PictureError};
+use super::style::{SOFT, Text};
+
+/// Width and height (pixels) of a text with its ground. Fonts other than the measured one may be a
+/// tenth wider.
+fn extent(font: Text, text: &str) -> (f64, f64) {
+    (1.08 * font.width(text) + 6.0, 1.25 * font.size + 2.0)
+}
+
+/// The point of a rectangle that is nearest to another point.
+fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
+    (x.clamp(left, right), y.clamp(top, bottom))
+}
+
+/// Writes a text on a pale ground, joined to `anchor` by a thin line where it is not beside it.
+fn write(
+    root: &Area,
+    text: &str,
+    font: Text,
+    anchor: Pixel,
+    [left, top, right, bottom]: Box4,
+) -> Result<(), PictureError> {
+    let nearest = nearest(anchor, [left, top, right, bottom]);
+    if (nearest.0 - anchor.0).hypot(nearest.1 - anchor.1) > 14.0 {
+        polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
+        polyline(root, &[anchor, nearest], SOFT, 1.0)?;
+    }
+    let ground = [(left, top), (right, top), (right, bottom), (left, bottom)];
+    polygon(root, &ground, WHITE.mix(0.85), None)?;
+    let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
+    font.write(root, text, middle, (HPos::Center, VPos::Center))
+}
+
+/// Writes labels in a column along the left side of a frame, each as near as may be to the height
+/// of what it names.
+pub fn label_column(
+    root: &Area,
+    font: Text,
+    [left, top, _, bottom]: Box4,
+    mut labels: Vec<(Pixel, String)>,
+) -> Result<(), PictureError> {
+    labels.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    let (_, step) = extent(font, "");
+    let mut heights: Vec<f64> = labels.iter().map(|(anchor, _)| anchor.1).collect();
+    spread(&mut heights, step + 1.0, top + step, bottom - step);
+    for ((anchor, text), height) in labels.iter().zip(heights) {
+        let (width, _) = extent(font, text);
+        let place = [
+            left + 6.0,
+            height - step / 2.0,
+            left + 6.0 + width,
+            height + step / 2.0,
+        ];
+        write(root, text, font, *anchor, place)?;
+    }
+    Ok(())
+}
+
+/// Moves ascending heights apart until they differ by `step` and lie between `low` and `high`, as
+/// far as they fit.
+fn spread(heights: &mut [f64], step: f64, low: f64, high: f64) {
+    let count = heights.len();
+    for _ in 0..200 {
+        for i in 1..count {
+            let overlap = step - (heights[i] - heights[i - 1]);
+            if overlap > 0.0 {
+                heights[i - 1] -= overlap / 2.0;
+                heights[i] += overlap / 2.0;
+            }
+        }
+        for (i, height) in heights.iter_mut().enumerate() {
+            let (above, below) = (i as f64 * step, (count - 1 - i) as f64 * step);
+            *height = height.min(high - below).max(low + above);
+        }
+    }
+}
+
+/// Places labels beside what they name so that none covers another or a marker.
+pub struct Labels {
+    within: Box4,
+    taken: Vec<Box4>,
+}
+
+impl Labels {
+    pub fn new(within: Box4) -> Self {
+        Self {
+            within,
+            taken: Vec::new(),
+        }
+    }
+
+    /// Keeps labels off a disc.
+    pub fn keep_off(&mut self, (x, y): Pixel, radius: f64) {
+        self.taken
+            .push([x - radius, y - radius, x + radius, y + radius]);
+    }
+
+    /// Keeps labels off a line.
+    pub fn keep_off_line(&mut self, points: &[Pixel]) {
+        for pair in points.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 5.0).ceil().max(1.0);
+            for k in 0..=steps as usize {
+                let t = k as f64 / steps;
+                self.keep_off((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t), 2.0);
+            }
+        }
+    }
+
+    /// Writes `text` near `anchor`, joined to it by a thin line where it is not beside it. Leaves
+    /// it out where there is no room near.
+    pub fn place(
+        &mut self,
+        root: &Area,
+        text: &str,
+        font: Text,
+        anchor: Pixel,
+        outwards: Vector2<f64>,
+    ) -> Result<(), PictureError> {
+        let (width, height) = extent(font, text);
+        let Some(place) = self.free_place(anchor, width, height, outwards) else {
+            return Ok(());
+        };
+        self.taken.push(place);
+        self.keep_off_line(&[anchor, nearest(anchor, place)]);
+        write(root, text, font, anchor, place)
+    }
+
+    /// The nearest free place, those in the direction `outwards` first.
+    fn free_place(
+        &self,
+        (x, y): Pixel,
+        width: f64,
+        height: f64,
+        outwards: Vector2<f64>,
+    ) -> Option<Box4> {
+        let directions = 16;
+        let mut candidates = Vec::new();
+        for ring in 0..13 {
+            for k in 0..directions {
+                let angle = k as f64 * std::f64::consts::TAU / directions as f64;
+                let (dx, dy) = (angle.cos(), angle.sin());
+                let away = 1.0 - (dx * outwards.x + dy * outwards.y);
+                let reach = 11.0 + 16.0 * ring as f64;
+                let place = self.moved_inside([
+                    x + dx * (reach + width / 2.0) - width / 2.0,
+                    y + dy * (reach + height / 2.0) - height / 2.0,
+                    x + dx * (reach + width / 2.0) + width / 2.0,
+                    y + dy * (reach + height / 2.0) + height / 2.0,
+                ]);
+                candidates.push((reach + 24.0 * away, place));
+            }
+        }
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates
+            .into_iter()
+            .map(|(_, place)| place)
+            .find(|place| self.is_free(*place))
+    }
+
+    /// A rectangle moved into the frame, as far as it fits.
+    fn moved_inside(&self, [left, top, right, bottom]: Box4) -> Box4 {
+        let [l, t, r, b] = self.within;
+        let dx = (l - left).max(0.0) - (right - r).max(0.0);
+        let dy = (t - top).max(0.0) - (bottom - b).max(0.0);
+        [left + dx, top + dy, right + dx, bottom + dy]
+    }
+
+    fn is_free(&self, [left, top, right, bottom]: Box4) -> bool {
+        // Moving a rectangle inside rounds it.
+        const ROUNDING: f64 = 1e-6;
+        let [l, t, r, b] = self.within;
+        let over = [l - left, t - top, right - r, bottom - b];
+        let apart = |[l, t, r, b]: &Box4| right <= *l || *r <= left || bottom <= *t || *b <= top;
+        over.iter().all(|o| *o <= ROUNDING) && self.taken.iter().all(apart)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn spread_heights_keep_their_order_and_their_distance() {
+        let mut heights = vec![10.0, 11.0, 12.0, 50.0, 99.0, 99.5];
+        spread(&mut heights, 10.0, 0.0, 100.0);
+        assert!(heights.windows(2).all(|w| w[1] - w[0] >= 10.0 - 1e-6));
+        assert!(heights[0] >= 0.0 && heights[5] <= 100.0);
+        assert!((heights[3] - 50.0).abs() < 1e-9);
+    }
+}

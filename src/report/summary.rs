@@ -1,0 +1,254 @@
+//! The summary: some ten lines for the terminal.
+//!
+//! It leads with where tiles that start far apart end. That there is no barrier on the way into
+//! the bond says little: without any barrier, many starts may run into traps first.
+
+use std::fmt::Write;
+
+use crate::analysis::Analysis;
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
+use crate::report::json::face_names;
+use crate::units::si;
+
+/// Traps that are listed one by one.
+const LISTED: usize = 4;
+/// Significant digits of energies.
+const DIGITS: usize = 4;
+
+/// The states that symmetries map onto each other, taken together.
+struct Class<'a> {
+    /// The copy closest to the bound configuration.
+    state: &'a State,
+    escape: Option<&'a Barrier>,
+    copies: usize,
+    /// Share of the far starts that end in any of the copies.
+    captured: Proportion,
+}
+
+/// The summary of an analysis whose results are in `folder`.
+pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
+    let classes = classes(analysis);
+    let mut traps: Vec<&Class> = classes
+        .iter()
+        .filter(|class| class.state.kind == StateKind::Misbound)
+        .collect();
+    traps.sort_by_key(|class| std::cmp::Reverse(class.captured.count));
+    let bond = classes
+        .iter()
+        .find(|class| class.state.kind == StateKind::Bound);
+
+    let mut text = String::new();
+    write_captures(&mut text, design, analysis, bond, &traps);
+    let listed = bond.into_iter().chain(traps.iter().take(LISTED).copied());
+    let mut rows = vec![HEADER.map(str::to_owned)];
+    rows.extend(listed.map(|class| row(design, analysis, class)));
+    write_table(&mut text, &rows);
+    if traps.len() > LISTED {
+        write_rest(&mut text, &traps[LISTED..]);
+    }
+    write_bond(&mut text, analysis, bond);
+    write_deepest(&mut text, bond, &traps);
+    let _ = writeln!(
+        text,
+        "results in {folder}: report.json, states.csv, barriers.csv, pathways/, pictures/"
+    );
+    text
+}
+
+fn classes(analysis: &Analysis) -> Vec<Class<'_>> {
+    let firsts = analysis.states.iter().filter(|s| s.id == s.class);
+    firsts
+        .map(|state| {
+            let copies: Vec<&State> = analysis
+                .states
+                .iter()
+                .filter(|s| s.class == state.class)
+                .collect();
+            let count = copies.iter().filter_map(|s| s.capture).map(|c| c.count);
+            Class {
+                state,
+                escape: analysis.escapes[state.id].as_ref(),
+                copies: copies.len(),
+                captured: Proportion::new(count.sum(), analysis.uncaptured.of),
+            }
+        })
+        .collect()
+}
+
+/// Where far starts end.
+fn write_captures(
+    text: &mut String,
+    design: &Design,
+    analysis: &Analysis,
+    bond: Option<&Class>,
+    traps: &[&Class],
+) {
+    let of = analysis.uncaptured.of;
+    let trapped: usize = traps.iter().map(|class| class.captured.count).sum();
+    let bound = bond.map_or(0, |class| class.captured.count);
+    let [inner, outer] = analysis.ring;
+    let _ = writeln!(
+        text,
+        "{}: of {of} far starts {} end bound, {} in traps, {} nowhere\n\
+         (overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)",
+        design.name,
+        percent(&Proportion::new(bound, of)),
+        percent(&Proportion::new(trapped, of)),
+        percent(&analysis.uncaptured),
+    );
+}
+
+const HEADER: [&str; 6] = [
+    "state",
+    "copies",
+    "captures",
+    "energy",
+    "escape barrier",
+    "one copy: x, y, theta, faces in contact",
+];
+
+fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
+    [
+        state_name(class.state),
+        class.copies.to_string(),
+        percent(&class.captured),
+        si(class.state.energy, "J", DIGITS),
+        match class.escape {
+            None => "none found".to_owned(),
+            Some(way) => {
+                let to = match way.to {
+                    Place::Free => "free".to_owned(),
+                    Place::State(id) => state_name(&analysis.states[id]),
+                };
+                format!("{} to {to}", si(way.forward(), "J", DIGITS))
+            }
+        },
+        format!(
+            "{}, {}",
+            pose(&class.state.configuration),
+            faces(design, class)
+        ),
+    ]
+}
+
+fn state_name(state: &State) -> String {
+    match state.kind {
+        StateKind::Bound => "bound".to_owned(),
+        StateKind::Misbound => format!("trap {}", state.id),
+    }
+}
+
+/// Rows with their columns aligned.
+fn write_table<const N: usize>(text: &mut String, rows: &[[String; N]]) {
+    let widths: [usize; N] = std::array::from_fn(|column| {
+        let lengths = rows.iter().map(|row| row[column].chars().count());
+        lengths.max().unwrap_or(0)
+    });
+    for row in rows {
+        let cells = row.iter().zip(widths);
+        let line: Vec<String> = cells
+            .map(|(cell, width)| format!("{cell:<width$}"))
+            .collect();
+        let _ = writeln!(text, "{}", line.join("  ").trim_end());
+    }
+}
+
+fn write_rest(text: &mut String, rest: &[&Class]) {
+    let deepest = rest.iter().map(|t| t.state.energy).fold(0.0, f64::min);
+    let captured: usize = rest.iter().map(|t| t.captured.count).sum();
+    let _ = writeln!(
+        text,
+        "and {} more kinds of trap down to {} that capture {} together",
+        rest.len(),
+        si(deepest, "J", DIGITS),
+        percent(&Proportion::new(captured, rest[0].captured.of)),
+    );
+}
+
+/// How far starts may get into the bond at best.
+fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
+    let Some(bond) = bond else {
+        let energy = si(analysis.bound.1, "J", DIGITS);
+        let _ = writeln!(
+            text,
+            "no bond: where the target faces coincide ({energy}) nothing holds the tile"
+        );
+        return;
+    };
+    let to_free = analysis
+        .barriers
+        .iter()
+        .find(|way| way.from == Place::State(bond.state.id) && way.to == Place::Free);
+    let _ = match to_free {
+        None => writeln!(text, "no way from far apart into the bond was found"),
+        Some(way) if way.saddle_energy <= 0.0 => {
+            writeln!(
+                text,
+                "no barrier on the best way from far apart into the bond"
+            )
+        }
+        Some(way) => writeln!(
+            text,
+            "a barrier of {} on the best way from far apart into the bond",
+            si(way.saddle_energy, "J", DIGITS)
+        ),
+    };
+}
+
+fn write_deepest(text: &mut String, bond: Option<&Class>, traps: &[&Class]) {
+    let deepest = traps
+        .iter()
+        .min_by(|a, b| a.state.energy.total_cmp(&b.state.energy));
+    let _ = match (deepest, bond) {
+        (None, _) => writeln!(text, "no traps"),
+        (Some(deepest), None) => writeln!(text, "deepest: {}", state_name(deepest.state)),
+        (Some(deepest), Some(bond)) => writeln!(
+            text,
+            "deepest: {}; selectivity {:.3} (energy of the bond over that of the deepest trap)",
+            state_name(deepest.state),
+            bond.state.energy / deepest.state.energy,
+        ),
+    };
+}
+
+/// Names of the faces in contact: `east-west`.
+fn faces(design: &Design, class: &Class) -> String {
+    let pairs: Vec<String> = face_names(design, class.state)
+        .iter()
+        .map(|pair| pair.join("-"))
+        .collect();
+    if pairs.is_empty() {
+        "no contact".to_owned()
+    } else {
+        pairs.join(" ")
+    }
+}
+
+fn pose(q: &Configuration) -> String {
+    let [x, y] = [q.x, q.y].map(|length| tenths(1e3 * length));
+    format!("({x}, {y}) mm {}°", tenths(q.theta.to_degrees()))
+}
+
+/// One decimal, without a sign where it is 0.
+fn tenths(value: f64) -> String {
+    format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
+}
+
+/// `56 % (53-59)`, with the interval.
+fn percent(proportion: &Proportion) -> String {
+    if proportion.of == 0 {
+        return "not counted".to_owned();
+    }
+    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
+        let percent = 100.0 * x;
+        // Whole percents, but 0 only for none and 100 only for all.
+        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
+            format!("{percent:.1}")
+        } else {
+            format!("{percent:.0}")
+        }
+    });
+    format!("{share} % ({low}-{high})")
+}

@@ -1,0 +1,215 @@
+//! The files of an analysis: whole or not there at all.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::json::Report;
+use super::plots::{self, NamedPicture, PictureError, Scene};
+use super::{csv, json};
+use crate::analysis::Analysis;
+use crate::contact::Contact;
+use crate::design::Design;
+use crate::landscape::Barrier;
+use crate::landscape::map::Pair;
+use crate::pipeline;
+
+/// Files by their names relative to the folder they go to.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// The file that is written last: where it is, the others are too.
+pub const REPORT: &str = "report.json";
+
+/// Why results could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    #[error("cannot write {}: {source}", path.display())]
+    File { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+}
+
+/// How much is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    Full,
+    /// Without the pathways of copies, and pictures as SVG only: for results that are kept.
+    Compact,
+}
+
+/// All files of an analysis begun at `start`: report, tables, pathways and pictures.
+///
+/// # Errors
+/// Where a picture cannot be drawn.
+pub fn files(
+    design: &Design,
+    analysis: &Analysis,
+    extent: Extent,
+    start: Instant,
+) -> Result<Files, PictureError> {
+    let mut files = tables(design, analysis, extent);
+    for NamedPicture { name, picture } in pictures(design, analysis)? {
+        files.insert(format!("pictures/{name}.svg"), picture.svg.into());
+        if extent == Extent::Full {
+            files.insert(format!("pictures/{name}.png"), picture.png);
+        }
+    }
+    let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
+    if extent == Extent::Compact {
+        report = report.without_copies();
+    }
+    files.insert(REPORT.to_owned(), report.to_text().into_bytes());
+    Ok(files)
+}
+
+fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
+    let mut files = Files::new();
+    let mut add = |name: String, content: String| {
+        files.insert(name, content.into_bytes());
+    };
+    add("states.csv".into(), csv::states(design, analysis));
+    add(
+        "barriers.csv".into(),
+        csv::barriers(&analysis.barriers, json::pathway_file),
+    );
+    let escapes = analysis
+        .states
+        .iter()
+        .filter(|state| extent == Extent::Full || state.id == state.class)
+        .filter_map(|state| analysis.escapes[state.id].as_ref());
+    let barriers = escapes.chain(&analysis.barriers);
+    for barrier in barriers.filter(|barrier| !barrier.pathway.is_empty()) {
+        add(json::pathway_file(barrier), csv::pathway(&barrier.pathway));
+    }
+    for alternative in &analysis.alternatives {
+        add(
+            json::alternative_file(alternative),
+            csv::pathway(&alternative.pathway),
+        );
+    }
+    files
+}
+
+fn pictures(design: &Design, analysis: &Analysis) -> Result<Vec<NamedPicture>, PictureError> {
+    let problem = pipeline::problem(design);
+    let passable: Vec<Barrier> = analysis
+        .barriers
+        .iter()
+        .filter(|barrier| !barrier.pathway.is_empty())
+        .cloned()
+        .collect();
+    let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
+    plots::draw_all(&Scene {
+        name: &design.name,
+        pair: Pair {
+            fixed: &design.fixed,
+            moving: &design.moving,
+            potential: problem.potential(),
+            contact: &contact,
+        },
+        space: &problem.space,
+        bound: design.bound,
+        target: design.target,
+        states: &analysis.states,
+        escapes: &analysis.escapes,
+        barriers: &passable,
+    })
+}
+
+/// Writes files into a folder, which is made if need be. Each is written under a temporary name;
+/// only when all are there do they take their places, the report last. Pathways and pictures that
+/// an earlier analysis left in the folder are taken away.
+///
+/// # Errors
+/// Where the file system refuses; then no file has been changed unless it refused a renaming.
+pub fn write(folder: &Path, files: &Files) -> Result<(), WriteError> {
+    let stale = stale(folder, files);
+    let mut staged = Staged::default();
+    for (name, content) in files {
+        staged.add(&folder.join(name), content)?;
+    }
+    let _ = std::fs::remove_file(folder.join(REPORT));
+    for path in stale {
+        let _ = std::fs::remove_file(path);
+    }
+    staged.settle()
+}
+
+/// Writes a file, whole or not at all.
+///
+/// # Errors
+/// Where the file system refuses.
+pub fn write_file(path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    let mut staged = Staged::default();
+    staged.add(path, content)?;
+    staged.settle()
+}
+
+/// Files of an earlier analysis that this one does not write anew.
+fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
+    if !folder.join(REPORT).is_file() {
+        return Vec::new();
+    }
+    let of_an_analysis = |part: &str, name: &str| match part {
+        "pathways" => name.ends_with(".csv"),
+        _ => name.ends_with(".svg") || name.ends_with(".png"),
+    };
+    ["pathways", "pictures"]
+        .into_iter()
+        .flat_map(|part| {
+            let entries = std::fs::read_dir(folder.join(part)).into_iter().flatten();
+            entries
+                .flatten()
+                .filter(move |entry| {
+                    let name = entry.file_name().to_string_lossy().into_owned();
+                    of_an_analysis(part, &name) && !files.contains_key(&format!("{part}/{name}"))
+                })
+                .map(|entry| entry.path())
+        })
+        .collect()
+}
+
+/// Files under temporary names; those not settled are removed when this goes.
+#[derive(Default)]
+struct Staged {
+    /// Temporary and final path.
+    waiting: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Staged {
+    fn add(&mut self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        std::fs::create_dir_all(folder).map_err(|source| WriteError::File {
+            path: folder.to_owned(),
+            source,
+        })?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = folder.join(format!(".{name}.{}.partial", std::process::id()));
+        self.waiting.push((temporary.clone(), path.to_owned()));
+        std::fs::write(&temporary, content).map_err(|source| WriteError::File {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    /// Renames the files in the order of their names, the report last.
+    fn settle(mut self) -> Result<(), WriteError> {
+        self.waiting
+            .sort_by_key(|(_, path)| (path.ends_with(REPORT), path.clone()));
+        while let Some((temporary, path)) = self.waiting.first().cloned() {
+            std::fs::rename(&temporary, &path)
+                .map_err(|source| WriteError::File { path, source })?;
+            self.waiting.remove(0);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        for (temporary, _) in &self.waiting {
+            let _ = std::fs::remove_file(temporary);
+        }
+    }
+}
