@@ -14,8 +14,8 @@
 //!
 //! The block tends to the dipole far away, with an error that falls like `r^-2`. Near contact the
 //! dipole is wrong by much: for blocks of 10 x 10 x 3 mm magnetised along a long side, face to
-//! face, its energy is 35 % too weak at a gap of 1 mm and 22 % of it is missing still at 4 mm,
-//! while for the same block magnetised through its 3 mm side it is several times too strong.
+//! face, its energy is 35 % too weak at a gap of 1 mm and 18 % at 5 mm, and for the same block
+//! magnetised through its 3 mm side it is 6.7 times too strong at 1 mm and 2.4 times at 5 mm.
 //! [`cuboid::ModelComparison`] gives both energies at any configuration.
 //!
 //! Sources: Jackson, *Classical Electrodynamics* (3rd ed.), chapter 5, for the dipole; Akoun and
