@@ -102,12 +102,13 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
     barrier.lower = bracket.lower.is_finite().then_some(bracket.lower);
     barrier.upper = bracket.upper;
     barrier.caged = bracket.caged;
-    if !bracket.improved {
+    // In place of a pathway that could not be proved the certificate's own may lie higher.
+    let lower = |upper: f64| upper < barrier.saddle_energy;
+    if !bracket.improved || !bracket.upper.is_some_and(lower) {
         return;
     }
     let pathway = pathway::of_configurations(problem, &bracket.pathway, bend);
-    let highest = pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy));
-    if let Some(highest) = highest {
+    if let Some(highest) = pathway::highest_point(&pathway).copied() {
         barrier.saddle_energy = highest.energy;
         barrier.saddle = highest.configuration;
         barrier.pathway = pathway;

@@ -132,11 +132,7 @@ impl Answer {
 
     /// Reads the saddle off the pathway.
     fn rate(&mut self) {
-        let highest = self
-            .pathway
-            .iter()
-            .max_by(|a, b| a.energy.total_cmp(&b.energy));
-        if let Some(highest) = highest {
+        if let Some(highest) = pathway::highest_point(&self.pathway) {
             self.saddle_energy = highest.energy;
             self.saddle = Some(highest.configuration);
         }
@@ -185,9 +181,8 @@ fn find_way(
         problem,
         &survey.network,
         nodes[0],
-        &goal,
-        depth,
-        BEND * depth,
+        [&goal, &goal],
+        [depth, BEND * depth],
     )
     .map_or_else(Pathway::new, |lowest| lowest.pathway)
 }
@@ -261,7 +256,11 @@ fn certify(design: &Design, problem: &Problem, query: &Query, answer: &mut Answe
     answer.lower = Some(bracket.lower);
     answer.upper = bracket.upper;
     answer.caged = bracket.caged;
-    if bracket.improved {
+    if bracket.improved
+        && bracket
+            .upper
+            .is_some_and(|upper| upper < answer.saddle_energy)
+    {
         answer.pathway = pathway::of_configurations(problem, &bracket.pathway, BEND * depth);
         answer.rate();
     }

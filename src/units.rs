@@ -18,6 +18,20 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
     format!("{scaled:.decimals$} {prefix}{unit}")
 }
 
+/// Two quantities with one SI prefix and unit between them, each with `digits` significant digits
+/// of the larger one: `14.54 to 15.19 mJ`.
+pub fn si_range(low: f64, high: f64, unit: &str, digits: usize) -> String {
+    let size = low.abs().max(high.abs());
+    if size == 0.0 || !size.is_finite() {
+        return format!("{low} to {high} {unit}");
+    }
+    let (scale, prefix) = prefix_of(size);
+    let whole = (size / scale).log10().floor() as i32 + 1;
+    let decimals = (digits as i32 - whole).max(0) as usize;
+    let [low, high] = [low / scale, high / scale];
+    format!("{low:.decimals$} to {high:.decimals$} {prefix}{unit}")
+}
+
 /// The SI prefix for a quantity of this size, and what it stands for.
 pub fn prefix_of(size: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 6] = [
@@ -36,7 +50,7 @@ pub fn prefix_of(size: f64) -> (f64, &'static str) {
 
 #[cfg(test)]
 mod tests {
-    use super::si;
+    use super::{si, si_range};
 
     #[test]
     fn prefixes_and_digits() {
@@ -44,5 +58,7 @@ mod tests {
         assert_eq!(si(2.2e-6, "J", 2), "2.2 µJ");
         assert_eq!(si(0.43, "m", 3), "430 mm");
         assert_eq!(si(0.0, "J", 3), "0 J");
+        assert_eq!(si_range(0.014537, 0.0151873, "J", 4), "14.54 to 15.19 mJ");
+        assert_eq!(si_range(-2e-7, 0.0151873, "J", 3), "-0.0 to 15.2 mJ");
     }
 }

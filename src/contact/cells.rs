@@ -286,7 +286,10 @@ impl Sweeping<'_> {
     fn look_at(&self, k: usize, findings: &mut Findings) -> bool {
         let p = self.probes.probes[k];
         let reach = (self.reach)(p, 0.0);
-        match self.other.verdict((self.place)(p), reach, k % 2 == 0) {
+        match self
+            .other
+            .verdict((self.place)(p), reach, k.is_multiple_of(2))
+        {
             Verdict::Blocked => return false,
             Verdict::Inside(depth) => findings.depth = findings.depth.max(depth),
             Verdict::Edges([i, j]) => {

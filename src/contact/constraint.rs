@@ -270,6 +270,9 @@ fn norm(c: &Constraint, inverse: &Matrix3<f64>) -> f64 {
     c.gradient.dot(&(inverse * c.gradient)).sqrt()
 }
 
+/// A point, the constraints that bind there, and their multipliers.
+type Optimum = (Vector3<f64>, Vec<usize>, Vec<f64>);
+
 /// The optimum over the working set: the subset of at most three constraints, taken as equalities,
 /// whose multipliers are not negative and that leaves the others satisfied.
 fn best_subset(
@@ -277,9 +280,9 @@ fn best_subset(
     inverse: &Matrix3<f64>,
     constraints: &[Constraint],
     working: &[usize],
-) -> Option<(Vector3<f64>, Vec<usize>, Vec<f64>)> {
+) -> Option<Optimum> {
     let tolerance = 1e-11 * (1.0 + wanted.norm());
-    let mut best: Option<(f64, Vector3<f64>, Vec<usize>, Vec<f64>)> = None;
+    let mut best: Option<(f64, Optimum)> = None;
     for set in subsets(working) {
         let Some((point, lambda)) = equality_optimum(wanted, inverse, constraints, &set) else {
             continue;
@@ -290,11 +293,11 @@ fn best_subset(
         if feasible && lambda.iter().all(|&l| l >= 0.0) {
             let cost = (point - wanted).norm_squared();
             if best.as_ref().is_none_or(|b| cost < b.0) {
-                best = Some((cost, point, set, lambda));
+                best = Some((cost, (point, set, lambda)));
             }
         }
     }
-    best.map(|(_, point, set, lambda)| (point, set, lambda))
+    best.map(|(_, optimum)| optimum)
 }
 
 fn subsets(working: &[usize]) -> Vec<Vec<usize>> {

@@ -233,10 +233,7 @@ mod tests {
             (0..n)
                 .map(|_| {
                     let mut random = || rng.random_range(-1.0..1.0);
-                    (
-                        Vector2::new(random(), random()),
-                        0.05 * (random() as f64).abs(),
-                    )
+                    (Vector2::new(random(), random()), 0.05 * f64::abs(random()))
                 })
                 .collect()
         };

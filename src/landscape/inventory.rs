@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use super::meeting::{magnet_pairs, touching_faces};
 use super::network::Cost;
-use super::pathway;
+use super::pathway::{self, Lowest};
 use super::results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};
 use super::survey::Survey;
 use super::symmetry::Symmetry;
@@ -273,15 +273,8 @@ impl Taker<'_> {
 
     /// The barrier from a state to the nearest of some nodes.
     fn barrier_to(&self, found: usize, goals: &HashSet<usize>, order: &[usize]) -> Option<Barrier> {
-        let network = &self.survey.network;
         let node = self.survey.states[found].node;
-        let peak = network.minimax(node, goals)?;
         let depth = self.energy(found).abs();
-        let highest = peak + 1e-12 * depth;
-        let cost = Cost::Below {
-            highest,
-            per_metre: 0.01 * depth,
-        };
         let reported: HashSet<usize> = goals
             .iter()
             .copied()
@@ -290,12 +283,17 @@ impl Taker<'_> {
                     || order.iter().any(|&o| self.survey.states[o].node == goal)
             })
             .collect();
-        let (end, _, route) = network.cheapest(node, &reported, cost)?;
-        let pathway = pathway::along(self.problem, network, &route, highest, 2e-3 * depth);
-        let saddle = pathway
-            .iter()
-            .max_by(|a, b| a.energy.total_cmp(&b.energy))?
-            .configuration;
+        let Lowest {
+            saddle,
+            end,
+            pathway,
+        } = pathway::lowest(
+            self.problem,
+            &self.survey.network,
+            node,
+            [goals, &reported],
+            [depth, 2e-3 * depth],
+        )?;
         let to = self.place(end, order);
         let to_energy = match to {
             Place::Free => 0.0,
@@ -304,8 +302,8 @@ impl Taker<'_> {
         Some(Barrier {
             from: self.place(node, order),
             to,
-            saddle_energy: peak,
-            saddle,
+            saddle_energy: saddle.energy,
+            saddle: saddle.configuration,
             lower: None,
             upper: None,
             caged: false,

@@ -18,33 +18,43 @@ const SHORTEST_STEP: f64 = 2e-4;
 /// The best way between two nodes.
 #[derive(Clone, Debug)]
 pub struct Lowest {
-    /// Its highest energy (J), the least possible in the network.
-    pub peak: f64,
-    /// The goal that it reaches.
+    /// Its highest point. Where detours could be cut short, it may lie below what the network
+    /// holds.
+    pub saddle: PathwayPoint,
+    /// The node that it reaches.
     pub end: usize,
     pub pathway: Pathway,
 }
 
 /// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
-/// highest energy the one with the least work, each metre counted as a hundredth of `depth` (J).
-/// Steps are halved until the energy between two points is linear to within `bend` (J).
+/// highest energy the one with the least work to one of the `ends`, each metre counted as a
+/// hundredth of `depth` (J). Steps are halved until the energy between two points is linear to
+/// within `bend` (J).
 pub fn lowest(
     problem: &Problem,
     network: &Network,
     from: usize,
-    goals: &HashSet<usize>,
-    depth: f64,
-    bend: f64,
+    [goals, ends]: [&HashSet<usize>; 2],
+    [depth, bend]: [f64; 2],
 ) -> Option<Lowest> {
-    let peak = network.minimax(from, goals)?;
-    let highest = peak + 1e-12 * depth;
+    let highest = network.minimax(from, goals)? + 1e-12 * depth;
     let cost = Cost::Below {
         highest,
         per_metre: 0.01 * depth,
     };
-    let (end, _, route) = network.cheapest(from, goals, cost)?;
+    let (end, _, route) = network.cheapest(from, ends, cost)?;
     let pathway = along(problem, network, &route, highest, bend);
-    Some(Lowest { peak, end, pathway })
+    let saddle = *highest_point(&pathway)?;
+    Some(Lowest {
+        saddle,
+        end,
+        pathway,
+    })
+}
+
+/// The point of a pathway with the highest energy.
+pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
+    pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
 }
 
 /// The pathway along a route. Stretches of straight motions are cut short where the direct motion

@@ -123,8 +123,9 @@ pub struct ProportionEntry {
 pub struct BarrierEntry {
     pub from: Value,
     pub to: Value,
+    /// Null where there is no way.
     pub saddle_energy_J: f64,
-    pub saddle_pose: [f64; 3],
+    pub saddle_pose: Option<[f64; 3]>,
     pub lower_J: Option<f64>,
     pub upper_J: Option<f64>,
     /// Proved that there is no way at all; `saddle_energy_J` is then null.
@@ -380,7 +381,7 @@ impl BarrierEntry {
             from: place(barrier.from),
             to: place(barrier.to),
             saddle_energy_J: positive_zero(barrier.saddle_energy),
-            saddle_pose: pose(&barrier.saddle),
+            saddle_pose: (!barrier.pathway.is_empty()).then(|| pose(&barrier.saddle)),
             lower_J: barrier.lower,
             upper_J: barrier.upper,
             caged: barrier.caged,

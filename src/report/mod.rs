@@ -1,11 +1,11 @@
 //! Results for people and programs to read.
 //!
-//! - [`json`]: `report.json`, everything that is known;
-//! - [`csv`]: tables of states and barriers, and pathways;
-//! - [`docking`]: docking experiments;
-//! - [`summary`]: ten lines for the terminal;
-//! - [`plots`]: pictures;
-//! - [`writer`]: all of it as files of one folder.
+//! - [`json`] - `report.json`, everything that is known;
+//! - [`csv`] - tables of states and barriers, and pathways;
+//! - [`docking`] - docking experiments;
+//! - [`summary`] - ten lines for the terminal;
+//! - [`plots`] - pictures;
+//! - [`writer`] - all of it as files of one folder.
 
 pub mod csv;
 pub mod docking;

@@ -10,7 +10,7 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
 use crate::report::json::face_names;
-use crate::units::si;
+use crate::units::{si, si_range};
 
 /// Traps that are listed one by one.
 const LISTED: usize = 4;
@@ -102,20 +102,32 @@ fn write_captures(
 
 const HEADER: [&str; 6] = [
     "state",
-    "copies",
     "captures",
     "energy",
     "escape barrier",
-    "one copy: x, y, theta, faces in contact",
+    "certified",
+    "x, y (mm), theta, faces in contact",
 ];
 
 fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
+    let name = state_name(class.state);
+    let energy = class.state.energy;
+    let caged = || {
+        analysis
+            .barriers
+            .iter()
+            .any(|way| way.from == Place::State(class.state.id) && way.caged)
+    };
     [
-        state_name(class.state),
-        class.copies.to_string(),
+        if class.copies > 1 {
+            format!("{name} x{}", class.copies)
+        } else {
+            name
+        },
         percent(&class.captured),
-        si(class.state.energy, "J", DIGITS),
+        si(energy, "J", DIGITS),
         match class.escape {
+            None if caged() => "caged".to_owned(),
             None => "none found".to_owned(),
             Some(way) => {
                 let to = match way.to {
@@ -124,6 +136,11 @@ fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
                 };
                 format!("{} to {to}", si(way.forward(), "J", DIGITS))
             }
+        },
+        match class.escape.and_then(|way| way.lower.zip(way.upper)) {
+            None if caged() => "no way out".to_owned(),
+            None => String::new(),
+            Some((lower, upper)) => si_range(lower - energy, upper - energy, "J", DIGITS),
         },
         format!(
             "{}, {}",
@@ -182,7 +199,13 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
         .iter()
         .find(|way| way.from == Place::State(bond.state.id) && way.to == Place::Free);
     let _ = match to_free {
+        Some(way) if way.caged => {
+            writeln!(text, "no way at all from far apart into the bond, proved")
+        }
         None => writeln!(text, "no way from far apart into the bond was found"),
+        Some(way) if way.pathway.is_empty() => {
+            writeln!(text, "no way from far apart into the bond was found")
+        }
         Some(way) if way.saddle_energy <= 0.0 => {
             writeln!(
                 text,
@@ -228,7 +251,7 @@ fn faces(design: &Design, class: &Class) -> String {
 
 fn pose(q: &Configuration) -> String {
     let [x, y] = [q.x, q.y].map(|length| tenths(1e3 * length));
-    format!("({x}, {y}) mm {}°", tenths(q.theta.to_degrees()))
+    format!("{x}, {y}, {}°", tenths(q.theta.to_degrees()))
 }
 
 /// One decimal, without a sign where it is 0.

@@ -64,7 +64,7 @@ impl<'a> NeighbourSearch<'a> {
             .nearest_n::<SquaredEuclidean<f64>>(count)
             .execute()
             .into_iter()
-            .map(|f| (f.distance, f.item as u32))
+            .map(|f| (f.distance, f.item))
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found

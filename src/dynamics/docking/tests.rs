@@ -71,7 +71,7 @@ fn a_match_needs_every_pair_and_holds_for_all_alike_faces() {
     assert!(rule.holds(&design.bound));
     // Two faces on: the same bond of another pair of faces.
     assert!(rule.holds(&Configuration::new(0.0, 0.43, 0.0)));
-    assert!(rule.holds(&Configuration::new(-0.43, 0.0, 1.5707963267948966)));
+    assert!(rule.holds(&Configuration::new(-0.43, 0.0, std::f64::consts::FRAC_PI_2)));
     // Partners 10 mm apart across the gap, slid by 11.1 mm: 14.9 mm; by 11.3 mm: 15.1 mm.
     assert!(rule.holds(&Configuration::new(0.43, 0.0111, 0.0)));
     assert!(!rule.holds(&Configuration::new(0.43, 0.0113, 0.0)));

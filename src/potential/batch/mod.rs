@@ -15,7 +15,7 @@
 mod bundle;
 mod curvature;
 mod field;
-pub(crate) mod lanes;
+pub mod lanes;
 mod level;
 mod operations;
 mod portable;

@@ -222,6 +222,8 @@ struct FieldDerivatives {
 }
 
 impl DipoleBounds {
+    // Several arrays are walked at once.
+    #[allow(clippy::needless_range_loop)]
     fn far_field(&self, at: Complex<f64>, reach: f64, coefficients: &[f64; 4]) -> FieldDerivatives {
         let mut sums = [[0.0; LANES]; 11];
         let nearest = NEAR * reach;

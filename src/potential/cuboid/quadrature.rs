@@ -38,6 +38,8 @@ impl Rules {
 ///
 /// Newton's method on the Legendre polynomial, from the usual cosine guess; the weights are
 /// `2 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun, 25.4.29).
+// Several arrays are walked at once.
+#[allow(clippy::needless_range_loop)]
 pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
     let node = |i: usize| {
         let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
