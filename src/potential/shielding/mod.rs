@@ -17,7 +17,8 @@
 //!
 //! This is a model with the right limits and as few constants as a measurement can tell apart,
 //! not a solution of the magnetostatic problem with iron: it takes the field of a pair to be that
-//! without iron but for a factor. Calibrate it before trusting it.
+//! without iron but for a factor. Calibrate it (see [`crate::calibration`]) before
+//! trusting it.
 //!
 //! # The nearest-face rule
 //! [`ShieldRule::NearestFace`] counts a pair in full if its magnets sit on the two faces, one of
@@ -55,7 +56,7 @@ pub enum ShieldRule {
 }
 
 /// The shields of two tiles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shields {
     pub rule: ShieldRule,
     /// One entry for each face of the fixed tile: its shield, if it has one.
