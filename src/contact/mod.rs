@@ -7,6 +7,7 @@
 
 pub mod cells;
 mod constraint;
+mod core;
 mod lift;
 mod motion;
 pub(crate) mod sweep;
@@ -28,6 +29,10 @@ use crate::tile::outline::{Bounds, ConvexPart};
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
+/// Cores that overlap deeper than this (m, negative) hold parts that overlap deeper than
+/// [`TOUCH`].
+const CORES_TOUCH: f64 = -1e-6;
+
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
@@ -40,7 +45,6 @@ pub struct Contact {
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
-    /// The largest convex part of each tile, most likely to be in the way.
     fixed_core: ConvexPart,
     moving_core: ConvexPart,
 }
@@ -55,8 +59,8 @@ impl Contact {
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
-            fixed_core: core(fixed),
-            moving_core: core(moving),
+            fixed_core: core::core(fixed),
+            moving_core: core::core(moving),
             fixed: fixed.clone(),
             moving: moving.clone(),
         }
@@ -105,7 +109,7 @@ impl Contact {
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
         self.clearance_bound(q) >= -TOUCH
-            || (separated(&self.fixed_core, &self.moving_core.placed(q), -TOUCH)
+            || (separated(&self.fixed_core, &self.moving_core.placed(q), CORES_TOUCH)
                 && self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH)))
     }
 
@@ -185,12 +189,6 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
         .iter()
         .map(|p| direction.dot(p))
         .fold(f64::INFINITY, f64::min)
-}
-
-fn core(outline: &Outline) -> ConvexPart {
-    let parts = outline.parts().iter();
-    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
-    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 
 fn compound(outline: &Outline) -> Compound {

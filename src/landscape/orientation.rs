@@ -13,7 +13,7 @@ use crate::tile::{Face, Tile};
 /// Halvings of the step between orientations in search of the lowest energy.
 const REFINEMENTS: i32 = 6;
 /// Halvings of the step between a free and a blocked orientation in search of contact.
-const BISECTIONS: usize = 6;
+const BISECTIONS: usize = 4;
 
 /// The search for the lowest energy over theta.
 pub struct Search<'a> {

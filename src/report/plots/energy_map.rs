@@ -13,7 +13,7 @@ use super::scene::Scene;
 use super::style::{Axis, FIXED_FILL, INK, LABEL, SMALL, SOFT, Text, chart, title, units};
 use crate::configuration::Configuration;
 use crate::landscape::StateKind;
-use crate::landscape::map::{EnergyMap, Window};
+use crate::landscape::map::{EnergyMap, Pair, Window};
 use crate::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
@@ -27,8 +27,12 @@ const AXES: f64 = 62.0;
 const FOOT: f64 = 156.0;
 /// Share of the enlargement's width that lies behind the bound position.
 const LABELS: f64 = 0.4;
-/// Grid points along the longer side of a map, and orientations.
+/// Grid points along the longer side of a map.
 const SAMPLES: f64 = 160.0;
+/// Grid points where outlines have many parts and contact is costly to ask for.
+const SAMPLES_OF_MANY_PARTS: f64 = 96.0;
+const MANY_PARTS: usize = 200;
+/// Orientations at each grid point.
 const ORIENTATIONS: usize = 48;
 /// Pixels of an embedded image a pixel of the picture.
 const IMAGE: f64 = 0.8;
@@ -60,7 +64,7 @@ fn whole_window(scene: &Scene) -> Window {
     let (fixed, moving) = (scene.pair.fixed, scene.pair.moving);
     let reach = 1.2 * (fixed.outline.circumradius() + moving.outline.circumradius());
     let half = scene.space.half_size.map(|half| half.min(reach));
-    window(Vector2::zeros(), 0.0, half.map(|h| -h), half)
+    window(scene, Vector2::zeros(), 0.0, half.map(|h| -h), half)
 }
 
 /// Away from the target face along x, along it along y, the bound position at the origin; in
@@ -72,6 +76,7 @@ fn target_window(scene: &Scene, height: f64) -> Window {
     let half = 0.6 * face.length();
     let across = 2.0 * half * (TARGET.1 - TARGET.0) / height;
     window(
+        scene,
         scene.bound.position(),
         normal.y.atan2(normal.x),
         [-LABELS * across, -half],
@@ -79,7 +84,19 @@ fn target_window(scene: &Scene, height: f64) -> Window {
     )
 }
 
-fn window(origin: Vector2<f64>, angle: f64, low: [f64; 2], high: [f64; 2]) -> Window {
+fn window(
+    scene: &Scene,
+    origin: Vector2<f64>,
+    angle: f64,
+    low: [f64; 2],
+    high: [f64; 2],
+) -> Window {
+    let Pair { fixed, moving, .. } = scene.pair;
+    let samples = if fixed.outline.parts().len() * moving.outline.parts().len() > MANY_PARTS {
+        SAMPLES_OF_MANY_PARTS
+    } else {
+        SAMPLES
+    };
     let span = [high[0] - low[0], high[1] - low[1]];
     let longer = span[0].max(span[1]);
     Window {
@@ -87,7 +104,7 @@ fn window(origin: Vector2<f64>, angle: f64, low: [f64; 2], high: [f64; 2]) -> Wi
         angle,
         low,
         high,
-        samples: span.map(|s| ((SAMPLES * s / longer).round() as usize).max(2)),
+        samples: span.map(|s| ((samples * s / longer).round() as usize).max(2)),
     }
 }
 
