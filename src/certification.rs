@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use crate::analysis::Settings;
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
-use crate::potential::bounds::DipoleBounds;
+use crate::potential::MagnetModel;
+use crate::potential::bounds::{CellBounds, DipoleBounds};
 use crate::problem::Problem;
 
 /// Cells spent on one barrier at most, so that a hard one leaves time for the others.
@@ -17,29 +18,54 @@ const MOST_CELLS: usize = 1_000_000;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
+/// Why barriers have no certified bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Uncertified {
+    #[error("no time was given to the certificate")]
+    NoTime,
+    #[error("bounds over cells are known for point dipoles, not for blocks")]
+    Blocks,
+    #[error("bounds over cells are not known for magnets with shields")]
+    Shields,
+}
+
+/// The bounds over cells of a design's energy.
+///
+/// # Errors
+/// Where no such bounds are known for the way its magnets are modelled.
+pub fn bounds(design: &Design) -> Result<Box<dyn CellBounds>, Uncertified> {
+    match design.model {
+        _ if !design.shields.is_none() => Err(Uncertified::Shields),
+        MagnetModel::Dipole => Ok(Box::new(DipoleBounds::new(&design.fixed, &design.moving))),
+        MagnetModel::Cuboid => Err(Uncertified::Blocks),
+    }
+}
+
 /// Brackets every barrier of an inventory between two bounds that hold for the model, and takes
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
 /// proof is tried that there is none. Returns the number of cells assessed.
 ///
 /// The bounds are narrowed to `settings.tolerance`; after `settings.certify_seconds` in all, the
 /// bounds known by then are kept, so that only results within the limit are the same on every
-/// machine. Nothing is certified for magnets modelled as blocks.
+/// machine.
+///
+/// # Errors
+/// Where nothing is certified; the inventory is then left as it is.
 pub fn certify(
     design: &Design,
     problem: &Problem,
     inventory: &mut Inventory,
     settings: &Settings,
     observer: &dyn Observer,
-) -> usize {
+) -> Result<usize, Uncertified> {
+    let bounds = bounds(design)?;
     let limit = Duration::from_secs_f64(settings.certify_seconds.clamp(0.0, 1e9));
-    // Bounds over cells are known for point dipoles only.
-    if limit.is_zero() || design.model != MagnetModel::Dipole {
-        return 0;
+    if limit.is_zero() {
+        return Err(Uncertified::NoTime);
     }
     let depth = pipeline::energy_scale(design, problem);
     let tolerance = settings.tolerance.unwrap_or(0.01 * depth);
-    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
-    let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
+    let mut certifier = Certifier::new(bounds.as_ref(), problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
     inventory.barriers.extend(missing_way_out(inventory));
     let count = inventory.barriers.len();
@@ -65,7 +91,7 @@ pub fn certify(
         }
     }
     spread_to_escapes(inventory);
-    certifier.assessed()
+    Ok(certifier.assessed())
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and

@@ -12,8 +12,8 @@ mod fit;
 mod rows;
 
 use crate::configuration::Configuration;
-use crate::potential::shielding::{PairModel, Shield, ShieldRule, Shields};
-use crate::potential::{Potential, ShieldedPotential};
+use crate::potential::shielding::{Shield, ShieldRule, Shields};
+use crate::potential::{MagnetModel, Potential, ShieldedPotential};
 use crate::tile::Tile;
 use fit::least_squares;
 pub use rows::{COLUMNS, CsvError, read_rows};
@@ -104,7 +104,7 @@ pub enum CalibrationError {
 /// # Errors
 /// Where there are too few rows, or the model has no finite value at one of them.
 pub fn calibrate(
-    model: PairModel,
+    model: MagnetModel,
     fixed: &Tile,
     moving: &Tile,
     rows: &[Row],

@@ -51,7 +51,7 @@ const SIZES: [f64; 4] = [1e-2, 1.0, 1.0, 1e-2];
 /// Measurements made by the model itself, 1.05 times as strong, with noise in units of the sizes.
 fn measurements(noise: f64) -> Vec<Row> {
     let (fixed, moving) = (tile(1.0), tile(-1.0));
-    let bare = ShieldedPotential::new(PairModel::Dipole, &fixed, &moving, &Shields::default());
+    let bare = ShieldedPotential::new(MagnetModel::Dipole, &fixed, &moving, &Shields::default());
     let iron = bare.with_shields(&Shields {
         rule: ShieldRule::Smooth,
         fixed: vec![Some(TRUTH); 4],
@@ -81,7 +81,13 @@ fn measurements(noise: f64) -> Vec<Row> {
 
 fn fit(rows: &[Row]) -> Result<Calibration, CalibrationError> {
     let settings = CalibrationSettings::default();
-    calibrate(PairModel::Dipole, &tile(1.0), &tile(-1.0), rows, &settings)
+    calibrate(
+        MagnetModel::Dipole,
+        &tile(1.0),
+        &tile(-1.0),
+        rows,
+        &settings,
+    )
 }
 
 #[test]
