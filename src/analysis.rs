@@ -1,5 +1,6 @@
 //! What the main job finds out about a design, as plain values.
 
+use crate::certification::Uncertified;
 use crate::configuration::Configuration;
 use crate::landscape::{Barrier, Pathway, Place, Proportion, State};
 
@@ -25,6 +26,8 @@ pub struct Analysis {
     pub uncaptured: Proportion,
     /// Inner and outer radius (m) of the ring of far starts.
     pub ring: [f64; 2],
+    /// Why the barriers have no certified bounds, where they have none.
+    pub uncertified: Option<Uncertified>,
     pub counts: Counts,
     /// Wall time (s) and energy evaluations of each stage, in order.
     pub stages: Vec<Stage>,

@@ -4,13 +4,14 @@ use std::time::{Duration, Instant};
 
 use crate::analysis::{Certified, Settings};
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
-use crate::potential::bounds::DipoleBounds;
+use crate::potential::MagnetModel;
+use crate::potential::bounds::{CellBounds, DipoleBounds};
 use crate::problem::Problem;
 
 /// Cells spent on narrowing the bounds of a small barrier further.
@@ -23,6 +24,29 @@ const LEAST_SHARE: f64 = 1e-5;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
+/// Why barriers have no certified bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Uncertified {
+    #[error("no time was given to the certificate")]
+    NoTime,
+    #[error("bounds over cells are known for point dipoles, not for blocks")]
+    Blocks,
+    #[error("bounds over cells are not known for magnets with shields")]
+    Shields,
+}
+
+/// The bounds over cells of a design's energy.
+///
+/// # Errors
+/// Where no such bounds are known for the way its magnets are modelled.
+pub fn bounds(design: &Design) -> Result<Box<dyn CellBounds>, Uncertified> {
+    match design.model {
+        _ if !design.shields.is_none() => Err(Uncertified::Shields),
+        MagnetModel::Dipole => Ok(Box::new(DipoleBounds::new(&design.fixed, &design.moving))),
+        MagnetModel::Cuboid => Err(Uncertified::Blocks),
+    }
+}
+
 /// Brackets every barrier of an inventory between two bounds that hold for the model, and takes
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
 /// proof is tried that there is none. Returns the number of cells assessed.
@@ -30,7 +54,10 @@ const BEND: f64 = 1e-3;
 /// The bounds are narrowed to `settings.tolerance`, or to a hundredth of the bond and a twentieth of
 /// the barrier, whichever is less; after `settings.certify_seconds` in all, the
 /// bounds known by then are kept, so that only results within the limit are the same on every
-/// machine. Nothing is certified for magnets modelled as blocks.
+/// machine.
+///
+/// # Errors
+/// Where nothing is certified; the inventory is then left as it is.
 pub fn certify(
     design: &Design,
     problem: &Problem,
@@ -38,15 +65,14 @@ pub fn certify(
     inventory: &mut Inventory,
     settings: &Settings,
     observer: &dyn Observer,
-) -> usize {
+) -> Result<usize, Uncertified> {
+    let bounds = bounds(design)?;
     let limit = Duration::from_secs_f64(settings.certify_seconds.clamp(0.0, 1e9));
-    // Bounds over cells are known for point dipoles only.
-    if limit.is_zero() || design.model != MagnetModel::Dipole {
-        return 0;
+    if limit.is_zero() {
+        return Err(Uncertified::NoTime);
     }
     let depth = pipeline::energy_scale(design, problem);
-    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
-    let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
+    let mut certifier = Certifier::new(bounds.as_ref(), problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
     inventory.barriers.extend(missing_way_out(inventory));
     let count = inventory.barriers.len();
@@ -82,7 +108,7 @@ pub fn certify(
     }
     certify_escapes(inventory);
     inventory.copy_escapes(problem, symmetries);
-    certifier.assessed()
+    Ok(certifier.assessed())
 }
 
 /// Cells spent on a barrier at most, and the width (J) that its bounds are to have.

@@ -44,6 +44,7 @@
 //! ```
 
 pub mod analysis;
+pub mod calibration;
 pub mod cell;
 pub mod certification;
 pub mod comparison;

@@ -50,6 +50,9 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     }
     write_bond(&mut text, analysis, bond);
     write_deepest(&mut text, bond, &traps);
+    if let Some(why) = analysis.uncertified {
+        let _ = writeln!(text, "barriers are not certified: {why}");
+    }
     let _ = writeln!(
         text,
         "results in {folder}: report.html to look at, report.json, states.csv, barriers.csv, \

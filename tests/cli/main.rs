@@ -4,6 +4,7 @@ mod analyse;
 mod barrier;
 mod energy;
 mod mistakes;
+mod shields;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
