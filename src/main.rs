@@ -32,6 +32,7 @@ enum Command {
     Energy(cli::energy::Energy),
     Barrier(cli::barrier::Barrier),
     Dock(cli::dock::Dock),
+    Calibrate(cli::calibrate::Calibrate),
     Completions(cli::completions::Completions),
 }
 
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Energy(command) => command.run(),
         Command::Barrier(command) => command.run(),
         Command::Dock(command) => command.run(),
+        Command::Calibrate(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };
     match outcome {

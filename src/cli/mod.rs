@@ -2,6 +2,7 @@
 
 pub mod analyse;
 pub mod barrier;
+pub mod calibrate;
 pub mod completions;
 pub mod dock;
 pub mod energy;

@@ -2,11 +2,13 @@
 //!
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`csv`] - tables of states and barriers, and pathways;
+//! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`writer`] - all of it as files of one folder.
 
+pub mod calibration;
 pub mod csv;
 pub mod docking;
 pub mod json;
