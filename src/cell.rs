@@ -57,6 +57,15 @@ pub struct Quadratic {
 const OFF_DIAGONAL: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Quadratic {
+    /// The value at an offset.
+    pub fn at(&self, d: [f64; 3]) -> f64 {
+        let [xx, yy, tt, xy, xt, yt] = self.hessian;
+        let slopes: f64 = (0..3).map(|i| self.gradient[i] * d[i]).sum();
+        let squares = xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2];
+        let products = xy * d[0] * d[1] + xt * d[0] * d[2] + yt * d[1] * d[2];
+        self.value + slopes + 0.5 * squares + products
+    }
+
     /// `self - factor * other`.
     pub fn minus(&self, factor: f64, other: &Self) -> Self {
         let mut out = *self;
@@ -136,18 +145,6 @@ impl Quadratic {
             slope.abs() + curvature / 2.0
         };
         self.value + rise + self.rounding(&d.map(f64::abs))
-    }
-
-    /// The form's value at `d` from the centre, for tests of its bounds.
-    #[cfg(test)]
-    pub fn at(&self, d: [f64; 3]) -> f64 {
-        let [xx, yy, tt, xy, xt, yt] = self.hessian;
-        self.value
-            + (0..3).map(|i| self.gradient[i] * d[i]).sum::<f64>()
-            + 0.5 * (xx * d[0] * d[0] + yy * d[1] * d[1] + tt * d[2] * d[2])
-            + xy * d[0] * d[1]
-            + xt * d[0] * d[2]
-            + yt * d[1] * d[2]
     }
 }
 

@@ -27,6 +27,7 @@
 //! | [`calibration`] | shields fitted to measurements |
 //! | [`dynamics`] | tiles that really move: docking runs |
 //! | [`pipeline`] | the main job in one page; [`certification`] and [`query`] beside it |
+//! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`report`] | JSON, CSV, the summary, pictures |
 //!
 //! # The library in ten lines
@@ -47,6 +48,7 @@ pub mod analysis;
 pub mod calibration;
 pub mod cell;
 pub mod certification;
+pub mod comparison;
 pub mod configuration;
 pub mod contact;
 pub mod design;
@@ -58,6 +60,7 @@ pub mod problem;
 pub mod query;
 pub mod report;
 pub mod roadmap;
+pub mod sweep;
 pub mod tile;
 pub mod units;
 

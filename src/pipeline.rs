@@ -80,7 +80,14 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     }
     weigh_blocks(design, &mut inventory);
     clock.start("certificate", 0.75);
-    let certified = certification::certify(design, &problem, &mut inventory, settings, observer);
+    let certified = certification::certify(
+        design,
+        &problem,
+        &symmetries,
+        &mut inventory,
+        settings,
+        observer,
+    );
     let stages = clock.stop();
     let Inventory {
         states,

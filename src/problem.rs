@@ -121,6 +121,19 @@ impl Problem {
             .is_none_or(|contact| contact.motion_is_free(a, b))
     }
 
+    /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two
+    /// free configurations.
+    pub fn motion_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        allowed: f64,
+    ) -> bool {
+        self.contact
+            .as_ref()
+            .is_none_or(|contact| contact.motion_overlaps_at_most(a, b, allowed))
+    }
+
     /// The moving tile's mass matrix over its mass, about its reference point: kinetic energy is
     /// `m/2 v^T M v` for v = (dx/dt, dy/dt, dtheta/dt). With the centre of mass at c (world
     /// frame) and the radius of gyration rho about the reference point,

@@ -7,10 +7,8 @@
 
 pub mod cells;
 mod constraint;
-mod core;
 mod lift;
 mod motion;
-pub(crate) mod sweep;
 mod tree;
 
 pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
@@ -29,10 +27,6 @@ use crate::tile::outline::{Bounds, ConvexPart};
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
-/// Cores that overlap deeper than this (m, negative) hold parts that overlap deeper than
-/// [`TOUCH`].
-const CORES_TOUCH: f64 = -1e-6;
-
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
@@ -45,6 +39,7 @@ pub struct Contact {
     fixed_bounds: Vec<Bounds>,
     fixed_hull: ConvexPart,
     moving_hull: ConvexPart,
+    /// The largest convex part of each tile, most likely to be in the way.
     fixed_core: ConvexPart,
     moving_core: ConvexPart,
 }
@@ -54,13 +49,13 @@ impl Contact {
         Self {
             fixed_shape: compound(fixed),
             moving_shape: compound(moving),
-            fixed_tree: sweep::tree(fixed),
-            moving_tree: sweep::tree(moving),
+            fixed_tree: CircleTree::of_parts(fixed),
+            moving_tree: CircleTree::of_parts(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
             fixed_hull: fixed.hull(),
             moving_hull: moving.hull(),
-            fixed_core: core::core(fixed),
-            moving_core: core::core(moving),
+            fixed_core: core(fixed),
+            moving_core: core(moving),
             fixed: fixed.clone(),
             moving: moving.clone(),
         }
@@ -108,9 +103,14 @@ impl Contact {
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.clearance_bound(q) >= -TOUCH
-            || (separated(&self.fixed_core, &self.moving_core.placed(q), CORES_TOUCH)
-                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -TOUCH)))
+        self.overlaps_at_most(q, TOUCH)
+    }
+
+    /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
+    fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
+        self.clearance_bound(q) >= -depth
+            || (separated(&self.fixed_core, &self.moving_core.placed(q), -depth)
+                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -depth)))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -137,21 +137,22 @@ impl Contact {
         q: &Configuration,
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
-        let mut placed: Option<(usize, Bounds, ConvexPart)> = None;
-        let rotation = q.rotation();
+        let (rotation, position) = (q.rotation(), q.position());
+        let mut part = ConvexPart::default();
+        let mut placed = None;
         self.fixed_tree.near_pairs(
             &self.moving_tree,
-            &|p| q.position() + rotation * p,
+            &|p| position + rotation * p,
             0.0,
             &mut |i, j| {
-                let (_, bounds, part) = match &mut placed {
-                    Some(known) if known.0 == j => known,
-                    other => {
-                        let part = self.moving.parts()[j].placed(q);
-                        other.insert((j, part.bounds(), part))
+                let bounds = match placed {
+                    Some((k, bounds)) if k == j => bounds,
+                    _ => {
+                        part.place(&self.moving.parts()[j], &rotation, &position);
+                        placed.insert((j, part.bounds())).1
                     }
                 };
-                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], part)
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], &part)
             },
         )
     }
@@ -189,6 +190,12 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
         .iter()
         .map(|p| direction.dot(p))
         .fold(f64::INFINITY, f64::min)
+}
+
+fn core(outline: &Outline) -> ConvexPart {
+    let parts = outline.parts().iter();
+    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
+    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 
 fn compound(outline: &Outline) -> Compound {

@@ -1,6 +1,8 @@
 //! Whether a straight motion is free of overlap, from its start to its end and everywhere between.
 
-use super::{Contact, TOUCH, support};
+use nalgebra::Vector2;
+
+use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -11,93 +13,128 @@ impl Contact {
     /// Whether the motion from `a` to `b` (straight in x, y and theta, the shorter way round) is
     /// free all along. Both ends are taken to be free.
     ///
-    /// Nothing thin can be stepped over. A stretch is accepted only with a separating axis for
-    /// every pair of convex parts that holds at both ends and, by the bound of the axis'
-    /// second derivative, everywhere between; otherwise it is halved, and the motion refused at
+    /// Nothing thin can be stepped over: a stretch is accepted where it
+    /// [stays separated](Self::stays_separated); otherwise it is halved, and the motion refused at
     /// the first configuration that overlaps.
-    ///
-    /// With `v` the speed of the reference point, `w` the turning rate, and `D` the distance of the
-    /// farthest point from the reference point, a point's coordinate along an axis of the fixed
-    /// tile has a second derivative of at most `w^2 D`, and along an axis that turns with the
-    /// moving tile of at most `w^2 D' + 2 w v`; over a stretch of duration 1 a coordinate then
-    /// stays above the smaller of its two end values less an eighth of that.
     pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
+        self.motion_overlaps_at_most(a, b, TOUCH)
+    }
+
+    /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
+    /// along the motion, which both ends are taken to fulfil.
+    pub fn motion_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        allowed: f64,
+    ) -> bool {
         let step = a.step_to(b);
         let reach = step.xy().norm() + self.moving().circumradius() * step.z.abs();
         if self.clearance_bound(a) >= reach || self.clearance_bound(b) >= reach {
             return true;
         }
-        self.stretch_is_free(a, b, reach)
+        self.stretch_overlaps_at_most(a, b, reach, allowed)
     }
 
-    fn stretch_is_free(&self, a: &Configuration, b: &Configuration, reach: f64) -> bool {
-        if reach <= SHORTEST || self.separated_throughout(a, b) {
+    fn stretch_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        reach: f64,
+        allowed: f64,
+    ) -> bool {
+        if reach <= SHORTEST || self.stays_separated(a, b, allowed) {
             return true;
         }
         let middle = a.interpolate(b, 0.5);
-        self.is_free(&middle)
-            && self.stretch_is_free(a, &middle, reach / 2.0)
-            && self.stretch_is_free(&middle, b, reach / 2.0)
+        self.overlaps_at_most(&middle, allowed)
+            && self.stretch_overlaps_at_most(a, &middle, reach / 2.0, allowed)
+            && self.stretch_overlaps_at_most(&middle, b, reach / 2.0, allowed)
     }
 
-    fn separated_throughout(&self, a: &Configuration, b: &Configuration) -> bool {
+    /// Whether every pair of convex parts is proved to stay separated by the line of one of their
+    /// edges all along the motion from `a` to `b` (straight in x, y and theta, the shorter way
+    /// round), with overlaps up to `allowed` (m) let pass. A negative `allowed` asks for room.
+    ///
+    /// A point's distance from the line is a smooth function of the time t from 0 to 1; it stays
+    /// above the smaller of its two end values less an eighth of the largest magnitude of its
+    /// second derivative. With s the path of the reference point and w the turn, that is
+    /// `w^2 |v|` for a vertex v of the moving part and a line of the fixed one, and
+    /// `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference point, and a line
+    /// of the moving one.
+    pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
         let step = a.step_to(b);
-        let (travel, turn) = (step.xy().norm(), step.z.abs());
-        let farthest = a.position().norm().max(b.position().norm()) + self.fixed().circumradius();
-        let sag = Sag {
-            fixed_axis: turn * turn * self.moving().circumradius() / 8.0,
-            moving_axis: (turn * turn * farthest + 2.0 * turn * travel) / 8.0,
+        let motion = Motion {
+            positions: [a.position(), b.position()],
+            path: step.xy().norm(),
+            turn: step.z.abs(),
+            allowed,
         };
-        let hulls = (self.moving_hull.placed(a), self.moving_hull.placed(b));
-        if sag.separates(&self.fixed_hull, &hulls.0, &hulls.1) {
+        let rotations = [a.rotation(), b.rotation()];
+        let hulls = [self.moving_hull.placed(a), self.moving_hull.placed(b)];
+        if motion.separates(&self.fixed_hull, &hulls) {
             return true;
         }
-        self.moving().parts().iter().all(|part| {
-            // x and y are axes of the fixed tile like any other: boxes apart settle most pairs.
-            let bounds = part
-                .placed_bounds(a)
-                .union(&part.placed_bounds(b))
-                .grown(sag.fixed_axis);
-            let mut placed = None;
-            self.fixed()
-                .parts()
-                .iter()
-                .zip(&self.fixed_bounds)
-                .filter(|(_, other_bounds)| !bounds.apart(other_bounds))
-                .all(|(other, _)| {
-                    let (start, end) =
-                        placed.get_or_insert_with(|| (part.placed(a), part.placed(b)));
-                    sag.separates(other, start, end)
-                })
-        })
+        let reach = motion.path + motion.turn * self.moving.circumradius() - allowed.min(0.0);
+        let mut ends = [ConvexPart::default(), ConvexPart::default()];
+        let mut placed = None;
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| motion.positions[0] + rotations[0] * p,
+            reach,
+            &mut |i, j| {
+                if placed != Some(j) {
+                    placed = Some(j);
+                    for k in 0..2 {
+                        let part = &self.moving.parts()[j];
+                        ends[k].place(part, &rotations[k], &motion.positions[k]);
+                    }
+                }
+                motion.separates(&self.fixed.parts()[i], &ends)
+            },
+        )
     }
 }
 
-/// How far (m) a coordinate along an axis can fall below the smaller of its end values.
-struct Sag {
-    fixed_axis: f64,
-    moving_axis: f64,
+/// What of a motion counts for proofs of separation.
+struct Motion {
+    /// The moving reference point at both ends (m).
+    positions: [Vector2<f64>; 2],
+    /// Length of its way (m).
+    path: f64,
+    /// Magnitude of the turn (rad).
+    turn: f64,
+    /// Depth of overlap (m) let pass.
+    allowed: f64,
 }
 
-impl Sag {
-    /// Whether one edge normal keeps `fixed` and the moving part, given at both ends of a motion,
+impl Motion {
+    /// Whether the line of one edge keeps a fixed part and a moving one, given at both `ends`,
     /// apart throughout.
-    fn separates(&self, fixed: &ConvexPart, start: &ConvexPart, end: &ConvexPart) -> bool {
-        let by_fixed = fixed
-            .points
-            .iter()
-            .zip(&fixed.normals)
-            .any(|(point, normal)| {
-                let level = normal.dot(point) + self.fixed_axis - TOUCH;
-                support(start, normal) >= level && support(end, normal) >= level
-            });
+    fn separates(&self, fixed: &ConvexPart, ends: &[ConvexPart; 2]) -> bool {
+        let turn_squared = self.turn * self.turn;
+        let edges = |part: &ConvexPart| 0..part.points.len();
+        let by_fixed = edges(fixed).any(|e| {
+            let normal = &fixed.normals[e];
+            let level = normal.dot(&fixed.points[e]);
+            edges(&ends[0]).all(|v| {
+                let gap = |k: usize| normal.dot(&ends[k].points[v]) - level;
+                let least = gap(0).min(gap(1)) + self.allowed;
+                let lever = || (ends[0].points[v] - self.positions[0]).norm();
+                least >= 0.0 && least >= turn_squared * lever() / 8.0
+            })
+        });
         by_fixed
-            || (0..start.points.len()).any(|k| {
-                let apart = |part: &ConvexPart| {
-                    let normal = &part.normals[k];
-                    support(fixed, normal) >= normal.dot(&part.points[k]) + self.moving_axis - TOUCH
-                };
-                apart(start) && apart(end)
+            || edges(&ends[0]).any(|e| {
+                fixed.points.iter().all(|x| {
+                    let gap = |k: usize| ends[k].normals[e].dot(&(x - ends[k].points[e]));
+                    let least = gap(0).min(gap(1)) + self.allowed;
+                    let lever = |k: usize| (x - self.positions[k]).norm();
+                    let sag = || {
+                        (turn_squared * lever(0).max(lever(1)) + 2.0 * self.turn * self.path) / 8.0
+                    };
+                    least >= 0.0 && least >= sag()
+                })
             })
     }
 }
@@ -130,7 +167,7 @@ mod tests {
         let contact = Contact::new(&square(0.4), &square(0.4));
         let a = Configuration::new(0.4, -0.3, 0.0);
         let b = Configuration::new(0.4, 0.3, 0.0);
-        assert!(contact.separated_throughout(&a, &b));
+        assert!(contact.stays_separated(&a, &b, TOUCH));
         assert!(contact.motion_is_free(&a, &b));
     }
 
@@ -165,5 +202,40 @@ mod tests {
             }
         }
         assert!(counts[0] > 20 && counts[1] > 20, "{counts:?}");
+    }
+
+    #[test]
+    fn a_proved_motion_is_free_wherever_it_is_looked_at() {
+        let mut rng = ChaCha8Rng::seed_from_u64(9);
+        for (a, b) in [(square(0.4), square(0.4)), (saw(false), saw(true))] {
+            let contact = Contact::new(&a, &b);
+            let mut counts = [0, 0];
+            for _ in 0..4000 {
+                let mut near = |size: f64| {
+                    Configuration::new(
+                        rng.random_range(0.39..0.39 + size),
+                        rng.random_range(-0.1..0.1),
+                        rng.random_range(-0.15..0.15),
+                    )
+                };
+                let p = near(0.08);
+                let q = p.interpolate(&near(0.08), 0.2);
+                let proved = contact.stays_separated(&p, &q, 0.0);
+                counts[usize::from(proved)] += 1;
+                let free = (0..=50).all(|k| contact.is_free(&p.interpolate(&q, k as f64 / 50.0)));
+                assert!(free || !proved, "{p:?} {q:?}");
+            }
+            assert!(counts[0] > 500 && counts[1] > 500, "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn flush_sliding_is_proved_with_touch_and_refused_where_room_is_asked_for() {
+        let contact = Contact::new(&square(0.4), &square(0.4));
+        let at = |x: f64, y: f64| Configuration::new(x, y, 0.0);
+        assert!(contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), TOUCH));
+        assert!(!contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), -1e-12));
+        assert!(contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0009));
+        assert!(!contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0011));
     }
 }

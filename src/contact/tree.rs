@@ -3,6 +3,8 @@
 
 use nalgebra::Vector2;
 
+use crate::tile::Outline;
+
 /// Pieces in a leaf, at most.
 const LEAF: usize = 4;
 
@@ -39,6 +41,21 @@ pub(super) enum Below<'a> {
 }
 
 impl CircleTree {
+    /// The tree of an outline's convex parts.
+    pub fn of_parts(outline: &Outline) -> Self {
+        let circles: Vec<_> = outline
+            .parts()
+            .iter()
+            .map(|part| {
+                let bounds = part.bounds();
+                let middle = (bounds.low + bounds.high) / 2.0;
+                let distances = part.points.iter().map(|p| (p - middle).norm());
+                (middle, distances.fold(0.0, f64::max))
+            })
+            .collect();
+        Self::new(&circles)
+    }
+
     /// A tree over circles (centre, radius), of which there is at least one.
     pub fn new(circles: &[(Vector2<f64>, f64)]) -> Self {
         let mut tree = Self {
@@ -175,32 +192,39 @@ impl CircleTree {
         distance: f64,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
-        let mut open = vec![(self.root(), other.root())];
-        while let Some((a, b)) = open.pop() {
-            let most = distance + a.radius + b.radius;
-            if (a.centre - place(b.centre)).norm_squared() > most * most {
-                continue;
-            }
-            match (self.below(&a), other.below(&b)) {
-                (Below::Pieces(ours), Below::Pieces(theirs)) => {
-                    for &i in ours {
-                        for &j in theirs {
-                            if !found(i, j) {
-                                return false;
-                            }
-                        }
-                    }
-                }
-                (Below::Branches(ours), theirs)
-                    if a.radius >= b.radius || matches!(theirs, Below::Pieces(_)) =>
-                {
-                    open.extend(ours.map(|a| (a, b)));
-                }
-                (_, Below::Branches(theirs)) => open.extend(theirs.map(|b| (a, b))),
-                (Below::Branches(ours), Below::Pieces(_)) => open.extend(ours.map(|a| (a, b))),
-            }
+        self.near_pairs_below(&self.root(), other, &other.root(), place, distance, found)
+    }
+
+    fn near_pairs_below(
+        &self,
+        a: &Branch,
+        other: &Self,
+        b: &Branch,
+        place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
+        distance: f64,
+        found: &mut impl FnMut(usize, usize) -> bool,
+    ) -> bool {
+        let most = distance + a.radius + b.radius;
+        if (a.centre - place(b.centre)).norm_squared() > most * most {
+            return true;
         }
-        true
+        match (self.below(a), other.below(b)) {
+            (Below::Pieces(ours), Below::Pieces(theirs)) => {
+                theirs.iter().all(|&j| ours.iter().all(|&i| found(i, j)))
+            }
+            (Below::Branches(ours), theirs)
+                if a.radius >= b.radius || matches!(theirs, Below::Pieces(_)) =>
+            {
+                ours.iter()
+                    .all(|a| self.near_pairs_below(a, other, b, place, distance, found))
+            }
+            (_, Below::Branches(theirs)) => theirs
+                .iter()
+                .all(|b| self.near_pairs_below(a, other, b, place, distance, found)),
+            (Below::Branches(ours), Below::Pieces(_)) => ours
+                .iter()
+                .all(|a| self.near_pairs_below(a, other, b, place, distance, found)),
+        }
     }
 }
 

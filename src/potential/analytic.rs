@@ -268,15 +268,9 @@ mod tests {
                 ];
                 let at = |t: f64| cell.centre.moved(Vector3::new(d[0], d[1], d[2]) * t);
                 let u = potential.energy(&at(1.0));
-                let f = &enclosure.form;
-                let quadratic = f.value
-                    + f.gradient[0] * d[0]
-                    + f.gradient[1] * d[1]
-                    + 0.5 * (f.hessian[0] * d[0] * d[0] + f.hessian[1] * d[1] * d[1])
-                    + f.hessian[3] * d[0] * d[1];
-                let rest = u - quadratic;
+                let rest = u - enclosure.form.at(d);
                 assert!(rest >= enclosure.low && rest <= enclosure.high, "{cell:?}");
-                let bend = (u - 2.0 * f.value + potential.energy(&at(-1.0))).abs();
+                let bend = (u - 2.0 * enclosure.form.value + potential.energy(&at(-1.0))).abs();
                 let travelled = d[0] * d[0] + d[1] * d[1];
                 assert!(bend <= steepest * travelled * (1.0 + 1e-9) + 1e-9 * u.abs());
             }

@@ -113,4 +113,10 @@ pub trait Potential: Sync {
     /// How far (m) the motion `step` = (dx, dy, dtheta) moves the point of the moving tile that
     /// matters to the potential and moves farthest, at most.
     fn displacement(&self, step: Vector3<f64>) -> f64;
+
+    /// How much lower, as a fraction of |U|, an energy must be than that of a configuration close
+    /// by to be so for certain: what is lost to rounding and, where there is any, to approximation.
+    fn noise(&self) -> f64 {
+        1e-12
+    }
 }

@@ -62,7 +62,8 @@ pub struct SettingsEntry {
     pub least_depth: f64,
     pub far_starts: usize,
     pub repeats: usize,
-    /// Width to which certified bounds are narrowed; null for a hundredth of the bond.
+    /// Width to which certified bounds are narrowed; null for a hundredth of the bond or a twentieth
+    /// of the barrier, whichever is less.
     pub tolerance_J: Option<f64>,
     pub certify_s: f64,
 }

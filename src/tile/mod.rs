@@ -2,6 +2,7 @@
 
 pub mod assembly;
 pub mod barcode;
+mod convex;
 pub mod edge_grid;
 pub mod magnet;
 pub mod outline;

@@ -1,20 +1,16 @@
 //! A tile's outline: a simple, closed, counter-clockwise polygon and its convex parts.
-//!
-//! This is the one place that talks to parry's decomposition. The decomposition is exact: the
-//! polygon is triangulated by ear clipping and the triangles are merged (Hertel and Mehlhorn)
-//! where the union stays convex; no vertex is moved and no notch is filled in.
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 use parry2d_f64::math::Vector;
-use parry2d_f64::shape::TriMesh;
-use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn};
+use parry2d_f64::transformation::convex_hull;
 
+use super::convex;
 use super::edge_grid::EdgeGrid;
 use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConvexPart {
     pub points: Vec<Vector2<f64>>,
     pub normals: Vec<Vector2<f64>>,
@@ -30,15 +26,19 @@ impl ConvexPart {
 
     /// The part as it lies at a configuration of its tile.
     pub fn placed(&self, q: &Configuration) -> Self {
-        let rotation = q.rotation();
-        Self {
-            points: self
-                .points
-                .iter()
-                .map(|p| q.position() + rotation * p)
-                .collect(),
-            normals: self.normals.iter().map(|n| rotation * n).collect(),
-        }
+        let mut placed = Self::default();
+        placed.place(self, &q.rotation(), &q.position());
+        placed
+    }
+
+    /// Becomes `part`, turned and moved; takes no new memory once it has held as many points.
+    pub fn place(&mut self, part: &Self, rotation: &Rotation2<f64>, position: &Vector2<f64>) {
+        self.points.clear();
+        self.points
+            .extend(part.points.iter().map(|p| position + rotation * p));
+        self.normals.clear();
+        self.normals
+            .extend(part.normals.iter().map(|n| rotation * n));
     }
 
     /// Area (m^2).
@@ -49,12 +49,6 @@ impl ConvexPart {
     /// The box around the part.
     pub fn bounds(&self) -> Bounds {
         Bounds::around(self.points.iter().copied())
-    }
-
-    /// The box around the part as it lies at a configuration of its tile.
-    pub fn placed_bounds(&self, q: &Configuration) -> Bounds {
-        let rotation = q.rotation();
-        Bounds::around(self.points.iter().map(|p| q.position() + rotation * p))
     }
 }
 
@@ -284,7 +278,7 @@ fn outward_normal(a: Vector2<f64>, b: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(t.y, -t.x)
 }
 
-fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
+pub(super) fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
     let n = vertices.len();
     (0..n)
         .map(|i| cross(vertices[i], vertices[(i + 1) % n]))
@@ -355,13 +349,11 @@ fn without_collinear(vertices: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
 }
 
 fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<ConvexPart>> {
-    let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v.x, v.y)).collect();
-    let mesh = TriMesh::from_polygon(points)?;
-    let parts: Vec<_> = hertel_mehlhorn(mesh.vertices(), mesh.indices())
+    let parts: Vec<_> = convex::convex_parts(vertices)?
         .into_iter()
-        .map(|part| ConvexPart::new(part.iter().map(|p| Vector2::new(p.x, p.y)).collect()))
+        .map(|part| ConvexPart::new(part.into_iter().map(|k| vertices[k]).collect()))
         .collect();
-    let filled: f64 = parts.iter().map(|part| signed_area(&part.points)).sum();
+    let filled: f64 = parts.iter().map(ConvexPart::area).sum();
     let area = signed_area(vertices);
     ((filled - area).abs() <= 1e-9 * area).then_some(parts)
 }

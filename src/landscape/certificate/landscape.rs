@@ -7,14 +7,12 @@ use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::contact::cells::ContactCells;
-use crate::contact::sweep::Sweep;
 use crate::potential::bounds::CellBounds;
 
 /// The tiles' contact, in the forms that the two bounds need.
 struct Obstacles<'a> {
     contact: &'a Contact,
     cells: ContactCells,
-    sweep: Sweep,
 }
 
 pub(super) struct Landscape<'a> {
@@ -36,7 +34,6 @@ impl<'a> Landscape<'a> {
             obstacles: contact.map(|contact| Obstacles {
                 contact,
                 cells: ContactCells::new(contact),
-                sweep: Sweep::new(contact),
             }),
             space,
             lever: contact.map_or(space.rho, |contact| contact.moving().circumradius()),
@@ -63,10 +60,7 @@ impl<'a> Landscape<'a> {
     pub fn proof(&self) -> PathProof<'_> {
         PathProof {
             bounds: self.bounds,
-            contact: self
-                .obstacles
-                .as_ref()
-                .map(|obstacles| (obstacles.contact, &obstacles.sweep)),
+            contact: self.obstacles.as_ref().map(|obstacles| obstacles.contact),
             space: self.space,
         }
     }

@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::contact::sweep::Sweep;
 use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
 use crate::potential::bounds::CellBounds;
 
@@ -30,7 +29,7 @@ pub(super) struct ProvedPath {
 
 pub(super) struct PathProof<'a> {
     pub bounds: &'a dyn CellBounds,
-    pub contact: Option<(&'a Contact, &'a Sweep)>,
+    pub contact: Option<&'a Contact>,
     pub space: &'a ConfigurationSpace,
 }
 
@@ -115,12 +114,12 @@ impl PathProof<'_> {
     /// Whether the straight way is proved free throughout.
     fn is_free(&self, from: &Configuration, to: &Configuration) -> bool {
         self.contact
-            .is_none_or(|(_, sweep)| sweep.is_free(from, to, TOUCH))
+            .is_none_or(|contact| contact.stays_separated(from, to, TOUCH))
     }
 
     /// The configuration moved off contact until the tiles are [`LIFT`] apart.
     pub fn lifted(&self, q: &Configuration) -> Option<Configuration> {
-        let Some((contact, _)) = self.contact else {
+        let Some(contact) = self.contact else {
             return Some(*q);
         };
         let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.space.rho.powi(2)));

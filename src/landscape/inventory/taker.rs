@@ -1,60 +1,29 @@
-//! The inventory of a surveyed landscape: its states in order, with their escapes, and the barriers
-//! and pathways that are reported.
+//! Reading states, escapes, barriers and pathways off a surveyed network.
 
 use std::collections::HashSet;
 
-use super::meeting::{magnet_pairs, touching_faces};
-use super::network::Cost;
-use super::pathway::{self, Lowest};
-use super::results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};
-use super::survey::Survey;
-use super::symmetry::Symmetry;
+use super::{Inventory, SAME};
 use crate::analysis::{Alternative, PathwayCost, Settings};
 use crate::configuration::Configuration;
 use crate::design::Design;
+use crate::landscape::meeting::{magnet_pairs, touching_faces};
+use crate::landscape::network::Cost;
+use crate::landscape::pathway::{self, Lowest};
+use crate::landscape::results::{Barrier, Pathway, Place, State, StateKind};
+use crate::landscape::survey::Survey;
+use crate::landscape::symmetry::Symmetry;
 use crate::problem::Problem;
 
-/// Configurations closer than this (m, metric of the space) are taken for the same state.
-const SAME: f64 = 1e-4;
 /// A state this close (m, metric of the space) to the bound configuration is the bound one: the
 /// bond may settle a little beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
-/// States, escapes, barriers and pathways, in the order in which they are reported.
-#[derive(Clone, Debug)]
-pub struct Inventory {
-    pub states: Vec<State>,
-    pub escapes: Vec<Option<Barrier>>,
-    pub barriers: Vec<Barrier>,
-    pub alternatives: Vec<Alternative>,
-    pub bound_state: Option<usize>,
-    pub shallow: usize,
-}
-
-/// Takes the inventory of a survey.
-pub fn take(
-    design: &Design,
-    problem: &Problem,
-    symmetries: &[Symmetry],
-    survey: &Survey,
-    settings: &Settings,
-) -> Inventory {
-    Taker {
-        design,
-        problem,
-        symmetries,
-        survey,
-        settings,
-    }
-    .take()
-}
-
-struct Taker<'a> {
-    design: &'a Design,
-    problem: &'a Problem,
-    symmetries: &'a [Symmetry],
-    survey: &'a Survey,
-    settings: &'a Settings,
+pub(super) struct Taker<'a> {
+    pub design: &'a Design,
+    pub problem: &'a Problem,
+    pub symmetries: &'a [Symmetry],
+    pub survey: &'a Survey,
+    pub settings: &'a Settings,
 }
 
 /// States of a survey (by their number in it) that symmetries map onto each other; the first is
@@ -62,7 +31,7 @@ struct Taker<'a> {
 type Class = Vec<usize>;
 
 impl Taker<'_> {
-    fn take(&self) -> Inventory {
+    pub fn take(&self) -> Inventory {
         let (classes, shallow) = self.deep_classes();
         let order: Vec<usize> = classes.iter().flatten().copied().collect();
         let bound_state = order
@@ -77,20 +46,24 @@ impl Taker<'_> {
                 states.push(self.state(found, states.len(), lowest_id, is_bound));
             }
         }
-        let mut escapes = Vec::new();
+        let mut escapes = vec![None; states.len()];
+        let mut first = 0;
         for class in &classes {
-            escapes.extend(self.escapes(class, &states, &order));
+            escapes[first] = self.barrier_to(class[0], &self.lower_nodes(class[0]), &order);
+            first += class.len();
         }
         let barriers = self.barriers(&classes, &states, &order, &escapes, bound_state);
         let alternatives = self.alternatives(&states, &order, bound_state);
-        Inventory {
+        let mut inventory = Inventory {
             states,
             escapes,
             barriers,
             alternatives,
             bound_state,
             shallow,
-        }
+        };
+        inventory.copy_escapes(self.problem, self.symmetries);
+        inventory
     }
 
     fn energy(&self, found: usize) -> f64 {
@@ -204,62 +177,6 @@ impl Taker<'_> {
             repelling,
             block_energy: None,
             capture: None,
-        }
-    }
-
-    /// The escapes of a class: found for its first state, mapped onto the others.
-    fn escapes(&self, class: &Class, states: &[State], order: &[usize]) -> Vec<Option<Barrier>> {
-        let first = self.barrier_to(class[0], &self.lower_nodes(class[0]), order);
-        class
-            .iter()
-            .map(|&member| {
-                let first = first.as_ref()?;
-                if member == class[0] {
-                    return Some(first.clone());
-                }
-                let symmetry = self.symmetries.iter().find(|s| {
-                    let image = s.apply(&self.configuration(class[0]));
-                    self.problem
-                        .space
-                        .distance(&image, &self.configuration(member))
-                        < SAME
-                })?;
-                Some(self.image(first, member, symmetry, states, order))
-            })
-            .collect()
-    }
-
-    fn image(
-        &self,
-        barrier: &Barrier,
-        from: usize,
-        symmetry: &Symmetry,
-        states: &[State],
-        order: &[usize],
-    ) -> Barrier {
-        let to = match barrier.to {
-            Place::Free => Place::Free,
-            Place::State(id) => {
-                let image = symmetry.apply(&states[id].configuration);
-                states
-                    .iter()
-                    .find(|s| self.problem.space.distance(&s.configuration, &image) < SAME)
-                    .map_or(barrier.to, |s| Place::State(s.id))
-            }
-        };
-        Barrier {
-            from: self.place(self.survey.states[from].node, order),
-            to,
-            saddle: symmetry.apply(&barrier.saddle),
-            pathway: barrier
-                .pathway
-                .iter()
-                .map(|point| PathwayPoint {
-                    configuration: symmetry.apply(&point.configuration),
-                    ..*point
-                })
-                .collect(),
-            ..barrier.clone()
         }
     }
 
@@ -402,65 +319,5 @@ impl Taker<'_> {
             cost,
             pathway,
         })
-    }
-}
-
-impl Inventory {
-    /// Counts in which states far starts ended and fills in the capture shares; returns the share
-    /// that ended in none.
-    pub fn count_captures(
-        &mut self,
-        problem: &Problem,
-        ends: &[Option<Configuration>],
-    ) -> Proportion {
-        let mut counts = vec![0; self.states.len()];
-        let mut none = 0;
-        for end in ends {
-            match end.and_then(|q| self.nearest_state(problem, &q)) {
-                Some(id) => counts[id] += 1,
-                None => none += 1,
-            }
-        }
-        for (state, count) in self.states.iter_mut().zip(counts) {
-            state.capture = Some(Proportion::new(count, ends.len()));
-        }
-        Proportion::new(none, ends.len())
-    }
-
-    fn nearest_state(&self, problem: &Problem, q: &Configuration) -> Option<usize> {
-        self.states
-            .iter()
-            .map(|s| (problem.space.distance(&s.configuration, q), s.id))
-            .filter(|(distance, _)| *distance < SAME)
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, id)| id)
-    }
-
-    /// Widens the spread of each barrier by what another run found for it.
-    pub fn widen_spread(&mut self, problem: &Problem, other: &Self) {
-        let same_place = |a: Place, b: Place| match (a, b) {
-            (Place::Free, Place::Free) => true,
-            (Place::State(a), Place::State(b)) => {
-                let (a, b) = (
-                    &self.states[a].configuration,
-                    &other.states[b].configuration,
-                );
-                problem.space.distance(a, b) < SAME
-            }
-            _ => false,
-        };
-        for barrier in &mut self.barriers {
-            let found = other
-                .barriers
-                .iter()
-                .find(|b| same_place(barrier.from, b.from) && same_place(barrier.to, b.to));
-            if let Some(found) = found {
-                let (low, high) = barrier
-                    .spread
-                    .unwrap_or((barrier.saddle_energy, barrier.saddle_energy));
-                barrier.spread =
-                    Some((low.min(found.saddle_energy), high.max(found.saddle_energy)));
-            }
-        }
     }
 }

@@ -1,0 +1,233 @@
+//! Bounds of the interaction energy of point dipoles over a cell.
+//!
+//! **Far pairs** are bounded together by Taylor's theorem about the cell's centre: value, gradient
+//! and Hessian of their energy, with a bound of the third-order remainder (see [`taylor`]).
+//!
+//! **Near pairs**, closer than a few times the magnet's reach, are bounded one by one from
+//! `U = K / r^3 [-1/2 cos(a - b) - 3/2 cos(a + b - 2 phi)]`, K = mu0 m1 m2 / (4 pi) (a, b
+//! directions of the moments, phi of the separation), over the distances and angles within reach.
+//! As the tiles do not overlap, r is at least the sum of the two magnets' distances to their own
+//! outlines.
+//!
+//! **Rounding.** A term is a product of at most 60 operations, each correctly rounded or (the
+//! reciprocals) right to 1e-13, on partial results of the size of `K G_n (reach)^n` at most, with
+//! the G_n of [`taylor`]; the separation itself is rounded by a few units in the last place of the
+//! largest coordinate S (m), which changes a term by `K G_(n+1)` times as much. Sums add one
+//! rounding a pair. All is covered by adding `E = (20000 + 8 N) eps` to the coefficient of
+//! `rho^-3` and `E S` to that of `rho^-4` in the remainder, N the number of pairs. Assumed, not
+//! proved: sine, cosine and arc functions of the platform are right to 8 units in the last place.
+
+mod taylor;
+#[cfg(test)]
+pub(crate) mod tests;
+
+use std::f64::consts::PI;
+
+use super::{CellBounds, Enclosure};
+use crate::cell::Cell;
+use crate::potential::batch::Level;
+use crate::potential::dipole::Dipole;
+use crate::tile::Tile;
+use taylor::Taylor;
+
+/// mu0 / (4 pi) (T m / A).
+const SCALE: f64 = crate::units::MU0 / (4.0 * PI);
+
+/// Pairs closer than this many times the magnet's reach are bounded one by one.
+const NEAR: f64 = 4.0;
+
+/// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
+/// as touching, with room to spare.
+const SLACK: f64 = 1e-8;
+
+/// Cell bounds of the interaction energy of two tiles' dipoles.
+#[derive(Clone, Debug)]
+pub struct DipoleBounds {
+    level: Level,
+    fixed: Vec<Fixed>,
+    moving: Moving,
+    rounding: f64,
+    /// Largest distance of a fixed dipole from the origin (m).
+    extent: f64,
+}
+
+/// A dipole of the fixed tile.
+#[derive(Clone, Copy, Debug)]
+struct Fixed {
+    position: [f64; 2],
+    /// Times mu0 / (4 pi).
+    moment: [f64; 2],
+    magnitude: f64,
+    /// Direction of the moment (rad).
+    angle: f64,
+    /// Distance to the own outline (m).
+    depth: f64,
+}
+
+/// The dipoles of the moving tile as a structure of arrays, filled up to whole vectors with
+/// dipoles without moment.
+#[derive(Clone, Debug)]
+struct Moving {
+    count: usize,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    moment_x: Vec<f64>,
+    moment_y: Vec<f64>,
+    magnitude: Vec<f64>,
+    lever: Vec<f64>,
+    angle: Vec<f64>,
+    depth: Vec<f64>,
+}
+
+impl DipoleBounds {
+    pub fn new(fixed: &Tile, moving: &Tile) -> Self {
+        Self::with_level(fixed, moving, Level::best())
+    }
+
+    /// For the given instruction set.
+    pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
+        let fixed: Vec<_> = dipoles_and_depths(fixed).iter().map(Fixed::new).collect();
+        let moving = Moving::new(&dipoles_and_depths(moving), level.width());
+        let pairs = (fixed.len() * moving.count) as f64;
+        let norm = |dipole: &Fixed| dipole.position[0].hypot(dipole.position[1]);
+        Self {
+            level,
+            rounding: (20_000.0 + 8.0 * pairs) * f64::EPSILON,
+            extent: fixed.iter().map(norm).fold(0.0, f64::max),
+            fixed,
+            moving,
+        }
+    }
+}
+
+fn dipoles_and_depths(tile: &Tile) -> Vec<(Dipole, f64)> {
+    tile.magnets
+        .iter()
+        .map(|magnet| {
+            let depth = -tile.outline.signed_distance(magnet.position);
+            (Dipole::from(magnet), depth.max(0.0))
+        })
+        .collect()
+}
+
+impl Fixed {
+    fn new((dipole, depth): &(Dipole, f64)) -> Self {
+        Self {
+            position: dipole.position.into(),
+            moment: (dipole.moment * SCALE).into(),
+            magnitude: dipole.moment.norm() * SCALE,
+            angle: dipole.moment.y.atan2(dipole.moment.x),
+            depth: *depth,
+        }
+    }
+}
+
+impl Moving {
+    fn new(dipoles: &[(Dipole, f64)], width: usize) -> Self {
+        let column = |entry: &dyn Fn(&(Dipole, f64)) -> f64| {
+            let mut column: Vec<f64> = dipoles.iter().map(entry).collect();
+            column.resize(dipoles.len().next_multiple_of(width), 0.0);
+            column
+        };
+        Self {
+            count: dipoles.len(),
+            x: column(&|(dipole, _)| dipole.position.x),
+            y: column(&|(dipole, _)| dipole.position.y),
+            moment_x: column(&|(dipole, _)| dipole.moment.x),
+            moment_y: column(&|(dipole, _)| dipole.moment.y),
+            magnitude: column(&|(dipole, _)| dipole.moment.norm()),
+            lever: column(&|(dipole, _)| dipole.position.norm()),
+            angle: column(&|(dipole, _)| dipole.moment.y.atan2(dipole.moment.x)),
+            depth: column(&|(_, depth)| *depth),
+        }
+    }
+}
+
+impl CellBounds for DipoleBounds {
+    fn enclose(&self, cell: &Cell) -> Enclosure {
+        let mut weights = Vec::new();
+        let (form, remainder) = self.level.run(Taylor {
+            bounds: self,
+            cell,
+            weights: &mut weights,
+        });
+        let mut out = Enclosure {
+            form,
+            low: -remainder,
+            high: remainder,
+        };
+        let stride = self.moving.x.len();
+        for (k, _) in weights.iter().enumerate().filter(|(_, far)| **far == 0.0) {
+            if k % stride < self.moving.count {
+                self.add_near(&mut out, cell, &self.fixed[k / stride], k % stride);
+            }
+        }
+        out
+    }
+}
+
+impl DipoleBounds {
+    /// Adds the pair of a fixed dipole and the moving one of number `i`.
+    fn add_near(&self, out: &mut Enclosure, cell: &Cell, fixed: &Fixed, i: usize) {
+        let moving = &self.moving;
+        let strength = fixed.magnitude * moving.magnitude[i];
+        if strength == 0.0 {
+            return;
+        }
+        let at = cell.centre.transform([moving.x[i], moving.y[i]].into());
+        let (dx, dy) = (at.x - fixed.position[0], at.y - fixed.position[1]);
+        let r = dx.hypot(dy);
+        let reach = cell.reach(moving.lever[i]) + self.rounding;
+        let (a, b) = (fixed.angle, moving.angle[i] + cell.centre.theta);
+        let phi = dy.atan2(dx);
+        let swing = if reach < r { (reach / r).asin() } else { PI };
+        let (turn, across) = (a - b, a + b - 2.0 * phi);
+        let along = cosine_range(turn, cell.half[2]);
+        let beside = cosine_range(across, cell.half[2] + 2.0 * swing);
+        let factor = [
+            -0.5 * along.1 - 1.5 * beside.1,
+            -0.5 * along.0 - 1.5 * beside.0,
+        ];
+        let least = (r - reach).max(fixed.depth + moving.depth[i] - SLACK);
+        if least <= 0.0 {
+            // The magnets may coincide.
+            out.low = f64::NEG_INFINITY;
+            out.high = f64::INFINITY;
+            return;
+        }
+        let cubed = |r: f64| strength / (r * r * r);
+        let margin = self.rounding * cubed(least);
+        let low = factor[0] * cubed(if factor[0] < 0.0 { least } else { r + reach }) - margin;
+        let high = factor[1] * cubed(if factor[1] > 0.0 { least } else { r + reach }) + margin;
+        let here = (-0.5 * turn.cos() - 1.5 * across.cos()) * cubed(r);
+        let middle = if here >= low && here <= high {
+            here
+        } else {
+            (low + high) / 2.0
+        };
+        out.form.value += middle;
+        out.low += low - middle - margin;
+        out.high += high - middle + margin;
+    }
+}
+
+/// Least and largest cosine over angles within `half` of `middle` (rad).
+fn cosine_range(middle: f64, half: f64) -> (f64, f64) {
+    const MARGIN: f64 = 1e-14;
+    if half >= PI {
+        return (-1.0, 1.0);
+    }
+    let middle = crate::configuration::wrap_angle(middle).abs();
+    // cos falls from 0 to pi; the angles run from middle - half to middle + half.
+    let high = if middle <= half {
+        1.0
+    } else {
+        (middle - half).cos() + MARGIN
+    };
+    let low = if middle + half >= PI {
+        -1.0
+    } else {
+        (middle + half).cos() - MARGIN
+    };
+    (low.max(-1.0), high.min(1.0))
+}

@@ -1,0 +1,274 @@
+//! Splitting a simple polygon into few compact convex parts.
+//!
+//! The split is exact: it runs along diagonals from vertex to vertex, so that no vertex is moved
+//! and no notch is filled in. The diagonals are those of the triangulation of least total length
+//! (dynamic programming over the polygon's chains: G. T. Klincsek, *Minimal triangulations of
+//! polygonal domains*, 1980), of which all are dropped again that separate nothing but convex
+//! neighbours (Hertel and Mehlhorn's rule), the longest first. A tooth is then cut off at its
+//! foot; ear clipping would leave long slivers that reach right across the tile, and every test
+//! for overlap would have to look at most of them.
+
+use nalgebra::Vector2;
+
+use super::outline::cross;
+
+/// Sines of angles below this count as zero.
+const STRAIGHT: f64 = 1e-12;
+
+/// Lists of vertex numbers, each a convex polygon running the way the whole one does
+/// (counter-clockwise), or none where the vertices form no simple polygon. Takes time and memory
+/// as the cube and the square of the number of vertices.
+pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>> {
+    let triangulation = Triangulation::shortest(vertices)?;
+    let mut parts = Vec::new();
+    let mut diagonals = Vec::new();
+    triangulation.collect(0, vertices.len() - 1, &mut parts, &mut diagonals);
+    let length = |&(i, j): &(usize, usize)| (vertices[i] - vertices[j]).norm();
+    diagonals.sort_by(|a, b| length(b).total_cmp(&length(a)).then(a.cmp(b)));
+    for (i, j) in diagonals {
+        merge(&mut parts, vertices, i, j);
+    }
+    Some(parts)
+}
+
+/// Merges the two parts on either side of a diagonal where their union is convex.
+fn merge(parts: &mut Vec<Vec<usize>>, vertices: &[Vector2<f64>], i: usize, j: usize) {
+    let Some((a, left)) = part_starting_with(parts, j, i) else {
+        return;
+    };
+    let Some((b, right)) = part_starting_with(parts, i, j) else {
+        return;
+    };
+    // `left` starts j, i, ..., and `right` i, j, ...: together, i, ..., j, ....
+    let union: Vec<usize> = left[1..].iter().chain(&right[1..]).copied().collect();
+    let n = union.len();
+    let convex_at = |k: usize| {
+        let at = |k: usize| vertices[union[k % n]];
+        turn(at(k + n - 1), at(k), at(k + 1)) >= -STRAIGHT
+    };
+    if convex_at(0) && convex_at(left.len() - 1) {
+        parts[a.min(b)] = union;
+        parts.swap_remove(a.max(b));
+    }
+}
+
+/// The part with an edge from vertex `i` to vertex `j`, listed from `i` on.
+fn part_starting_with(parts: &[Vec<usize>], i: usize, j: usize) -> Option<(usize, Vec<usize>)> {
+    parts.iter().enumerate().find_map(|(index, part)| {
+        let n = part.len();
+        let start = (0..n).find(|&k| part[k] == i && part[(k + 1) % n] == j)?;
+        let listed = (0..n).map(|k| part[(start + k) % n]).collect();
+        Some((index, listed))
+    })
+}
+
+/// For every chain of vertices from i to j, the best third corner of the triangle on its closing
+/// diagonal.
+struct Triangulation {
+    corner: Vec<Option<usize>>,
+    vertices: usize,
+}
+
+impl Triangulation {
+    fn shortest(vertices: &[Vector2<f64>]) -> Option<Self> {
+        let n = vertices.len();
+        let mut cost = vec![f64::INFINITY; n * n];
+        let mut corner = vec![None; n * n];
+        for i in 0..n - 1 {
+            cost[i * n + i + 1] = 0.0;
+        }
+        for span in 2..n {
+            for i in 0..n - span {
+                let j = i + span;
+                if span < n - 1 && !is_diagonal(vertices, i, j) {
+                    continue;
+                }
+                let closing = (vertices[j] - vertices[i]).norm();
+                for k in i + 1..j {
+                    let total = cost[i * n + k] + cost[k * n + j] + closing;
+                    if total < cost[i * n + j]
+                        && turn(vertices[i], vertices[k], vertices[j]) > STRAIGHT
+                    {
+                        cost[i * n + j] = total;
+                        corner[i * n + j] = Some(k);
+                    }
+                }
+            }
+        }
+        corner[n - 1].is_some().then_some(Self {
+            corner,
+            vertices: n,
+        })
+    }
+
+    fn collect(
+        &self,
+        i: usize,
+        j: usize,
+        triangles: &mut Vec<Vec<usize>>,
+        diagonals: &mut Vec<(usize, usize)>,
+    ) {
+        let Some(k) = self.corner[i * self.vertices + j] else {
+            return;
+        };
+        triangles.push(vec![i, k, j]);
+        for (a, b) in [(i, k), (k, j)] {
+            if b > a + 1 {
+                diagonals.push((a, b));
+                self.collect(a, b, triangles, diagonals);
+            }
+        }
+    }
+}
+
+/// Sine of the angle by which a way from a over b to c turns left at b.
+fn turn(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>) -> f64 {
+    let (u, v) = (b - a, c - b);
+    cross(u, v) / (u.norm() * v.norm())
+}
+
+/// Whether the segment between two vertices that are not neighbours runs inside the polygon and
+/// touches its boundary at its ends only.
+fn is_diagonal(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
+    let n = vertices.len();
+    starts_inside(vertices, i, j)
+        && starts_inside(vertices, j, i)
+        && (0..n).all(|k| {
+            let next = (k + 1) % n;
+            [k, next].iter().any(|end| *end == i || *end == j)
+                || !meet(vertices[i], vertices[j], vertices[k], vertices[next])
+        })
+}
+
+/// Whether the way from vertex i towards vertex j starts into the polygon, along neither of the
+/// edges at i.
+fn starts_inside(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
+    let n = vertices.len();
+    let (before, at, after) = (
+        vertices[(i + n - 1) % n],
+        vertices[i],
+        vertices[(i + 1) % n],
+    );
+    let sine = |u: Vector2<f64>, v: Vector2<f64>| cross(u, v) / (u.norm() * v.norm());
+    let (to_after, to_before, way) = (after - at, before - at, vertices[j] - at);
+    let left_of_after = sine(to_after, way) > STRAIGHT;
+    let right_of_before = sine(way, to_before) > STRAIGHT;
+    if turn(before, at, after) > 0.0 {
+        left_of_after && right_of_before
+    } else {
+        // Inside is all that is not in the wedge between the edges, both of them excluded.
+        let in_wedge = sine(to_before, way) >= -STRAIGHT && sine(way, to_after) >= -STRAIGHT;
+        !in_wedge
+    }
+}
+
+/// Whether two segments share a point, ends included.
+fn meet(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>, d: Vector2<f64>) -> bool {
+    let side = |p: Vector2<f64>, q: Vector2<f64>, r: Vector2<f64>| {
+        let sine = cross(q - p, r - p) / ((q - p).norm() * (r - p).norm());
+        if sine.abs() <= STRAIGHT { 0.0 } else { sine }
+    };
+    let apart = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
+    if apart(side(a, b, c), side(a, b, d)) || apart(side(c, d, a), side(c, d, b)) {
+        return false;
+    }
+    // Segments on one line meet only where their boxes do.
+    let boxes = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
+    boxes(a.x, b.x, c.x, d.x) && boxes(a.y, b.y, c.y, d.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tile::outline::signed_area;
+
+    fn points(list: &[[f64; 2]]) -> Vec<Vector2<f64>> {
+        list.iter().map(|p| Vector2::new(p[0], p[1])).collect()
+    }
+
+    /// A unit square with teeth of the given number of steps on its right side.
+    fn toothed(teeth: usize, steps: usize) -> Vec<Vector2<f64>> {
+        let mut vertices = points(&[[0.0, 1.0], [0.0, 0.0]]);
+        let n = teeth * steps;
+        for k in 0..=n {
+            let s = k as f64 / n as f64;
+            let height = 0.05 * (1.0 - f64::cos(std::f64::consts::TAU * teeth as f64 * s)) / 2.0;
+            vertices.push(Vector2::new(1.0 + height, s));
+        }
+        vertices
+    }
+
+    fn check(vertices: &[Vector2<f64>]) -> Vec<Vec<usize>> {
+        let parts = convex_parts(vertices).expect("a simple polygon");
+        let mut filled = 0.0;
+        for part in &parts {
+            let corners: Vec<_> = part.iter().map(|&k| vertices[k]).collect();
+            let n = corners.len();
+            for k in 0..n {
+                assert!(
+                    turn(corners[k], corners[(k + 1) % n], corners[(k + 2) % n]) >= -STRAIGHT,
+                    "{part:?}"
+                );
+            }
+            filled += signed_area(&corners);
+        }
+        assert!((filled - signed_area(vertices)).abs() < 1e-12);
+        parts
+    }
+
+    #[test]
+    fn a_convex_polygon_stays_whole() {
+        let square = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(check(&square).len(), 1);
+    }
+
+    #[test]
+    fn notches_and_steps_are_split() {
+        // An L; a notch wider inside than at its mouth; steps with corners on one line.
+        let l = [
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ];
+        assert_eq!(check(&points(&l)).len(), 2);
+        check(&points(&[
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [4.0, 3.0],
+            [2.5, 3.0],
+            [3.0, 2.0],
+            [1.0, 2.0],
+            [1.5, 3.0],
+            [0.0, 3.0],
+        ]));
+        let battlements = [
+            [0.0, 0.0],
+            [5.0, 0.0],
+            [5.0, 2.0],
+            [4.0, 2.0],
+            [4.0, 1.0],
+            [3.0, 1.0],
+            [3.0, 2.0],
+            [2.0, 2.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 2.0],
+            [0.0, 2.0],
+        ];
+        assert_eq!(check(&points(&battlements)).len(), 4);
+    }
+
+    #[test]
+    fn teeth_are_cut_off_at_their_feet() {
+        let vertices = toothed(5, 16);
+        let parts = check(&vertices);
+        let long = parts.iter().filter(|part| {
+            let corners = || part.iter().map(|&k| vertices[k].x);
+            corners().fold(f64::INFINITY, f64::min) < 0.5
+        });
+        assert!(long.count() <= 2, "{parts:?}");
+    }
+}

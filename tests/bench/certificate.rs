@@ -1,0 +1,76 @@
+//! What certified barriers cost: widths, cells, times, and cells per second.
+//!
+//! The paper's tile, no pathway known, each bracket by a certifier of its own; time to set it up
+//! included.
+//!
+//! `cargo bench --bench certificate`
+
+use std::path::Path;
+use std::time::Instant;
+
+use tilebind::Configuration;
+use tilebind::contact::Contact;
+use tilebind::design::Design;
+use tilebind::landscape::certificate::{Certifier, Effort, End};
+use tilebind::potential::bounds::DipoleBounds;
+
+fn main() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
+    let design = match Design::load(&file) {
+        Ok(design) => design,
+        Err(error) => return eprintln!("{error}"),
+    };
+    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
+    let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
+    let space = design.space();
+    let depth = 65.47e-3;
+    let queries = [
+        (
+            "slid by +40 mm, to bound",
+            [0.43, 0.04, 0.0],
+            End::At(design.bound),
+        ),
+        ("slid by +40 mm, to free", [0.43, 0.04, 0.0], End::Free),
+        (
+            "slid by -40 mm, to bound",
+            [0.43, -0.04, 0.0],
+            End::At(design.bound),
+        ),
+        ("slid by -40 mm, to free", [0.43, -0.04, 0.0], End::Free),
+        ("flush at +140 mm, to free", [0.43, 0.14, 0.0], End::Free),
+        (
+            "flush at +100 mm, to bound",
+            [0.43, 0.1003, 0.0],
+            End::At(design.bound),
+        ),
+    ];
+    println!(
+        "{:28} {:>9} {:>22} {:>9} {:>9} {:>7} {:>9}",
+        "", "asked", "bounds / mJ", "width", "cells", "s", "cells/s"
+    );
+    for (name, from, to) in queries {
+        for share in [1e-2, 1e-3, 1e-4] {
+            let start = Instant::now();
+            let mut certifier = Certifier::new(&bounds, Some(&contact), &space);
+            let effort = Effort {
+                tolerance: share * depth,
+                cells: 5_000_000,
+                time: None,
+            };
+            let found = certifier.bracket(&Configuration::from(from), &to, &[], &effort);
+            let time = start.elapsed().as_secs_f64();
+            match found {
+                Ok(found) => println!(
+                    "{name:28} {:8.2}% [{:9.5}, {:9.5}] {:8.4}% {:9} {time:7.3} {:9.0}",
+                    share * 100.0,
+                    found.lower * 1e3,
+                    found.upper.unwrap_or(f64::NAN) * 1e3,
+                    found.width() / depth * 100.0,
+                    certifier.assessed(),
+                    certifier.assessed() as f64 / time
+                ),
+                Err(error) => println!("{name}: {error}"),
+            }
+        }
+    }
+}

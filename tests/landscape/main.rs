@@ -1,0 +1,7 @@
+//! Roadmaps and surveys, tested on landscapes whose answers are known and by symmetries that every
+//! answer must have.
+
+mod analytic;
+mod roadmap;
+mod symmetry;
+mod walls;

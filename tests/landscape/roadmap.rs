@@ -1,0 +1,161 @@
+//! Milestones and edges against what their definitions say.
+
+use nalgebra::Vector3;
+use tilebind::configuration::{Configuration, ConfigurationSpace};
+use tilebind::design::Design;
+use tilebind::pipeline;
+use tilebind::potential::Potential;
+use tilebind::potential::analytic::DoubleWell;
+use tilebind::problem::Problem;
+use tilebind::roadmap::{
+    Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
+};
+
+const SPACE: ConfigurationSpace = ConfigurationSpace {
+    half_size: [1.0, 0.5],
+    rho: 0.1,
+    free_distance: 10.0,
+};
+
+const SETTINGS: EdgeSettings = EdgeSettings {
+    tolerance: ProfileTolerance {
+        relative: 1e-4,
+        absolute: 1e-8,
+    },
+    thermal_energy: 1e-4,
+    probability_step: 1e-3,
+};
+
+fn double_well() -> Problem {
+    let well = DoubleWell {
+        height: 2e-3,
+        half_distance: 0.4,
+        stiffness: 0.03,
+    };
+    Problem::without_contact(SPACE, Box::new(well))
+}
+
+fn costs(problem: &Problem, a: Configuration, b: Configuration) -> edge::EdgeCosts {
+    let ends = [a, b].map(|q| Milestone::new(problem, q));
+    edge::costs(problem, &ends[0], &ends[1], &SETTINGS).expect("a free motion")
+}
+
+#[test]
+fn the_costs_of_a_motion_over_a_saddle_are_those_of_its_definition() {
+    let problem = double_well();
+    let at = |x: f64| Configuration::new(x, 0.0, 0.0);
+    // From the left minimum (0) over the saddle (2 mJ) to where U is U(0.2) = 2 mJ (3/4)^2.
+    let (a, b) = (at(-0.4), at(0.2));
+    let end = 2e-3 * 0.75f64.powi(2);
+    let there = costs(&problem, a, b);
+    assert!((there.peak - 2e-3).abs() < 2e-7, "{there:?}");
+    assert!((there.peak_at - 0.4 / 0.6).abs() < 1e-2);
+    assert!((there.work[0] - 2e-3).abs() < 2e-7 && (there.work[1] - (2e-3 - end)).abs() < 2e-7);
+    assert!((there.length - 0.6).abs() < 1e-12);
+    let back = costs(&problem, b, a);
+    assert!((back.peak - there.peak).abs() < 2e-7);
+    assert!((back.work[0] - there.work[1]).abs() < 1e-9);
+    assert!((back.improbability[0] - there.improbability[1]).abs() < 1e-2);
+    // Twice the climb over kT, about: every step counts the difference of two.
+    assert!((there.improbability[0] - there.improbability[1]).abs() > end / 1e-4);
+}
+
+#[test]
+fn both_ends_of_a_motion_count_and_negative_energies_are_normal() {
+    let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
+    let problem = pipeline::problem(&design);
+    let bound = Configuration::new(0.43, 0.0, 0.0);
+    let off = Configuration::new(0.47, 0.0, 0.0);
+    let energies = [bound, off].map(|q| problem.energy(&q));
+    assert!(energies[0] < energies[1] && energies[1] < 0.0);
+    let costs = costs(&problem, bound, off);
+    assert_eq!(costs.peak, energies[1]);
+    assert!((costs.work[0] - (energies[1] - energies[0])).abs() < 1e-9 && costs.work[1] == 0.0);
+}
+
+/// A narrow ridge across a plain.
+struct Ridge;
+
+impl Potential for Ridge {
+    fn energy(&self, q: &Configuration) -> f64 {
+        1e-3 / (1.0 + (q.x / WIDTH).powi(2))
+    }
+
+    fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        let u = self.energy(q);
+        let slope = -2.0 * q.x / WIDTH.powi(2) * u * u / 1e-3;
+        (u, Vector3::new(slope, 0.0, 0.0))
+    }
+
+    fn curvature_bound(&self, _: &Configuration, _: f64) -> f64 {
+        // |U''| is largest, 2 U / width^2, on the crest.
+        2e-3 / WIDTH.powi(2)
+    }
+
+    fn displacement(&self, step: Vector3<f64>) -> f64 {
+        step.x.abs()
+    }
+}
+
+const WIDTH: f64 = 1e-3;
+
+#[test]
+fn no_ridge_is_stepped_over() {
+    let problem = Problem::without_contact(SPACE, Box::new(Ridge));
+    for k in 0..40 {
+        let x = 0.3 + 0.01 * f64::from(k);
+        let found = costs(
+            &problem,
+            Configuration::new(-x, 0.1, 0.0),
+            Configuration::new(0.5, -0.2, 1.0),
+        );
+        assert!((found.peak - 1e-3).abs() < 1e-6, "{x} {found:?}");
+    }
+}
+
+#[test]
+fn milestones_follow_their_rule_of_acceptance() {
+    let problem = double_well();
+    let count = 20_000;
+    let (lowest, highest) = (0.5e-3, 4e-3);
+    let linear = |u: f64| ((highest - u) / (highest - lowest)).clamp(0.0, 1.0);
+    let boltzmann = |u: f64| (-u / 1e-3).exp().min(1.0);
+    let rules: [(Acceptance, &dyn Fn(f64) -> f64); 2] = [
+        (Acceptance::Linear { lowest, highest }, &linear),
+        (Acceptance::Boltzmann { energy: 1e-3 }, &boltzmann),
+    ];
+    for (acceptance, probability) in rules {
+        let settings = MilestoneSettings {
+            count,
+            acceptance,
+            seed: 3,
+        };
+        let found = milestone::milestones(&problem, &settings);
+        assert_eq!(found.len(), count);
+        // Proposals are uniform here, so the density of milestones over x and y is the rule's
+        // probability: compared in bins of x, against sums over a grid.
+        let bins = 20;
+        let bin = |x: f64| (((x + 1.0) / 2.0 * bins as f64) as usize).min(bins - 1);
+        let mut expected = vec![0.0; bins];
+        for i in 0..400 {
+            for j in 0..200 {
+                let x = -1.0 + (f64::from(i) + 0.5) / 200.0;
+                let y = -0.5 + (f64::from(j) + 0.5) / 200.0;
+                expected[bin(x)] += probability(problem.energy(&Configuration::new(x, y, 0.0)));
+            }
+        }
+        let total: f64 = expected.iter().sum();
+        let mut counted = vec![0usize; bins];
+        for m in &found {
+            counted[bin(m.configuration.x)] += 1;
+        }
+        for (seen, share) in counted.iter().zip(&expected) {
+            let mean = share / total * count as f64;
+            // Five standard deviations of a Poisson count.
+            assert!(
+                (*seen as f64 - mean).abs() <= 5.0 * mean.sqrt() + 1.0,
+                "{seen} {mean}"
+            );
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Answers that symmetries demand: of two tiles exchanged, of their mirror image, of more threads.
+
+use tilebind::analysis::{Analysis, Settings};
+use tilebind::configuration::Configuration;
+use tilebind::design::Design;
+use tilebind::pipeline::{self, Silent};
+
+/// Squares with one code on all faces of each.
+fn design(fixed: &str, moving: &str, target: [&str; 2]) -> Design {
+    let text = format!(
+        "name = 'pair'\n[table]\nsize = [2.0, 2.0]\n[magnet]\nsize = [0.01, 0.01, 0.003]\n\
+         remanence = 1.2\npitch = 0.04\n[fixed]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n\
+         [fixed.faces]\nall = {{ code = '{fixed}' }}\n[moving]\nside = 0.43\nthickness = 0.013\n\
+         mass = 0.1\n[moving.faces]\nall = {{ code = '{moving}' }}\n[target]\nfixed = '{}'\n\
+         moving = '{}'\n",
+        target[0], target[1]
+    );
+    Design::parse(&text, "pair.toml").unwrap()
+}
+
+fn analyse(design: &Design, seed: u64) -> Analysis {
+    let settings = Settings {
+        seed,
+        milestones: 3000,
+        far_starts: 20,
+        certify_seconds: 0.0,
+        ..Settings::default()
+    };
+    pipeline::analyse(design, &settings, &Silent)
+}
+
+/// Every state of `one` has its image among those of `other`, of the same depth and with an escape
+/// as high.
+fn assert_images(
+    one: &Analysis,
+    other: &Analysis,
+    image: &dyn Fn(&Configuration) -> Configuration,
+) {
+    assert_eq!(one.states.len(), other.states.len());
+    assert!(one.states.len() >= 100, "{}", one.states.len());
+    for (state, escape) in one.states.iter().zip(&one.escapes) {
+        let expected = image(&state.configuration);
+        let step = |q: &Configuration| {
+            let step = q.step_to(&expected);
+            step.xy().norm() + 0.2 * step.z.abs()
+        };
+        let (twin, twin_escape) = other
+            .states
+            .iter()
+            .zip(&other.escapes)
+            .find(|(s, _)| step(&s.configuration) < 1e-5)
+            .unwrap_or_else(|| panic!("no image of {state:?}"));
+        assert_eq!(state.kind, twin.kind);
+        assert!((state.energy - twin.energy).abs() < 1e-9 * state.energy.abs());
+        let heights = [escape, twin_escape].map(|e| e.as_ref().unwrap().forward());
+        assert!(
+            (heights[0] - heights[1]).abs() < 5e-3 * heights[0],
+            "{heights:?} of {:?}",
+            state.configuration
+        );
+    }
+}
+
+#[test]
+fn exchanging_the_tiles_exchanges_the_answers() {
+    let one = analyse(&design("NNNS", "NSSS", ["east", "west"]), 1);
+    let other = analyse(&design("NSSS", "NNNS", ["west", "east"]), 2);
+    assert_images(&one, &other, &Configuration::inverse);
+}
+
+#[test]
+fn the_mirror_image_has_mirrored_answers() {
+    let one = analyse(&design("NNNS", "NSSS", ["east", "west"]), 1);
+    let other = analyse(&design("SNNN", "SSSN", ["east", "west"]), 3);
+    let mirrored = |q: &Configuration| Configuration::new(q.x, -q.y, -q.theta);
+    assert_images(&one, &other, &mirrored);
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let design = design("NNNS", "NSSS", ["east", "west"]);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| analyse(&design, 5))
+    };
+    let (one, many) = (on(1), on(3));
+    assert_eq!(one.states, many.states);
+    assert_eq!(one.escapes, many.escapes);
+    assert_eq!(one.barriers, many.barriers);
+    assert_eq!(one.counts, many.counts);
+}
