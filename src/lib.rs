@@ -24,6 +24,7 @@
 //! | [`problem`] | the three above, put together |
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures, certificates |
+//! | [`calibration`] | shields fitted to measurements |
 //! | [`dynamics`] | tiles that really move: docking runs |
 //! | [`pipeline`] | the main job in one page; [`certification`] and [`query`] beside it |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |

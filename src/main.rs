@@ -34,6 +34,7 @@ enum Command {
     Compare(cli::compare::Compare),
     Sweep(cli::sweep::Sweep),
     Dock(cli::dock::Dock),
+    Calibrate(cli::calibrate::Calibrate),
     Completions(cli::completions::Completions),
 }
 
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         Command::Compare(command) => command.run(),
         Command::Sweep(command) => command.run(),
         Command::Dock(command) => command.run(),
+        Command::Calibrate(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };
     match outcome {

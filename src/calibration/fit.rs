@@ -6,6 +6,8 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Clone, Debug)]
 pub struct Fit<const N: usize> {
     pub best: [f64; N],
+    /// Sum of the squares of the residuals there.
+    pub square: f64,
     /// Standard errors, infinite where the residuals do not depend on a number.
     pub standard_errors: [f64; N],
     /// Steps that were taken.
@@ -66,6 +68,7 @@ pub fn least_squares<const N: usize>(
     let standard_errors = standard_errors(&best, &r, &residuals);
     Fit {
         best,
+        square: square(&r),
         standard_errors,
         steps: taken,
         settled,

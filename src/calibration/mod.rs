@@ -2,20 +2,25 @@
 //!
 //! Rows of poses, with and without iron, are compared with a shielded pair of tiles (see
 //! [`crate::potential::shielding`]). The constants A, l, delta and the front gain G of one shield,
-//! the same on all faces, are fitted by least squares (Levenberg 1944, Marquardt 1963,
+//! the same on all shielded faces, are fitted by least squares (Levenberg 1944, Marquardt 1963,
 //! doi:10.1137/0111030); the magnets' common strength, which multiplies all energies, by the rows
 //! without iron alone, if there are any. Energies, forces and torques are made comparable by the
-//! root mean square of their measured values. Every fifth row (or as set) is held out of the fit,
-//! and the residuals of the rows held out say what the fit is worth.
+//! root mean square of their measured values. Every fifth row with iron and every fifth without
+//! (or as set) is held out of the fit, and the residuals of the rows held out say what the fit is
+//! worth.
+//!
+//! What the rows do not depend on they cannot tell: A and l show behind and beside the iron only,
+//! G in front of it. A standard error as large as the constant itself says so.
 
 mod fit;
 mod rows;
 
 use crate::configuration::Configuration;
+use crate::contact::Contact;
 use crate::potential::shielding::{Shield, ShieldRule, Shields};
 use crate::potential::{MagnetModel, Potential, ShieldedPotential};
 use crate::tile::Tile;
-use fit::least_squares;
+use fit::{Fit, least_squares};
 pub use rows::{COLUMNS, CsvError, read_rows};
 
 /// What can be measured at a pose, and its unit.
@@ -29,6 +34,8 @@ pub const QUANTITIES: [(&str, &str); 4] = [
 /// A measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
+    /// Its line in the file.
+    pub line: usize,
     pub configuration: Configuration,
     /// Whether the shields were in place.
     pub iron: bool,
@@ -37,10 +44,39 @@ pub struct Row {
     pub measured: [Option<f64>; 4],
 }
 
+/// What was measured: two tiles, and which of their faces had shields in the rows with iron (those
+/// with a shield in `shields`, all where there are none; the constants there do not matter).
+#[derive(Clone, Copy, Debug)]
+pub struct Specimen<'a> {
+    pub model: MagnetModel,
+    pub fixed: &'a Tile,
+    pub moving: &'a Tile,
+    pub shields: &'a Shields,
+}
+
+impl Specimen<'_> {
+    /// The tiles with `shield` on all shielded faces.
+    fn shields(&self, shield: &Shield) -> Shields {
+        let all = self.shields.fixed.iter().chain(&self.shields.moving);
+        let any = all.flatten().next().is_some();
+        let of_faces = |tile: &Tile, known: &[Option<Shield>]| {
+            let shielded = |face: usize| !any || known.get(face).is_some_and(Option::is_some);
+            (0..tile.faces.len())
+                .map(|face| shielded(face).then_some(*shield))
+                .collect()
+        };
+        Shields {
+            rule: ShieldRule::Smooth,
+            fixed: of_faces(self.fixed, &self.shields.fixed),
+            moving: of_faces(self.moving, &self.shields.moving),
+        }
+    }
+}
+
 /// What to hold out, and where to start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CalibrationSettings {
-    /// Every so many rows one is held out of the fit.
+    /// Every so many rows of either kind, with and without iron, one is held out of the fit.
     pub hold_out_every: usize,
     pub start: Shield,
     /// Greatest number of steps of the fit.
@@ -65,7 +101,9 @@ impl Default for CalibrationSettings {
 /// Root mean squares of measured minus modelled values, for each of [`QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
+    /// How many rows there are, and how many of them with iron.
     pub rows: usize,
+    pub with_iron: usize,
     /// In the quantity's own unit; `None` where nothing was measured.
     pub rms: [Option<f64>; 4],
     /// The same, relative to the root mean square of the measured values.
@@ -95,43 +133,43 @@ pub enum CalibrationError {
          that are not held out"
     )]
     TooFew(usize),
-    #[error("the model gives no finite value at row {0}; do the tiles overlap there?")]
-    NotFinite(usize),
+    #[error(
+        "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in rad, \
+         in the fixed tile's frame", 1e3 * .depth
+    )]
+    Overlap { line: usize, depth: f64 },
 }
+
+/// By how much (m) the tiles may overlap at a pose that was measured, with its error.
+const MEASURED_OVERLAP: f64 = 1e-3;
 
 /// Fits a shield to rows of measurements.
 ///
 /// # Errors
-/// Where there are too few rows, or the model has no finite value at one of them.
+/// Where there are too few rows, or the tiles overlap at one of them.
 pub fn calibrate(
-    model: MagnetModel,
-    fixed: &Tile,
-    moving: &Tile,
+    specimen: &Specimen,
     rows: &[Row],
     settings: &CalibrationSettings,
 ) -> Result<Calibration, CalibrationError> {
-    let bare = ShieldedPotential::new(model, fixed, moving, &Shields::default());
-    for (i, row) in rows.iter().enumerate() {
-        if predictions(&bare, row)
-            .iter()
-            .any(|value| !value.is_finite())
-        {
-            return Err(CalibrationError::NotFinite(i + 1));
+    let (fixed, moving) = (specimen.fixed, specimen.moving);
+    let contact = Contact::new(&fixed.outline, &moving.outline);
+    for Row {
+        line,
+        configuration,
+        ..
+    } in rows
+    {
+        let depth = -contact.clearance(configuration);
+        if depth > MEASURED_OVERLAP {
+            return Err(CalibrationError::Overlap { line: *line, depth });
         }
     }
-    let every = settings.hold_out_every.max(2);
-    let (mut used, mut held_out) = (Vec::new(), Vec::new());
-    for (i, row) in rows.iter().enumerate() {
-        let part = if (i + 1) % every == 0 {
-            &mut held_out
-        } else {
-            &mut used
-        };
-        part.push(row);
-    }
+    let bare = ShieldedPotential::new(specimen.model, fixed, moving, &Shields::default());
+    let (used, held_out) = hold_out(rows, settings.hold_out_every.max(2));
     let data = Data {
+        specimen,
         bare: &bare,
-        faces: [fixed.faces.len(), moving.faces.len()],
         scales: std::array::from_fn(|k| {
             root_mean_square(rows.iter().filter_map(|row| row.measured[k]))
         }),
@@ -151,7 +189,14 @@ pub fn calibrate(
     if values <= start.len() {
         return Err(CalibrationError::TooFew(values));
     }
-    let fit = least_squares(start, settings.steps, residuals);
+    let fits = STARTING_LENGTHS.map(|factor| {
+        let mut start = start;
+        start[1] += factor.ln();
+        least_squares(start, settings.steps, residuals)
+    });
+    let [first, others @ ..] = fits;
+    let better = |a: Fit<4>, b: Fit<4>| if b.square < a.square { b } else { a };
+    let fit = others.into_iter().fold(first, better);
     let shield = shield_of(&fit.best);
     Ok(Calibration {
         shield,
@@ -161,6 +206,21 @@ pub fn calibrate(
         held_out: data.summary(&shield, strength, &held_out),
         steps: fit.steps,
         settled: fit.settled,
+    })
+}
+
+/// The fit starts with the length l set and with these multiples of it, for with a poor start it
+/// can end in a hollow at one of the ends of the attenuation.
+const STARTING_LENGTHS: [f64; 3] = [1.0, 0.3, 3.0];
+
+/// The rows to fit and those held out: one in every `every` of those with iron and of those
+/// without.
+fn hold_out(rows: &[Row], every: usize) -> (Vec<&Row>, Vec<&Row>) {
+    let mut counts = [0; 2];
+    rows.iter().partition(|row| {
+        let count = &mut counts[usize::from(row.iron)];
+        *count += 1;
+        *count % every != 0
     })
 }
 
@@ -212,19 +272,15 @@ fn predictions(potential: &ShieldedPotential, row: &Row) -> [f64; 4] {
 
 /// What residuals are worked out from.
 struct Data<'a> {
+    specimen: &'a Specimen<'a>,
     bare: &'a ShieldedPotential,
-    faces: [usize; 2],
     /// Root mean square of each quantity's measured values.
     scales: [Option<f64>; 4],
 }
 
 impl Data<'_> {
     fn shielded(&self, shield: &Shield) -> ShieldedPotential {
-        self.bare.with_shields(&Shields {
-            rule: ShieldRule::Smooth,
-            fixed: vec![Some(*shield); self.faces[0]],
-            moving: vec![Some(*shield); self.faces[1]],
-        })
+        self.bare.with_shields(&self.specimen.shields(shield))
     }
 
     /// A row's residuals relative to the quantities' scales.
@@ -273,6 +329,7 @@ impl Data<'_> {
             std::array::from_fn(|k| root_mean_square(all.iter().filter_map(|row| row[k])));
         Residuals {
             rows: rows.len(),
+            with_iron: rows.iter().filter(|row| row.iron).count(),
             rms: std::array::from_fn(|k| Some(relative[k]? * self.scales[k]?)),
             relative,
         }

@@ -31,6 +31,8 @@ pub enum CsvError {
     TwiceColumn(String),
     #[error("there is no column `{0}`")]
     MissingColumn(&'static str),
+    #[error("there are no rows of measurements below the line that names the columns")]
+    NoRows,
     #[error("none of the columns {known} is there: nothing was measured", known = COLUMNS[NEEDED..].join(", "))]
     NothingMeasured,
     #[error("line {line} has {found} entries, the first line names {expected} columns")]
@@ -61,9 +63,13 @@ pub fn read_rows(text: &str) -> Result<Vec<Row>, CsvError> {
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let (_, header) = lines.next().ok_or(CsvError::Empty)?;
     let columns = columns(header)?;
-    lines
+    let rows: Vec<Row> = lines
         .map(|(line, text)| row(line, text, &columns))
-        .collect()
+        .collect::<Result<_, _>>()?;
+    if rows.is_empty() {
+        return Err(CsvError::NoRows);
+    }
+    Ok(rows)
 }
 
 /// Which of [`COLUMNS`] each column of the file is.
@@ -122,6 +128,7 @@ fn row(line: usize, text: &str, columns: &[usize]) -> Result<Row, CsvError> {
         });
     }
     Ok(Row {
+        line,
         configuration: Configuration::from([x, y, theta]),
         iron: iron == 1.0,
         measured: [values[4], values[5], values[6], values[7]],
@@ -137,7 +144,7 @@ mod tests {
         let text = "# bench of May\nx_m, y_m, theta_rad, iron, force_x_N, energy_J\n\
                     0.43,0,0.1,1,-2.5,\n\n0.44,0.01,-0.1,0,,-1e-3\n";
         let rows = read_rows(text).unwrap();
-        assert_eq!(rows.len(), 2);
+        assert_eq!((rows[0].line, rows[1].line), (3, 5));
         assert!(rows[0].iron && !rows[1].iron);
         assert_eq!(rows[0].measured, [None, Some(-2.5), None, None]);
         assert_eq!(rows[1].measured, [Some(-1e-3), None, None, None]);
@@ -153,6 +160,7 @@ mod tests {
         assert!(message("x_m,y_m,theta_rad,iron").contains("nothing was measured"));
         assert!(message("x_m,x_m").contains("twice"));
         let head = "x_m,y_m,theta_rad,iron,energy_J\n";
+        assert!(message(head).contains("no rows"));
         assert!(message(&format!("{head}1,2,3")).starts_with("line 2 has 3 entries"));
         assert!(message(&format!("{head}1,2,NaN,1,4")).contains("theta_rad"));
         assert!(message(&format!("{head}1,2,3,0.5,4")).contains("must be 1"));

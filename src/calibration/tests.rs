@@ -50,22 +50,28 @@ const SIZES: [f64; 4] = [1e-2, 1.0, 1.0, 1e-2];
 
 /// Measurements made by the model itself, 1.05 times as strong, with noise in units of the sizes.
 fn measurements(noise: f64) -> Vec<Row> {
+    measurements_with(noise, &[Some(TRUTH); 4])
+}
+
+/// The same, with shields on the given faces of the fixed tile.
+fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row> {
     let (fixed, moving) = (tile(1.0), tile(-1.0));
     let bare = ShieldedPotential::new(MagnetModel::Dipole, &fixed, &moving, &Shields::default());
     let iron = bare.with_shields(&Shields {
         rule: ShieldRule::Smooth,
-        fixed: vec![Some(TRUTH); 4],
+        fixed: fixed_shields.to_vec(),
         moving: vec![Some(TRUTH); 4],
     });
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
     (0..150)
         .map(|i| {
             let configuration = Configuration::new(
-                rng.random_range(0.102..0.14),
+                rng.random_range(0.115..0.15),
                 rng.random_range(-0.06..0.06),
                 rng.random_range(-0.3..0.3),
             );
             let mut row = Row {
+                line: i + 2,
                 configuration,
                 iron: i % 3 != 0,
                 measured: [None; 4],
@@ -80,14 +86,17 @@ fn measurements(noise: f64) -> Vec<Row> {
 }
 
 fn fit(rows: &[Row]) -> Result<Calibration, CalibrationError> {
-    let settings = CalibrationSettings::default();
-    calibrate(
-        MagnetModel::Dipole,
-        &tile(1.0),
-        &tile(-1.0),
-        rows,
-        &settings,
-    )
+    fit_with(rows, &Shields::default())
+}
+
+fn fit_with(rows: &[Row], shields: &Shields) -> Result<Calibration, CalibrationError> {
+    let specimen = Specimen {
+        model: MagnetModel::Dipole,
+        fixed: &tile(1.0),
+        moving: &tile(-1.0),
+        shields,
+    };
+    calibrate(&specimen, rows, &CalibrationSettings::default())
 }
 
 #[test]
@@ -102,8 +111,36 @@ fn the_constants_are_found_again() {
     assert!((found.shield.length - TRUTH.length).abs() < 1e-5);
     assert!((found.shield.width - TRUTH.width).abs() < 1e-4);
     assert!((found.shield.front_gain - TRUTH.front_gain).abs() < 1e-4);
-    assert_eq!(found.held_out.rows, 30);
+    assert_eq!((found.held_out.rows, found.held_out.with_iron), (30, 20));
     assert!(found.held_out.relative[1].unwrap() < 1e-4);
+}
+
+#[test]
+fn only_the_faces_that_had_shields_are_fitted() {
+    let present = [Some(TRUTH), None, Some(TRUTH), None];
+    let rows = measurements_with(0.0, &present);
+    // Whatever the constants are: they are what is looked for.
+    let some = Some(CalibrationSettings::default().start);
+    let shields = Shields {
+        rule: ShieldRule::Smooth,
+        fixed: present.map(|shield| shield.and(some)).to_vec(),
+        moving: vec![some; 4],
+    };
+    let found = fit_with(&rows, &shields).unwrap();
+    assert!((found.shield.attenuation - TRUTH.attenuation).abs() < 1e-4);
+    let wrong = fit(&rows).unwrap();
+    assert!((wrong.shield.attenuation - TRUTH.attenuation).abs() > 1e-3);
+}
+
+#[test]
+fn a_pose_at_which_the_tiles_overlap_is_refused_with_its_line() {
+    let mut rows = measurements(0.0);
+    rows[7].configuration = Configuration::new(0.09, 0.0, 0.0);
+    let message = fit(&rows).unwrap_err().to_string();
+    assert!(
+        message.starts_with("line 9: the tiles overlap by 10.00 mm"),
+        "{message}"
+    );
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`csv`] - tables of states and barriers, and pathways;
+//! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`summary`] - ten lines for the terminal;
@@ -9,6 +10,7 @@
 //! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`writer`] - all of it as files of one folder.
 
+pub mod calibration;
 pub mod comparison;
 pub mod csv;
 pub mod docking;

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod barrier;
+mod calibrate;
 mod energy;
 mod mistakes;
 mod shields;

@@ -242,4 +242,12 @@ impl Potential for ShieldedPotential {
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         step.xy().norm() + self.lever * step.z.abs()
     }
+
+    /// That of the bare pairs.
+    fn noise(&self) -> f64 {
+        match &self.pairs {
+            Pairs::Dipole(..) => 1e-12,
+            Pairs::Cuboid(potential) => potential.noise(),
+        }
+    }
 }
