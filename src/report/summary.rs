@@ -55,8 +55,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "results in {folder}: report.html to look at, report.json, states.csv, barriers.csv, \
-         pathways/, pictures/"
+        "results in {folder}: report.html to look at; report.json, tables, pathways/, pictures/"
     );
     text
 }
