@@ -32,6 +32,8 @@ enum Command {
     Energy(cli::energy::Energy),
     Barrier(cli::barrier::Barrier),
     Dock(cli::dock::Dock),
+    Init(cli::init::Init),
+    Schema(cli::schema::Schema),
     Completions(cli::completions::Completions),
 }
 
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         Command::Energy(command) => command.run(),
         Command::Barrier(command) => command.run(),
         Command::Dock(command) => command.run(),
+        Command::Init(command) => command.run(),
+        Command::Schema(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };
     match outcome {

@@ -6,9 +6,11 @@ pub mod completions;
 pub mod dock;
 pub mod energy;
 mod failure;
+pub mod init;
 mod input;
 mod interrupt;
 mod progress;
+pub mod schema;
 
 pub use failure::Failure;
 

@@ -69,7 +69,7 @@ pub(super) struct FaceEntry<'a> {
     all: Option<Section<'a>>,
 }
 
-const FACE_KEYS: [&str; 6] = ["code", "magnets", "profile", "magnet", "mates", "fit"];
+pub(super) const FACE_KEYS: [&str; 6] = ["code", "magnets", "profile", "magnet", "mates", "fit"];
 
 impl<'a> FaceEntry<'a> {
     pub fn new(own: Option<Section<'a>>, all: Option<Section<'a>>) -> Result<Self> {
