@@ -15,10 +15,9 @@ mod tests {
 
     use super::super::face::FACE_KEYS;
     use super::super::magnet::{ListedMagnet, MAGNET_KEYS};
-    use super::super::potential::MagnetModel;
     use super::super::quantity::{self, Quantity};
     use super::super::tile::{TILE_KEYS, TILES};
-    use super::super::{Design, ROOT_KEYS, TABLE_KEYS, profile};
+    use super::super::{Design, MagnetModel, ROOT_KEYS, TABLE_KEYS, profile};
     use super::*;
 
     /// A key of the grammar that every design is refused for.
