@@ -1,5 +1,6 @@
 //! What the main job finds out about a design, as plain values.
 
+use crate::certification::Uncertified;
 use crate::configuration::Configuration;
 use crate::landscape::{Barrier, Pathway, Place, Proportion, State};
 
@@ -25,6 +26,8 @@ pub struct Analysis {
     pub uncaptured: Proportion,
     /// Inner and outer radius (m) of the ring of far starts.
     pub ring: [f64; 2],
+    /// Why the barriers have no certified bounds, where they have none.
+    pub uncertified: Option<Uncertified>,
     pub counts: Counts,
     /// Wall time (s) and energy evaluations of each stage, in order.
     pub stages: Vec<Stage>,
@@ -47,10 +50,16 @@ pub struct Settings {
     pub least_depth: f64,
     /// Number of far starts.
     pub far_starts: usize,
-    /// Width (J) to which certified bounds are narrowed; a hundredth of the bond where `None`.
+    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the bond or a
+    /// twentieth of the barrier, whichever is less.
     pub tolerance: Option<f64>,
     /// Time (s) after which the certificate keeps the bounds it has; 0 for no certificate.
     pub certify_seconds: f64,
+    /// Cells spent on the bounds of one barrier at most, so that a hard one leaves time for the
+    /// others.
+    pub certify_cells: usize,
+    /// Which barriers are certified.
+    pub certified: Certified,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
 }
@@ -68,9 +77,19 @@ impl Default for Settings {
             far_starts: 1000,
             tolerance: None,
             certify_seconds: 60.0,
+            certify_cells: 1_000_000,
+            certified: Certified::All,
             repeats: 1,
         }
     }
+}
+
+/// Which barriers are certified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Certified {
+    All,
+    /// The ways out of the bond to `free` and out of the deepest trap.
+    BondAndDeepestTrap,
 }
 
 /// A pathway by another cost than the highest energy.

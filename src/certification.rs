@@ -2,29 +2,62 @@
 
 use std::time::{Duration, Instant};
 
-use crate::analysis::Settings;
+use crate::analysis::{Certified, Settings};
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
-use crate::potential::bounds::DipoleBounds;
+use crate::potential::MagnetModel;
+use crate::potential::bounds::{CellBounds, DipoleBounds};
 use crate::problem::Problem;
 
-/// Cells spent on one barrier at most, so that a hard one leaves time for the others.
-const MOST_CELLS: usize = 1_000_000;
+/// Cells spent on narrowing the bounds of a small barrier further.
+const MORE_CELLS: usize = 20_000;
+/// Bounds are narrowed to this share of the bond's depth, and to this share of the barrier, but not
+/// below that share of the bond's depth.
+const SHARE_OF_BOND: f64 = 0.01;
+const SHARE_OF_BARRIER: f64 = 0.05;
+const LEAST_SHARE: f64 = 1e-5;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
+
+/// Why barriers have no certified bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Uncertified {
+    #[error("no time was given to the certificate")]
+    NoTime,
+    #[error("bounds over cells are known for point dipoles, not for blocks")]
+    Blocks,
+    #[error("bounds over cells are not known for magnets with shields")]
+    Shields,
+}
+
+/// The bounds over cells of a design's energy.
+///
+/// # Errors
+/// Where no such bounds are known for the way its magnets are modelled.
+pub fn bounds(design: &Design) -> Result<Box<dyn CellBounds>, Uncertified> {
+    match design.model {
+        _ if !design.shields.is_none() => Err(Uncertified::Shields),
+        MagnetModel::Dipole => Ok(Box::new(DipoleBounds::new(&design.fixed, &design.moving))),
+        MagnetModel::Cuboid => Err(Uncertified::Blocks),
+    }
+}
 
 /// Brackets every barrier of an inventory between two bounds that hold for the model, and takes
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
 /// proof is tried that there is none. Returns the number of cells assessed.
 ///
-/// The bounds are narrowed to `settings.tolerance`; after `settings.certify_seconds` in all, the
+/// The bounds are narrowed to `settings.tolerance`, or to a hundredth of the bond and a twentieth of
+/// the barrier, whichever is less; after `settings.certify_seconds` in all, the
 /// bounds known by then are kept, so that only results within the limit are the same on every
-/// machine. Nothing is certified for magnets modelled as blocks.
+/// machine.
+///
+/// # Errors
+/// Where nothing is certified; the inventory is then left as it is.
 pub fn certify(
     design: &Design,
     problem: &Problem,
@@ -32,43 +65,101 @@ pub fn certify(
     inventory: &mut Inventory,
     settings: &Settings,
     observer: &dyn Observer,
-) -> usize {
+) -> Result<usize, Uncertified> {
+    let bounds = bounds(design)?;
     let limit = Duration::from_secs_f64(settings.certify_seconds.clamp(0.0, 1e9));
-    // Bounds over cells are known for point dipoles only.
-    if limit.is_zero() || design.model != MagnetModel::Dipole {
-        return 0;
+    if limit.is_zero() {
+        return Err(Uncertified::NoTime);
     }
     let depth = pipeline::energy_scale(design, problem);
-    let tolerance = settings.tolerance.unwrap_or(0.01 * depth);
-    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
-    let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
+    let mut certifier = Certifier::new(bounds.as_ref(), problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
     inventory.barriers.extend(missing_way_out(inventory));
     let count = inventory.barriers.len();
-    for number in 0..count {
-        observer.part("certificate", number, count);
-        let barrier = &mut inventory.barriers[number];
-        let Place::State(from) = barrier.from else {
-            continue;
-        };
-        let to = match barrier.to {
-            Place::State(to) => End::At(inventory.states[to].configuration),
-            Place::Free => End::Free,
-        };
-        let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
-        let effort = Effort {
-            tolerance,
-            cells: MOST_CELLS,
-            time: Some(limit.saturating_sub(since.elapsed())),
-        };
-        let start = inventory.states[from].configuration;
-        if let Ok(bracket) = certifier.bracket(&start, &to, &known, &effort) {
-            take_over(problem, barrier, &bracket, BEND * depth);
+    let passes: &[Pass] = match settings.tolerance {
+        Some(tolerance) => &[(settings.certify_cells, &move |_| tolerance)],
+        None => &[
+            (settings.certify_cells, &|_| SHARE_OF_BOND * depth),
+            (MORE_CELLS.min(settings.certify_cells), &|barrier| {
+                narrow_width(barrier, depth)
+            }),
+        ],
+    };
+    for (pass, (cells, width)) in passes.iter().enumerate() {
+        for number in 0..count {
+            observer.part("certificate", pass * count + number, passes.len() * count);
+            if settings.certified == Certified::BondAndDeepestTrap && !is_main(inventory, number) {
+                continue;
+            }
+            let barrier = &inventory.barriers[number];
+            let effort = Effort {
+                tolerance: width(barrier),
+                cells: *cells,
+                time: Some(limit.saturating_sub(since.elapsed())),
+            };
+            if is_as_narrow(barrier, effort.tolerance) {
+                continue;
+            }
+            if let Some(bracket) = bracket(&mut certifier, inventory, barrier, &effort) {
+                let barrier = &mut inventory.barriers[number];
+                take_over(problem, barrier, &bracket, BEND * depth);
+            }
         }
     }
     certify_escapes(inventory);
     inventory.copy_escapes(problem, symmetries);
-    certifier.assessed()
+    Ok(certifier.assessed())
+}
+
+/// Cells spent on a barrier at most, and the width (J) that its bounds are to have.
+type Pass<'a> = (usize, &'a dyn Fn(&Barrier) -> f64);
+
+fn bracket(
+    certifier: &mut Certifier,
+    inventory: &Inventory,
+    barrier: &Barrier,
+    effort: &Effort,
+) -> Option<Bracket> {
+    let Place::State(from) = barrier.from else {
+        return None;
+    };
+    let start = inventory.states[from].configuration;
+    let to = match barrier.to {
+        Place::State(to) => End::At(inventory.states[to].configuration),
+        Place::Free => End::Free,
+    };
+    let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    certifier.bracket(&start, &to, &known, effort).ok()
+}
+
+/// Whether the bounds that a barrier has need no narrowing.
+fn is_as_narrow(barrier: &Barrier, width: f64) -> bool {
+    let bounds = barrier.lower.zip(barrier.upper);
+    barrier.caged || bounds.is_some_and(|(lower, upper)| upper - lower <= width)
+}
+
+/// Width (J) that tells something of a barrier much smaller than the bond, too.
+fn narrow_width(barrier: &Barrier, depth: f64) -> f64 {
+    let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
+    of_barrier.min(SHARE_OF_BOND * depth)
+}
+
+/// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
+fn is_main(inventory: &Inventory, number: usize) -> bool {
+    let barrier = &inventory.barriers[number];
+    let from = |kind| {
+        let first = inventory.states.iter().find(|state| state.kind == kind);
+        first.is_some_and(|state| barrier.from == Place::State(state.id))
+    };
+    if barrier.to == Place::Free && from(StateKind::Bound) {
+        return true;
+    }
+    from(StateKind::Misbound)
+        && inventory
+            .escapes
+            .iter()
+            .flatten()
+            .any(|escape| (escape.from, escape.to) == (barrier.from, barrier.to))
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and
@@ -102,8 +193,9 @@ fn missing_way_out(inventory: &Inventory) -> Option<Barrier> {
 }
 
 fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
-    barrier.lower = bracket.lower.is_finite().then_some(bracket.lower);
-    barrier.upper = bracket.upper;
+    let lower = bracket.lower.is_finite().then_some(bracket.lower);
+    barrier.lower = either(barrier.lower, lower, f64::max);
+    barrier.upper = either(barrier.upper, bracket.upper, f64::min);
     barrier.caged = bracket.caged;
     // In place of a pathway that could not be proved the certificate's own may lie higher.
     let lower = |upper: f64| upper < barrier.saddle_energy;
@@ -115,6 +207,14 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
         barrier.saddle_energy = highest.energy;
         barrier.saddle = highest.configuration;
         barrier.pathway = pathway;
+    }
+}
+
+/// The better of two bounds, of which either may be missing.
+fn either(a: Option<f64>, b: Option<f64>, better: impl Fn(f64, f64) -> f64) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(better(a, b)),
+        _ => a.or(b),
     }
 }
 

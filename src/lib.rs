@@ -24,8 +24,10 @@
 //! | [`problem`] | the three above, put together |
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures, certificates |
+//! | [`calibration`] | shields fitted to measurements |
 //! | [`dynamics`] | tiles that really move: docking runs |
 //! | [`pipeline`] | the main job in one page; [`certification`] and [`query`] beside it |
+//! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`report`] | JSON, CSV, the summary, pictures |
 //!
 //! # The library in ten lines
@@ -43,8 +45,10 @@
 //! ```
 
 pub mod analysis;
+pub mod calibration;
 pub mod cell;
 pub mod certification;
+pub mod comparison;
 pub mod configuration;
 pub mod contact;
 pub mod design;
@@ -56,6 +60,7 @@ pub mod problem;
 pub mod query;
 pub mod report;
 pub mod roadmap;
+pub mod sweep;
 pub mod tile;
 pub mod units;
 

@@ -5,12 +5,12 @@ use std::time::Instant;
 use crate::analysis::{Analysis, Counts, Settings, Stage};
 use crate::certification;
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
 use crate::landscape::symmetry::Symmetry;
-use crate::potential::{CuboidPotential, DipolePotential, Potential};
+use crate::potential::{self, MagnetModel};
 use crate::problem::Problem;
 use crate::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, edge, milestone,
@@ -36,10 +36,7 @@ impl Observer for Silent {
 /// The problem that a design poses.
 pub fn problem(design: &Design) -> Problem {
     let (fixed, moving) = (&design.fixed, &design.moving);
-    let potential: Box<dyn Potential + Send> = match design.model {
-        MagnetModel::Dipole => Box::new(DipolePotential::new(&fixed.magnets, &moving.magnets)),
-        MagnetModel::Cuboid => Box::new(CuboidPotential::new(&fixed.magnets, &moving.magnets)),
-    };
+    let potential = potential::of_tiles(design.model, fixed, moving, &design.shields);
     Problem::of_tiles(design.space(), fixed, moving, potential)
 }
 
@@ -47,7 +44,7 @@ pub fn problem(design: &Design) -> Problem {
 /// long as the certificate keeps within its time.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     let problem = problem(design);
-    let symmetries = Symmetry::all(&design.fixed, &design.moving);
+    let symmetries = Symmetry::all(design);
     let mut clock = Clock::new(&problem, observer);
 
     let first = survey(
@@ -83,7 +80,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     }
     weigh_blocks(design, &mut inventory);
     clock.start("certificate", 0.75);
-    let cells = certification::certify(
+    let certified = certification::certify(
         design,
         &problem,
         &symmetries,
@@ -111,9 +108,10 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         shallow,
         uncaptured,
         ring: capture::ring(&problem),
+        uncertified: certified.err(),
         counts: Counts {
             energy_evaluations: problem.evaluations(),
-            cells,
+            cells: certified.unwrap_or(0),
             ..first.counts
         },
         stages,
@@ -121,12 +119,13 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
 }
 
 /// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
-/// there, so that nobody takes the dipoles' depth for the real one.
+/// there (behind the same shields), so that nobody takes the dipoles' depth for the real one.
 fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     if design.model == MagnetModel::Cuboid {
         return;
     }
-    let blocks = CuboidPotential::new(&design.fixed.magnets, &design.moving.magnets);
+    let (fixed, moving) = (&design.fixed, &design.moving);
+    let blocks = potential::of_tiles(MagnetModel::Cuboid, fixed, moving, &design.shields);
     for state in &mut inventory.states {
         state.block_energy = Some(blocks.energy(&state.configuration));
     }

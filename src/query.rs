@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::time::Duration;
 
 use crate::analysis::Settings;
+use crate::certification::{self, Uncertified};
 use crate::configuration::Configuration;
-use crate::design::{Design, MagnetModel};
+use crate::design::Design;
 use crate::landscape::certificate::{Certifier, CertifyError, Effort, End};
 use crate::landscape::minimum::descend;
 use crate::landscape::network::{Link, Way};
@@ -13,7 +14,6 @@ use crate::landscape::survey::{Survey, same_link};
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Pathway, pathway};
 use crate::pipeline::{self, Clock, Observer};
-use crate::potential::bounds::DipoleBounds;
 use crate::problem::Problem;
 use crate::roadmap::{EdgeSettings, Milestone, edge};
 
@@ -47,6 +47,8 @@ pub struct Answer {
     /// Certified bounds of the saddle energy (J), where certified.
     pub lower: Option<f64>,
     pub upper: Option<f64>,
+    /// Why there are no bounds, where there are none.
+    pub uncertified: Option<Uncertified>,
     /// Proved that there is no way.
     pub caged: bool,
     /// Energies (J) of the two ends; 0 for far apart.
@@ -99,6 +101,7 @@ pub fn barrier(
         saddle: None,
         lower: None,
         upper: None,
+        uncertified: None,
         caged: false,
         from_energy: problem.energy(&query.from),
         to_energy: match query.to {
@@ -108,11 +111,8 @@ pub fn barrier(
         pathway: find_way(design, &problem, query, &ends, observer),
     };
     answer.rate();
-    // Bounds over cells are known for point dipoles only.
-    if !query.certify.is_zero() && design.model == MagnetModel::Dipole {
-        observer.stage("certificate", 0.8);
-        certify(design, &problem, query, &mut answer);
-    }
+    observer.stage("certificate", 0.8);
+    answer.uncertified = certify(design, &problem, query, &mut answer).err();
     if answer.pathway.is_empty() && !answer.caged {
         return Err(QueryError::NoWay);
     }
@@ -157,7 +157,7 @@ fn find_way(
     ends: &[Configuration],
     observer: &dyn Observer,
 ) -> Pathway {
-    let symmetries = Symmetry::all(&design.fixed, &design.moving);
+    let symmetries = Symmetry::all(design);
     let mut clock = Clock::new(problem, observer);
     let seed = query.settings.seed;
     let mut survey = pipeline::survey(
@@ -238,10 +238,18 @@ fn attach(
 }
 
 /// Brackets the saddle energy, and takes over the certificate's pathway where it is lower.
-fn certify(design: &Design, problem: &Problem, query: &Query, answer: &mut Answer) {
+fn certify(
+    design: &Design,
+    problem: &Problem,
+    query: &Query,
+    answer: &mut Answer,
+) -> Result<(), Uncertified> {
+    let bounds = certification::bounds(design)?;
+    if query.certify.is_zero() {
+        return Err(Uncertified::NoTime);
+    }
     let depth = pipeline::energy_scale(design, problem);
-    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
-    let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
+    let mut certifier = Certifier::new(bounds.as_ref(), problem.contact.as_ref(), &problem.space);
     let known: Vec<Configuration> = answer.pathway.iter().map(|p| p.configuration).collect();
     let effort = Effort {
         tolerance: query.tolerance.unwrap_or(0.01 * depth),
@@ -251,7 +259,7 @@ fn certify(design: &Design, problem: &Problem, query: &Query, answer: &mut Answe
     let bracket = match certifier.bracket(&query.from, &query.to, &known, &effort) {
         Ok(bracket) => bracket,
         // Both ends have been checked.
-        Err(CertifyError::NotFree(_) | CertifyError::OffTheTable(_)) => return,
+        Err(CertifyError::NotFree(_) | CertifyError::OffTheTable(_)) => return Ok(()),
     };
     answer.lower = Some(bracket.lower);
     answer.upper = bracket.upper;
@@ -264,4 +272,5 @@ fn certify(design: &Design, problem: &Problem, query: &Query, answer: &mut Answe
         answer.pathway = pathway::of_configurations(problem, &bracket.pathway, BEND * depth);
         answer.rate();
     }
+    Ok(())
 }

@@ -227,3 +227,28 @@ fn energies_are_finite_wherever_the_tiles_are() {
     let (energy, gradient) = on_itself.energy_and_gradient(&Configuration::new(0.0, 0.0, 0.0));
     assert!(energy.is_finite() && gradient.iter().all(|g| g.is_finite()));
 }
+
+/// Face to face, magnetised along 10 mm the dipole is too weak near by, and through 3 mm it is
+/// many times too strong.
+#[test]
+fn the_dipoles_error_near_contact_depends_on_the_direction_of_the_magnetisation() {
+    let ratio = |size: [f64; 3], gap: f64| {
+        let magnets = [magnet(0.0, 0.0, 0.0, size)];
+        let q = Configuration::new(size[0] + gap, 0.0, 0.0);
+        let dipole = DipolePotential::new(&magnets, &magnets).energy(&q);
+        dipole / CuboidPotential::new(&magnets, &magnets).energy(&q)
+    };
+    // By the Coulomb law between Gauss grids of charges on the pole faces.
+    for (size, gap, expected) in [
+        ([0.010, 0.010, 0.003], 1e-3, 0.645_661_115_8),
+        ([0.010, 0.010, 0.003], 5e-3, 0.816_286_358_6),
+        ([0.003, 0.010, 0.010], 1e-3, 6.679_267_638),
+        ([0.003, 0.010, 0.010], 5e-3, 2.406_813_614),
+    ] {
+        let ratio = ratio(size, gap);
+        assert!(
+            (ratio / expected - 1.0).abs() < 1e-6,
+            "{size:?} {gap}: {ratio}"
+        );
+    }
+}

@@ -4,8 +4,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Vector2, Vector3};
 use tilebind::Configuration;
-use tilebind::potential::shielding::{PairModel, Shield, ShieldRule, Shields};
-use tilebind::potential::{CuboidPotential, DipolePotential, Potential, ShieldedPotential};
+use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
+use tilebind::potential::{
+    CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
+};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 const SHIELD: Shield = Shield {
@@ -86,7 +88,10 @@ fn without_shields_it_is_the_bare_model() {
         Box::new(DipolePotential::new(&fixed.magnets, &moving.magnets)),
         Box::new(CuboidPotential::new(&fixed.magnets, &moving.magnets)),
     ];
-    for (model, bare) in [PairModel::Dipole, PairModel::Cuboid].into_iter().zip(bare) {
+    for (model, bare) in [MagnetModel::Dipole, MagnetModel::Cuboid]
+        .into_iter()
+        .zip(bare)
+    {
         let potential = ShieldedPotential::new(model, &fixed, &moving, &none);
         for q in poses() {
             let (energy, gradient) = potential.energy_and_gradient(&q);
@@ -101,7 +106,7 @@ fn without_shields_it_is_the_bare_model() {
 fn forces_and_torques_are_derivatives_and_the_curvature_is_bounded() {
     let (fixed, moving) = tiles();
     let shields = shields(ShieldRule::Smooth, Some(SHIELD));
-    for model in [PairModel::Dipole, PairModel::Cuboid] {
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
         let potential = ShieldedPotential::new(model, &fixed, &moving, &shields);
         for q in poses() {
             let (_, gradient) = potential.energy_and_gradient(&q);
@@ -131,7 +136,7 @@ fn forces_and_torques_are_derivatives_and_the_curvature_is_bounded() {
 fn a_closed_way_costs_nothing() {
     let (fixed, moving) = tiles();
     let shields = shields(ShieldRule::Smooth, Some(SHIELD));
-    let potential = ShieldedPotential::new(PairModel::Dipole, &fixed, &moving, &shields);
+    let potential = ShieldedPotential::new(MagnetModel::Dipole, &fixed, &moving, &shields);
     // Round a loop in x, y and theta, by the trapezoidal rule (exponentially accurate here).
     let at =
         |t: f64| Configuration::new(0.25 + 0.02 * t.cos(), 0.03 * t.sin(), 0.2 * (2.0 * t).sin());
@@ -151,7 +156,7 @@ fn a_closed_way_costs_nothing() {
 fn the_nearest_face_rule_counts_one_pair_of_faces_and_jumps() {
     let (fixed, moving) = tiles();
     let shields = shields(ShieldRule::NearestFace, None);
-    let potential = ShieldedPotential::new(PairModel::Dipole, &fixed, &moving, &shields);
+    let potential = ShieldedPotential::new(MagnetModel::Dipole, &fixed, &moving, &shields);
     let on_face = |tile: &Tile, face: usize| -> Vec<Magnet> {
         let mine = tile.magnets.iter().filter(|magnet| magnet.face == face);
         mine.cloned().collect()

@@ -1,6 +1,6 @@
 //! `tilebind analyse`: the main job.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
@@ -69,7 +69,8 @@ pub struct Analyse {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     thermal_energy: Option<f64>,
 
-    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the bond]
+    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of
+    /// the bond or a twentieth of the barrier, whichever is less]
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 
@@ -98,7 +99,7 @@ impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
         let design = input::load_as(&self.design, self.model)?;
-        check_folder(&self.out)?;
+        input::check_folder(&self.out)?;
         input::use_threads(self.threads)?;
         interrupt::prepare()?;
 
@@ -138,18 +139,5 @@ impl Analyse {
             certify_seconds: self.certify_seconds,
             ..Settings::default()
         }
-    }
-}
-
-/// Refuses a folder that cannot be one, before any work is done.
-fn check_folder(folder: &Path) -> Result<(), Failure> {
-    let existing = folder.ancestors().find(|path| path.exists());
-    match existing {
-        Some(path) if !path.is_dir() => Err(Failure::Usage(format!(
-            "--out {}: {} is a file; name a folder",
-            folder.display(),
-            path.display(),
-        ))),
-        _ => Ok(()),
     }
 }

@@ -80,6 +80,8 @@ struct Entry {
     upper_J: Option<f64>,
     forward_J: f64,
     reverse_J: f64,
+    /// Why the bounds are null, where they are.
+    uncertified: Option<String>,
     /// Proved that there is no way.
     caged: bool,
     pathway: Option<PathBuf>,
@@ -140,6 +142,7 @@ impl Barrier {
             upper_J: answer.upper,
             forward_J: json::positive_zero(answer.forward()),
             reverse_J: json::positive_zero(answer.reverse()),
+            uncertified: answer.uncertified.map(|why| why.to_string()),
             caged: answer.caged,
             pathway: self.pathway.clone(),
         }

@@ -79,6 +79,19 @@ pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
         .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }
 
+/// Refuses a folder that cannot be one, before any work is done.
+pub fn check_folder(folder: &Path) -> Result<(), Failure> {
+    let existing = folder.ancestors().find(|path| path.exists());
+    match existing {
+        Some(path) if !path.is_dir() => Err(Failure::Usage(format!(
+            "--out {}: {} is a file; name a folder",
+            folder.display(),
+            path.display(),
+        ))),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,9 +10,18 @@ static WRITING: Mutex<()> = Mutex::new(());
 
 /// From now on an interruption ends the program cleanly.
 pub fn prepare() -> Result<(), Failure> {
-    ctrlc::set_handler(|| {
+    end_with("interrupted: nothing was written; the same command starts again")
+}
+
+/// The same for commands that keep what they have.
+pub fn prepare_resumable() -> Result<(), Failure> {
+    end_with("interrupted: what is finished is kept; the same command goes on from there")
+}
+
+fn end_with(message: &'static str) -> Result<(), Failure> {
+    ctrlc::set_handler(move || {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
-        eprintln!("interrupted: nothing was written; the same command starts again");
+        eprintln!("{message}");
         std::process::exit(INTERRUPTED.into());
     })
     .map_err(|error| Failure::Run(format!("cannot prepare for interruptions: {error}")))

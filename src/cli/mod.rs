@@ -1,7 +1,10 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+mod assessment;
 pub mod barrier;
+pub mod calibrate;
+pub mod compare;
 pub mod completions;
 pub mod dock;
 pub mod energy;
@@ -11,6 +14,8 @@ mod input;
 mod interrupt;
 mod progress;
 pub mod schema;
+pub mod sweep;
+mod sweep_progress;
 
 pub use failure::Failure;
 

@@ -5,6 +5,7 @@ use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
 use super::profile::read_profile;
 use super::quantity;
 use super::reader::{Entry, Result, Section, nearest_help};
+use super::shield::ShieldKeys;
 use crate::tile::barcode::{Barcode, BarcodeError};
 use crate::tile::profile::{Polyline, complement};
 
@@ -69,14 +70,13 @@ pub(super) struct FaceEntry<'a> {
     all: Option<Section<'a>>,
 }
 
-pub(super) const FACE_KEYS: [&str; 6] = ["code", "magnets", "profile", "magnet", "mates", "fit"];
+pub(super) const FACE_KEYS: [&str; 7] = [
+    "code", "magnets", "profile", "magnet", "mates", "fit", "shield",
+];
 
 impl<'a> FaceEntry<'a> {
     pub fn new(own: Option<Section<'a>>, all: Option<Section<'a>>) -> Result<Self> {
         for section in [&own, &all].into_iter().flatten() {
-            if let Some(shield) = section.get("shield") {
-                return Err(super::shield::refused(&shield));
-            }
             section.allow(&FACE_KEYS)?;
             if let (Some(mates), Some(other)) = (section.get("mates"), first_of(section)) {
                 return Err(other.key_error(
@@ -162,6 +162,15 @@ impl<'a> FaceEntry<'a> {
             },
             None => FaceContent { keys, ..complement },
         })
+    }
+
+    /// What the entry says of the face's shield; a mate does not take over its partner's.
+    pub fn shield_keys(&self) -> Result<ShieldKeys> {
+        let mut keys = ShieldKeys::default();
+        for section in [self.own, self.all].into_iter().flatten() {
+            keys = keys.over(ShieldKeys::read(&section, "`shield`")?);
+        }
+        Ok(keys)
     }
 
     fn magnet_keys(&self) -> Result<MagnetKeys> {

@@ -16,6 +16,12 @@
 //!   measured along the face's normal. For a block along the normal this is the centre of its
 //!   outer pole face. At a step of the outline, the lower side counts; on a face drawn back by
 //!   `fit`, the line drawn back.
+//! - `[shield]` gives the constants of every face's soft-iron shield: `attenuation` (A), `length`
+//!   (l, m), `width` (delta) and `front_gain` (G, 1 where not given), see
+//!   [`crate::potential::shielding`]. `shield` under `[fixed]` or `[moving]`, and in a face's
+//!   entry, overrides them key by key; `shield = false` takes the shield away. A mate does not
+//!   take over its partner's shield, which is iron of the other tile. `[shield] rule =
+//!   "nearest-face"` takes no constants.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
 
@@ -36,9 +42,9 @@ mod svg;
 mod target;
 mod tile;
 
+pub use crate::potential::MagnetModel;
 pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
-pub use potential::MagnetModel;
 pub use schema::{SCHEMA, STARTER};
 
 use std::path::Path;
@@ -47,6 +53,7 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::potential::shielding::{ShieldRule, Shields};
 use crate::tile::Tile;
 use error::Source;
 use magnet::{MAGNET_KEYS, MagnetKeys};
@@ -83,6 +90,8 @@ pub struct Design {
     pub bound: Configuration,
     /// How magnets are modelled.
     pub model: MagnetModel,
+    /// The soft-iron shields of the faces, and how they act.
+    pub shields: Shields,
     /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
     pub pitch: Option<f64>,
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
@@ -149,19 +158,18 @@ impl Design {
         })?;
         let root = Section::root(source, root.get_ref());
         root.allow(&ROOT_KEYS)?;
-        if let Some(shield) = root.get("shield") {
-            return Err(shield::refused(&shield));
-        }
         let table = table(&root)?;
         let keys = magnet_keys(&root)?;
         let entries = tile_entries(&root)?;
         let target = target::read(&root, &entries)?;
         let model = potential::read(&root)?;
+        let (shields, doubt) = shields(&root, &entries)?;
         let contents = tile::resolve(&entries, keys)?;
         let fixed = build::build(&entries[0], &contents[0])?;
         let moving = build::build(&entries[1], &contents[1])?;
         let mut warnings = overlap::check_magnets(&entries[0], &fixed)?;
         warnings.extend(overlap::check_magnets(&entries[1], &moving)?);
+        warnings.extend(doubt);
         let (fixed, moving) = (fixed.tile, moving.tile);
         let bound = target.configuration(&fixed, &moving)?;
         let design = Self {
@@ -176,6 +184,7 @@ impl Design {
             target: target.faces,
             bound,
             model,
+            shields,
             pitch: keys.pitch,
             warnings,
         };
@@ -237,6 +246,26 @@ fn magnet_keys(root: &Section) -> Result<MagnetKeys> {
     };
     section.allow(&MAGNET_KEYS)?;
     MagnetKeys::read(&section)
+}
+
+/// The shields of both tiles, and a doubt where the file describes shields in vain.
+fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<DesignError>)> {
+    let (rule, keys) = shield::read(root)?;
+    let mut shields = Shields {
+        rule,
+        ..Shields::default()
+    };
+    if rule == ShieldRule::NearestFace {
+        let [fixed, moving] = [entries[0].shield_keys(keys)?, entries[1].shield_keys(keys)?];
+        let doubt = fixed
+            .iter()
+            .chain(&moving)
+            .find_map(|keys| keys.doubt(root));
+        return Ok((shields, doubt));
+    }
+    shields.fixed = entries[0].shields(keys)?;
+    shields.moving = entries[1].shields(keys)?;
+    Ok((shields, None))
 }
 
 fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {

@@ -68,6 +68,36 @@ pub(super) const DRAFT: Quantity = angle(1.5);
 /// A direction: up to a whole turn either way.
 pub(super) const AXIS: Quantity = angle(std::f64::consts::TAU);
 
+const fn number(rule: &'static str, sign: Sign, accepted: (f64, f64)) -> Quantity {
+    Quantity {
+        unit: "",
+        rule,
+        sign,
+        accepted,
+        typical: accepted,
+        others: &[(100.0, "%")],
+    }
+}
+
+/// How much of the energy a shield takes away behind it, close by.
+pub(super) const ATTENUATION: Quantity = number(
+    "the attenuation is a part of one",
+    Sign::NotNegative,
+    (0.0, 1.0),
+);
+pub(super) const SHIELD_LENGTH: Quantity = length(Sign::Positive, (1e-4, 10.0), (1e-3, 1.0));
+/// The width of the passage from a shield's front to its back, in the cosine of the angle.
+pub(super) const SHIELD_WIDTH: Quantity = number(
+    "the width is a difference of cosines",
+    Sign::Positive,
+    (1e-3, 10.0),
+);
+pub(super) const FRONT_GAIN: Quantity = number(
+    "the gain is a factor, 1 for a shield that only takes away",
+    Sign::Positive,
+    (0.1, 10.0),
+);
+
 pub(super) const MASS: Quantity = Quantity {
     unit: "kg",
     rule: "masses are in kilograms",
@@ -108,7 +138,7 @@ impl Quantity {
     /// Whether `value`, given for `what`, may stand; or what is wrong with it and the mend.
     pub fn check(&self, what: &str, value: f64) -> Result<(), (String, String)> {
         let help = |text: &str| format!("{text}; {}", self.rule);
-        let unit = self.unit;
+        let value_and_unit = self.with_unit(value);
         if !value.is_finite() {
             return Err((
                 format!("{what} is {value}, which is no number"),
@@ -117,13 +147,13 @@ impl Quantity {
         }
         if self.sign == Sign::Positive && value <= 0.0 {
             return Err((
-                format!("{what} must be above zero, not {value} {unit}"),
+                format!("{what} must be above zero, not {value_and_unit}"),
                 help("give a positive number"),
             ));
         }
         if self.sign == Sign::NotNegative && value < 0.0 {
             return Err((
-                format!("{what} must not be negative: {value} {unit}"),
+                format!("{what} must not be negative: {value_and_unit}"),
                 help("give zero or a positive number"),
             ));
         }
@@ -132,18 +162,23 @@ impl Quantity {
             return Ok(());
         }
         let limits = if low > 0.0 {
-            format!("from {low} to {high} {unit}")
+            format!("from {low} to {}", self.with_unit(high))
         } else {
-            format!("up to {high} {unit}")
+            format!("up to {}", self.with_unit(high))
         };
         let message = match self.proposals(value).as_slice() {
-            [] => format!("{what} = {value} {unit} is beyond any tile"),
+            [] => format!("{what} = {value_and_unit} is beyond any tile"),
             proposals => format!(
-                "{what} = {value} {unit}: did you mean {}?",
+                "{what} = {value_and_unit}: did you mean {}?",
                 proposals.join(" or ")
             ),
         };
         Err((message, help(&format!("{what} may be {limits}"))))
+    }
+
+    /// A number with the unit, if there is one.
+    fn with_unit(&self, value: f64) -> String {
+        format!("{value} {}", self.unit).trim_end().to_owned()
     }
 
     fn proposals(&self, value: f64) -> Vec<String> {

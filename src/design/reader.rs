@@ -126,6 +126,10 @@ impl<'a> Entry<'a> {
         self.value.span().into()
     }
 
+    pub fn key_span(&self) -> Span {
+        self.key_span
+    }
+
     /// A fault of the value.
     pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
         self.source.error(self.span(), message, help)
@@ -162,6 +166,11 @@ impl<'a> Entry<'a> {
             span: self.key_span,
             table,
         })
+    }
+
+    /// `true` or `false`, if it is one of them.
+    pub fn boolean(&self) -> Option<bool> {
+        self.value.get_ref().as_bool()
     }
 
     pub fn string(&self) -> Result<&'a str> {

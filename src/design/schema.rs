@@ -16,12 +16,11 @@ mod tests {
     use super::super::face::FACE_KEYS;
     use super::super::magnet::{ListedMagnet, MAGNET_KEYS};
     use super::super::quantity::{self, Quantity};
+    use super::super::shield::CONSTANTS;
     use super::super::tile::{TILE_KEYS, TILES};
     use super::super::{Design, MagnetModel, ROOT_KEYS, TABLE_KEYS, profile};
     use super::*;
-
-    /// A key of the grammar that every design is refused for.
-    const NOT_READ: &str = "shield";
+    use crate::potential::shielding::ShieldRule;
 
     fn schema() -> Value {
         serde_json::from_str(SCHEMA).unwrap()
@@ -35,7 +34,7 @@ mod tests {
             .keys()
             .map(String::as_str)
             .collect();
-        let mut known: Vec<&str> = known.iter().copied().filter(|k| *k != NOT_READ).collect();
+        let mut known = known.to_vec();
         said.sort_unstable();
         known.sort_unstable();
         assert_eq!(said, known);
@@ -55,6 +54,10 @@ mod tests {
         assert_keys(of("faces"), &["all", "east", "north", "west", "south"]);
         assert_keys(of("target"), &TILES);
         assert_keys(of("potential"), &["model"]);
+        let mut constants = CONSTANTS.map(|(name, _)| name).to_vec();
+        assert_keys(of("shield_constants"), &constants);
+        constants.push("rule");
+        assert_keys(of("shield"), &constants);
     }
 
     #[test]
@@ -72,19 +75,23 @@ mod tests {
     }
 
     #[test]
-    fn it_has_every_model() {
+    fn it_has_every_model_and_rule() {
         let names = MagnetModel::NAMES.map(|(name, _)| name);
         let schema = schema();
         let model = &schema["$defs"]["potential"]["properties"]["model"];
         assert_eq!(model["enum"], serde_json::json!(names));
         assert_eq!(model["default"], MagnetModel::default().name());
+        let rules = ShieldRule::NAMES.map(|(name, _)| name);
+        let rule = &schema["$defs"]["shield"]["properties"]["rule"];
+        assert_eq!(rule["enum"], serde_json::json!(rules));
+        assert_eq!(rule["default"], ShieldRule::default().name());
     }
 
     /// Each limit of the schema is accepted by the reader, and what lies just beyond is not.
     #[test]
     fn its_limits_are_those_of_the_reader() {
         let schema = schema();
-        let quantities: [(&str, Quantity); 18] = [
+        let quantities: [(&str, Quantity); 22] = [
             ("tile_side", quantity::TILE_SIDE),
             ("tile_corner", quantity::TILE_CORNER),
             ("tile_thickness", quantity::TILE_THICKNESS),
@@ -103,6 +110,10 @@ mod tests {
             ("profile_depth", quantity::PROFILE_DEPTH),
             ("draft", quantity::DRAFT),
             ("offset", quantity::ALONG_FACE),
+            ("attenuation", quantity::ATTENUATION),
+            ("shield_length", quantity::SHIELD_LENGTH),
+            ("shield_width", quantity::SHIELD_WIDTH),
+            ("front_gain", quantity::FRONT_GAIN),
         ];
         for (name, quantity) in quantities {
             let mut limits = &schema["$defs"][name];

@@ -5,6 +5,8 @@ use super::face::{FaceContent, FaceEntry, find_face};
 use super::magnet::MagnetKeys;
 use super::quantity::four_digits;
 use super::reader::{Entry, Result, Section};
+use super::shield::ShieldKeys;
+use crate::potential::shielding::Shield;
 
 /// The two tiles' names, in the order in which they are stored.
 pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
@@ -32,9 +34,6 @@ pub(super) struct TileEntry<'a> {
 impl<'a> TileEntry<'a> {
     pub fn read(name: &'static str, section: Section<'a>, faces_name: &'a str) -> Result<Self> {
         section.allow(&TILE_KEYS)?;
-        if let Some(shield) = section.get("shield") {
-            return Err(super::shield::refused(&shield));
-        }
         let base = base::read(&section)?;
         let faces = match section.section("faces", faces_name)? {
             Some(faces) => face_entries(&faces, &base)?,
@@ -46,6 +45,26 @@ impl<'a> TileEntry<'a> {
             base,
             faces,
         })
+    }
+}
+
+impl TileEntry<'_> {
+    /// The shield of each face, where `lower` is what the file says of all tiles.
+    pub fn shields(&self, lower: ShieldKeys) -> Result<Vec<Option<Shield>>> {
+        let keys = self.shield_keys(lower)?;
+        keys.iter()
+            .zip(&self.base.faces)
+            .map(|(keys, face)| keys.shield(&self.section, self.name, &face.name))
+            .collect()
+    }
+
+    /// All that the file says of each face's shield.
+    pub fn shield_keys(&self, lower: ShieldKeys) -> Result<Vec<ShieldKeys>> {
+        let lower = ShieldKeys::read(&self.section, "a tile's `shield`")?.over(lower);
+        self.faces
+            .iter()
+            .map(|face| Ok(face.shield_keys()?.over(lower)))
+            .collect()
     }
 }
 

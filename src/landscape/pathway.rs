@@ -14,6 +14,9 @@ use crate::roadmap::{Milestone, ProfileTolerance};
 const LONGEST_STEP: f64 = 5e-3;
 /// Shortest step that is halved because the energy bends (m).
 const SHORTEST_STEP: f64 = 2e-4;
+/// A middle that had to settle farther than this from either end, as a share of the step, is no
+/// middle: halving would not end.
+const LONGEST_HALF: f64 = 0.8;
 
 /// The best way between two nodes.
 #[derive(Clone, Debug)]
@@ -111,7 +114,11 @@ fn refine(
     let length = problem.space.distance(&a.0, &b.0);
     if length > SHORTEST_STEP {
         let straight = a.0.interpolate(&b.0, 0.5);
-        if let Some(middle) = slide::settle(problem, &straight, length) {
+        let settled = slide::settle(problem, &straight, length).filter(|middle| {
+            let halves = [&a.0, &b.0].map(|end| problem.space.distance(end, middle));
+            halves.iter().all(|half| *half <= LONGEST_HALF * length)
+        });
+        if let Some(middle) = settled {
             let energy = problem.energy(&middle);
             let bent = (energy - (a.1 + b.1) / 2.0).abs() > bend;
             if bent || length > LONGEST_STEP {

@@ -1,8 +1,10 @@
 //! Symmetries of a pair of tiles as maps of configurations.
 
 use crate::configuration::{Configuration, wrap_angle};
+use crate::design::Design;
+use crate::potential::shielding::{Shield, Shields};
 use crate::tile::Tile;
-use crate::tile::symmetry::rotations;
+use crate::tile::symmetry::{rotations, turned_faces};
 
 /// A turn of the fixed tile onto itself together with a turn of the moving one: it maps every
 /// configuration onto one with the same energy and the same clearance.
@@ -20,12 +22,13 @@ impl Symmetry {
         moving: 0.0,
     };
 
-    /// All symmetries of two tiles, the identity first.
-    pub fn all(fixed: &Tile, moving: &Tile) -> Vec<Self> {
-        let turns = rotations(moving);
-        rotations(fixed)
+    /// All symmetries of a design, the identity first.
+    pub fn all(design: &Design) -> Vec<Self> {
+        let (fixed, moving, shields) = (&design.fixed, &design.moving, &design.shields);
+        let of_moving = turns(moving, shields, &shields.moving);
+        turns(fixed, shields, &shields.fixed)
             .into_iter()
-            .flat_map(|fixed| turns.iter().map(move |&moving| Self { fixed, moving }))
+            .flat_map(|fixed| of_moving.iter().map(move |&moving| Self { fixed, moving }))
             .collect()
     }
 
@@ -41,4 +44,18 @@ impl Symmetry {
             wrap_angle(q.theta + self.fixed - self.moving),
         )
     }
+}
+
+/// The turns of a tile onto itself that map shielded faces onto faces with the same shield.
+fn turns(tile: &Tile, shields: &Shields, of_faces: &[Option<Shield>]) -> Vec<f64> {
+    let mut turns = rotations(tile);
+    if !shields.is_none() {
+        let shield = |face: usize| of_faces.get(face).copied().flatten();
+        turns.retain(|&angle| {
+            turned_faces(tile, angle).is_some_and(|images| {
+                (0..images.len()).all(|face| shield(face) == shield(images[face]))
+            })
+        });
+    }
+    turns
 }

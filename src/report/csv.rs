@@ -152,7 +152,7 @@ fn pose(q: &Configuration) -> String {
 }
 
 /// A number with ten significant digits at most.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
@@ -167,6 +167,15 @@ fn number(value: f64) -> String {
     }
 }
 
+/// A text as one cell: in quotes where it holds a comma, a quote or a line's end (RFC 4180).
+pub(crate) fn text(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,6 +187,12 @@ mod tests {
             energy,
             clearance: s,
         }
+    }
+
+    #[test]
+    fn a_cell_with_commas_or_quotes_is_quoted() {
+        assert_eq!(text("a tab"), "a tab");
+        assert_eq!(text("a \"tab\", wide"), "\"a \"\"tab\"\", wide\"");
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct Report {
     pub states: Vec<StateEntry>,
     pub free: FreeEntry,
     pub barriers: Vec<BarrierEntry>,
+    /// Why the bounds of all barriers are null; itself null where they are certified.
+    pub uncertified: Option<String>,
     pub alternatives: Vec<AlternativeEntry>,
     pub counts: CountsEntry,
     pub timing: TimingEntry,
@@ -48,6 +50,8 @@ pub struct DesignEntry {
 #[allow(non_snake_case)]
 pub struct SettingsEntry {
     pub model: &'static str,
+    /// The rule by which shields act; null for bare magnets.
+    pub shields: Option<&'static str>,
     pub milestones: usize,
     /// Neighbours of each milestone.
     pub neighbours: usize,
@@ -58,7 +62,8 @@ pub struct SettingsEntry {
     pub least_depth: f64,
     pub far_starts: usize,
     pub repeats: usize,
-    /// Width to which certified bounds are narrowed; null for a hundredth of the bond.
+    /// Width to which certified bounds are narrowed; null for a hundredth of the bond or a twentieth
+    /// of the barrier, whichever is less.
     pub tolerance_J: Option<f64>,
     pub certify_s: f64,
 }
@@ -210,6 +215,7 @@ impl Report {
                 ring_m: analysis.ring,
             },
             barriers: analysis.barriers.iter().map(BarrierEntry::new).collect(),
+            uncertified: analysis.uncertified.map(|why| why.to_string()),
             alternatives: analysis
                 .alternatives
                 .iter()
@@ -312,6 +318,7 @@ impl SettingsEntry {
         let problem = pipeline::problem(design);
         Self {
             model: design.model.name(),
+            shields: (!design.shields.is_none()).then(|| design.shields.rule.name()),
             milestones: settings.milestones,
             neighbours: settings
                 .neighbours

@@ -2,16 +2,21 @@
 //!
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`csv`] - tables of states and barriers, and pathways;
+//! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments;
+//! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`writer`] - all of it as files of one folder.
 
+pub mod calibration;
+pub mod comparison;
 pub mod csv;
 pub mod docking;
 pub mod json;
 pub mod page;
 pub mod plots;
 pub mod summary;
+pub mod sweep;
 pub mod writer;

@@ -50,6 +50,9 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     }
     write_bond(&mut text, analysis, bond);
     write_deepest(&mut text, bond, &traps);
+    if let Some(why) = analysis.uncertified {
+        let _ = writeln!(text, "barriers are not certified: {why}");
+    }
     let _ = writeln!(
         text,
         "results in {folder}: report.html to look at, report.json, states.csv, barriers.csv, \
@@ -161,16 +164,18 @@ fn state_name(state: &State) -> String {
     }
 }
 
-/// Rows with their columns aligned.
-fn write_table<const N: usize>(text: &mut String, rows: &[[String; N]]) {
-    let widths: [usize; N] = std::array::from_fn(|column| {
-        let lengths = rows.iter().map(|row| row[column].chars().count());
-        lengths.max().unwrap_or(0)
-    });
+/// Rows of equal length with their columns aligned.
+pub(crate) fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
+    let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.as_ref().get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
     for row in rows {
-        let cells = row.iter().zip(widths);
+        let cells = row.as_ref().iter().zip(&widths);
         let line: Vec<String> = cells
-            .map(|(cell, width)| format!("{cell:<width$}"))
+            .map(|(cell, &width)| format!("{cell:<width$}"))
             .collect();
         let _ = writeln!(text, "{}", line.join("  ").trim_end());
     }
@@ -270,7 +275,7 @@ fn tenths(value: f64) -> String {
 }
 
 /// `56 % (53-59)`, with the interval.
-fn percent(proportion: &Proportion) -> String {
+pub(crate) fn percent(proportion: &Proportion) -> String {
     if proportion.of == 0 {
         return "not counted".to_owned();
     }

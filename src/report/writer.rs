@@ -157,6 +157,8 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
         "pathways" => name.ends_with(".csv"),
         _ => name.ends_with(".svg") || name.ends_with(".png"),
     };
+    let page = (!files.contains_key(PAGE)).then(|| folder.join(PAGE));
+    let page = page.filter(|page| page.is_file());
     ["pathways", "pictures"]
         .into_iter()
         .flat_map(|part| {
@@ -169,6 +171,7 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
                 })
                 .map(|entry| entry.path())
         })
+        .chain(page)
         .collect()
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::{Magnet, Tile};
+use super::{Face, Magnet, Tile};
 use crate::configuration::wrap_angle;
 
 /// How closely, relative to the tile's size, its moments and a full turn, the turned tile must
@@ -48,6 +48,29 @@ fn maps_magnets(tile: &Tile, angle: f64) -> bool {
         };
         tile.magnets.iter().any(|other| same(&turned, other, scale))
     })
+}
+
+/// For each face, the face onto which a turn of [`rotations`] maps it with all its magnets; `None`
+/// where one of the faces does not come to lie on a face. Faces may differ though outlines agree:
+/// one side of an outline may be two faces in line.
+pub fn turned_faces(tile: &Tile, angle: f64) -> Option<Vec<usize>> {
+    let rotation = Rotation2::new(angle);
+    let scale = tile.outline.circumradius();
+    let near = |a: Vector2<f64>, b: Vector2<f64>| (rotation * a - b).norm() <= TOLERANCE * scale;
+    let images: Vec<usize> = tile
+        .faces
+        .iter()
+        .map(|face| {
+            let image = |other: &Face| near(face.start, other.start) && near(face.end, other.end);
+            tile.faces.iter().position(image)
+        })
+        .collect::<Option<_>>()?;
+    let keeps_face = |magnet: &Magnet| {
+        tile.magnets
+            .iter()
+            .any(|other| near(magnet.position, other.position) && other.face == images[magnet.face])
+    };
+    tile.magnets.iter().all(keeps_face).then_some(images)
 }
 
 fn same(a: &Magnet, b: &Magnet, scale: f64) -> bool {
@@ -117,6 +140,25 @@ mod tests {
         let alternating = [(0, 1.0), (1, -1.0), (2, 1.0), (3, -1.0)];
         assert_eq!(quarters(&tile(&alternating)), [0, 2]);
         assert_eq!(quarters(&tile(&[(0, 1.0), (2, 1.001)])), [0]);
+    }
+
+    #[test]
+    fn faces_are_turned_onto_faces() {
+        let mut square = tile(&[(0, 1.0), (1, 1.0), (2, 1.0), (3, 1.0)]);
+        let corners = square.outline.vertices().to_vec();
+        square.faces = (0..4)
+            .map(|i| Face {
+                name: i.to_string(),
+                start: corners[i],
+                end: corners[(i + 1) % 4],
+            })
+            .collect();
+        assert_eq!(turned_faces(&square, PI / 2.0), Some(vec![1, 2, 3, 0]));
+        let mut other = square.clone();
+        other.magnets[1].face = 2;
+        assert_eq!(turned_faces(&other, PI / 2.0), None);
+        square.faces[0].end.y = 0.5;
+        assert_eq!(turned_faces(&square, PI / 2.0), None);
     }
 
     #[test]

@@ -2,8 +2,10 @@
 
 mod analyse;
 mod barrier;
+mod calibrate;
 mod energy;
 mod mistakes;
+mod shields;
 mod starting;
 
 use std::path::{Path, PathBuf};

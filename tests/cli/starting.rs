@@ -83,7 +83,7 @@ sys.exit(1 if wrong else 0)
 "#;
 
 /// Designs with a fault that a schema can tell.
-const FAULTY: [&str; 22] = [
+const FAULTY: [&str; 24] = [
     "code-and-magnets",
     "code-in-lower-case",
     "draft-in-degrees",
@@ -98,6 +98,8 @@ const FAULTY: [&str; 22] = [
     "no-target",
     "no-thickness",
     "number-as-string",
+    "shield-in-percent",
+    "shield-with-a-wrong-key",
     "two-numbers-for-three",
     "two-sides",
     "two-strengths",

@@ -1,6 +1,7 @@
 //! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
 
 mod geometry;
+mod shields;
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};

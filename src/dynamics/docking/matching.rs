@@ -56,7 +56,7 @@ impl MatchRule {
         Ok(Self {
             threshold: threshold.unwrap_or(bound + 0.5 * length),
             pairs,
-            symmetries: Symmetry::all(&design.fixed, &design.moving),
+            symmetries: Symmetry::all(design),
         })
     }
 

@@ -152,13 +152,25 @@ impl Bracket {
     /// assert_eq!(bracket(0.0, 2.5).compare(&bracket(2.0, 3.0)), Ordering::Undecided);
     /// ```
     pub fn compare(&self, other: &Self) -> Ordering {
-        if other.upper.is_some_and(|upper| self.lower > upper) {
-            Ordering::Higher
-        } else if self.upper.is_some_and(|upper| upper < other.lower) {
-            Ordering::Lower
-        } else {
-            Ordering::Undecided
-        }
+        order((self.lower, self.upper), (other.lower, other.upper))
+    }
+}
+
+/// Which of two numbers, each known by a proved lower bound and, where there is one, a proved upper
+/// bound, is the higher one; decided only where the bounds do not overlap.
+///
+/// ```
+/// use tilebind::landscape::certificate::{Ordering, order};
+/// assert_eq!(order((2.0, None), (0.0, Some(1.0))), Ordering::Higher);
+/// assert_eq!(order((0.0, Some(2.0)), (2.0, None)), Ordering::Undecided);
+/// ```
+pub fn order(a: (f64, Option<f64>), b: (f64, Option<f64>)) -> Ordering {
+    if b.1.is_some_and(|upper| a.0 > upper) {
+        Ordering::Higher
+    } else if a.1.is_some_and(|upper| upper < b.0) {
+        Ordering::Lower
+    } else {
+        Ordering::Undecided
     }
 }
 

@@ -218,3 +218,103 @@ impl Group {
         self.moment.resize(length, 0.0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::block::{Block, PairEnergy};
+    use super::super::multipole::{Multipole, TERMS};
+    use super::*;
+    use crate::potential::batch::Level;
+    use crate::potential::batch::lanes::Task;
+    use crate::potential::cuboid::cloud;
+    use crate::potential::dipole;
+    use crate::units::MU0;
+
+    /// The first `N` terms of one pair.
+    struct Terms<'a, const N: usize>(&'a Multipole, &'a Block, &'a Block);
+
+    impl<const N: usize> Task for Terms<'_, N> {
+        type Output = PairEnergy;
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> PairEnergy {
+            let Self(series, first, second) = self;
+            let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
+            let axis = complex(first.axis);
+            let mut group = Group::new(0, first.axis);
+            group.push(0, first.position, first.moment);
+            group.fill(L::WIDTH);
+            let mut coefficients = Coefficients::NONE;
+            let turn = complex(second.axis) * axis.conj();
+            series.evaluate::<L, true>(l, turn, N, &mut coefficients);
+            let place = complex(second.position) * axis.conj();
+            let pairs = Pairs::new(l, &group, 0, place, second.moment);
+            let (mut own, mut total) = (Sums::zero(l), Sums::zero(l));
+            add::<L, N, true>(l, &coefficients, &pairs, &mut own);
+            total.add::<L, true>(l, &own, axis);
+            let [x, y, slope] = total.gradient;
+            let scale = -MU0 / (4.0 * std::f64::consts::PI);
+            PairEnergy {
+                energy: scale * l.sum(total.energy),
+                gradient: Vector2::new(l.sum(x), l.sum(y)) * scale,
+                slope: scale * l.sum(slope),
+            }
+        }
+    }
+
+    fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
+        Block {
+            position: Vector2::new(x, y),
+            axis: Vector2::new(angle.cos(), angle.sin()),
+            ..Block::new(0.3, size)
+        }
+    }
+
+    #[test]
+    fn the_first_term_is_the_point_dipole() {
+        let size = [0.01, 0.02, 0.03];
+        let series = Multipole::new(size, size);
+        for level in Level::available() {
+            let (first, second) = (block(0.1, 0.2, 0.4, size), block(0.3, -0.1, 2.0, size));
+            let got = level.run(Terms::<1>(&series, &first, &second));
+            let (energy, force, slope) = dipole::pair(
+                first.axis * first.moment,
+                second.axis * second.moment,
+                second.position - first.position,
+            );
+            assert!((got.energy - energy).abs() < 1e-12 * energy.abs());
+            assert!((got.gradient + force).norm() < 1e-12 * force.norm());
+            assert!((got.slope - slope).abs() < 1e-12 * slope.abs());
+        }
+    }
+
+    fn check<const N: usize>(tolerance: f64) {
+        let (one, two) = ([0.010, 0.012, 0.003], [0.006, 0.008, 0.005]);
+        let series = Multipole::new(one, two);
+        let radius = series.radius(N, tolerance);
+        for i in 0..10 {
+            let first = block(0.0, 0.0, 0.5, one);
+            let (sin, cos) = (0.37 * i as f64).sin_cos();
+            let second = block(radius * cos, radius * sin, 1.1 * i as f64, two);
+            let got = Level::best().run(Terms::<N>(&series, &first, &second));
+            let exact = cloud::energy_and_gradient::<10>(&first, &second);
+            let scale = 1e-7 * 0.3 * 0.3 / radius.powi(3);
+            // Room for the rounding errors of the differences of charges that cancel.
+            let tolerance = tolerance + 1e-15 * (radius / 0.006).powi(2);
+            assert!((got.energy - exact.energy).abs() < tolerance * scale);
+            // The first term left out falls like the power 3 + 2 N and has waves of that order.
+            let slope = (3 + 2 * N) as f64 * tolerance * scale;
+            assert!((got.gradient - exact.gradient).norm() < slope / radius);
+            assert!((got.slope - exact.slope).abs() < slope);
+        }
+    }
+
+    #[test]
+    fn the_series_agrees_with_a_cloud_of_charges_within_its_bound() {
+        check::<TERMS>(1e-5);
+        check::<TERMS>(1e-9);
+        check::<5>(1e-9);
+        check::<3>(1e-9);
+        check::<2>(1e-6);
+    }
+}

@@ -1,4 +1,28 @@
-//! Uniformly magnetised blocks.
+//! Uniformly magnetised blocks, exact near by and far away.
+//!
+//! A block's uniform magnetisation is two even sheets of magnetic charge, its pole faces, and the
+//! energy of two blocks the Coulomb energy of the four pairs of sheets. Blocks may have any sizes
+//! and strengths and stand at any angle in the plane; all are centred on one mid-plane, as the
+//! thicknesses of the two need not be equal.
+//!
+//! * Near by, three of the four integrals over a pair of sheets are closed and the last is a Gauss
+//!   quadrature (`sheet`, `panel`, `quadrature`).
+//! * From some three block sizes on, where closed forms lose digits, the multipole series takes
+//!   over (`multipole`, `far`), eight terms at first, five and three farther out. The bound of the
+//!   terms left out decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`.
+//!
+//! # Accuracy
+//! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7
+//! at worst in the tests) and 1e-4 closer, contact and sliding contact included (3e-5 at worst),
+//! for blocks of about 1 cm; it scales with the blocks' width. Where sliding takes the energy
+//! through zero, read: relative to 1 mm times the force. At the hand-over to the far form energies
+//! step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)`.
+//!
+//! # Edges
+//! Energies are finite at every configuration, overlaps included. In contact the gradient is the
+//! limit from the side of the free configurations. Second derivatives are infinite, like a
+//! logarithm, where edges of pole faces meet. The derivative of an energy computed with
+//! differences is only as good as the energy: at contact use steps of 0.1 mm or so.
 
 pub mod block;
 #[cfg(test)]
@@ -218,6 +242,12 @@ impl Potential for CuboidPotential {
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         step.xy().norm() + self.lever * step.z.abs()
+    }
+
+    /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the
+    /// integral of the gradient.
+    fn noise(&self) -> f64 {
+        1e-6
     }
 }
 

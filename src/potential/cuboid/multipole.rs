@@ -59,8 +59,8 @@ fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
         vec![-1.0, 2.0, -1.0],
         vec![0.0, -4.0, 0.0],
     ];
-    let mut forms: Vec<Form> = vec![vec![1.0]];
-    forms.extend((1..count).map(|k| vec![0.0; 2 * k + 1]));
+    let mut forms: Vec<Form> = (0..count).map(|k| vec![0.0; 2 * k + 1]).collect();
+    forms[0][0] = 1.0;
     for (square, length) in squares.iter().zip(size) {
         let mut powers: Vec<Form> = vec![vec![1.0]];
         for k in 1..count {

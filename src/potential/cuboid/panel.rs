@@ -195,7 +195,7 @@ mod tests {
     use crate::potential::batch::Level;
     use crate::potential::batch::lanes::Task;
     use rand::{RngExt, SeedableRng};
-    use std::f64::consts::PI;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
     struct Job<'a>(&'a BlockPair, Option<Fineness>);
 
@@ -250,7 +250,7 @@ mod tests {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         for gap in [0.0, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2] {
             let tolerance = if gap < 1e-3 { 1e-4 } else { 1e-6 };
-            for tilt in [0.0, 1e-3, 0.03, 0.3, 0.7, 1.2, 1.5] {
+            for tilt in [0.0, 1e-3, 0.03, 0.3, 0.7, 1.2, FRAC_PI_2] {
                 for trial in 0..60 {
                     let slide = match trial % 6 {
                         0 => 0.0,

@@ -41,8 +41,7 @@ impl Rules {
 // Several arrays are walked at once.
 #[allow(clippy::needless_range_loop)]
 pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
-    let mut rule = [[0.0; N]; 2];
-    for i in 0..N {
+    let node = |i: usize| {
         let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
         let mut slope = 1.0;
         for _ in 0..100 {
@@ -54,10 +53,10 @@ pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
                 break;
             }
         }
-        rule[0][i] = x;
-        rule[1][i] = 2.0 / ((1.0 - x * x) * slope * slope);
-    }
-    rule
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    };
+    let nodes: [(f64, f64); N] = std::array::from_fn(node);
+    [nodes.map(|(x, _)| x), nodes.map(|(_, weight)| weight)]
 }
 
 /// The Legendre polynomial of degree `n` and its derivative, by the three-term recurrence.

@@ -17,7 +17,8 @@
 //!
 //! This is a model with the right limits and as few constants as a measurement can tell apart,
 //! not a solution of the magnetostatic problem with iron: it takes the field of a pair to be that
-//! without iron but for a factor. Calibrate it before trusting it.
+//! without iron but for a factor. Calibrate it (see [`crate::calibration`]) before
+//! trusting it.
 //!
 //! # The nearest-face rule
 //! [`ShieldRule::NearestFace`] counts a pair in full if its magnets sit on the two faces, one of
@@ -31,7 +32,7 @@ mod potential;
 
 use nalgebra::Vector2;
 
-pub use potential::{PairModel, ShieldedPotential};
+pub use potential::ShieldedPotential;
 
 /// The constants of a face's shield.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,14 +55,38 @@ pub enum ShieldRule {
     NearestFace,
 }
 
+impl ShieldRule {
+    /// What design files call each rule.
+    pub const NAMES: [(&'static str, Self); 2] = [
+        ("smooth", Self::Smooth),
+        ("nearest-face", Self::NearestFace),
+    ];
+
+    /// What design files call this rule.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Smooth => "smooth",
+            Self::NearestFace => "nearest-face",
+        }
+    }
+}
+
 /// The shields of two tiles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shields {
     pub rule: ShieldRule,
     /// One entry for each face of the fixed tile: its shield, if it has one.
     pub fixed: Vec<Option<Shield>>,
     /// The same for the moving tile.
     pub moving: Vec<Option<Shield>>,
+}
+
+impl Shields {
+    /// Whether all pairs of magnets act in full.
+    pub fn is_none(&self) -> bool {
+        let mut all = self.fixed.iter().chain(&self.moving);
+        self.rule == ShieldRule::Smooth && all.all(Option::is_none)
+    }
 }
 
 /// A factor g and its derivatives by the distance (1/m) and by cos(alpha).
@@ -101,17 +126,19 @@ impl Shield {
     /// a speed of the magnets of at most 1, at a rate of turn of at most `turn` (1/m), while they
     /// are at least `r` (m) apart.
     ///
-    /// `|eta'| <= 0.65 A / l` and `|eta''| <= 2 A / l^2` (the largest of
-    /// `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8, that of its derivative's magnitude 2), `|S'| <= 1/4`,
-    /// `|S''| <= 1 / (6 sqrt(3))`, and with `w = 1 / r + turn` the cosine of an angle that turns
-    /// at most at the rate w has a second derivative of at most `w^2 + 2 / r^2 + turn / r +
-    /// turn^2`.
+    /// With `x = r / l`: `|d eta / d r|` is at most the smaller of `0.65 A / l` and
+    /// `2 A / (l x^3)` (the largest of `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8). The Hessian of eta
+    /// over the plane has the eigenvalues `d2 eta / d r2` and `(d eta / d r) / r`, both at most
+    /// the smaller of `2 A / l^2` and `6 A / (l^2 x^4)`; the magnets' acceleration, at most
+    /// `turn`, adds that times the slope. `|S'| <= 1/4`, `|S''| <= 1 / (6 sqrt(3))`, and with
+    /// `w = 1 / r + turn` the cosine of an angle that turns at most at the rate w has a second
+    /// derivative of at most `w^2 + 2 / r^2 + turn / r + turn^2`.
     pub fn limits(&self, turn: f64, r: f64) -> [f64; 3] {
-        let gap = (self.front_gain - 1.0).abs() + self.attenuation;
-        let eta = [
-            0.65 * self.attenuation / self.length,
-            2.0 * self.attenuation / (self.length * self.length),
-        ];
+        let x = r / self.length;
+        let gap = (self.front_gain - 1.0).abs() + self.attenuation / (1.0 + x * x);
+        let slope = self.attenuation / self.length * (2.0 / x.powi(3)).min(0.65);
+        let hessian = self.attenuation / (self.length * self.length) * (6.0 / x.powi(4)).min(2.0);
+        let eta = [slope, hessian + turn * slope];
         let rate = 1.0 / r + turn;
         let bend = rate * rate + 2.0 / (r * r) + turn / r + turn * turn;
         let front = [

@@ -7,15 +7,8 @@ use crate::configuration::Configuration;
 use crate::potential::cuboid::block::{Block, PairEnergy};
 use crate::potential::cuboid::limits::{Limits, face_distances};
 use crate::potential::dipole::{self, Dipole, dipoles};
-use crate::potential::{CuboidPotential, Potential};
+use crate::potential::{CuboidPotential, MagnetModel, Potential};
 use crate::tile::{Magnet, Tile};
-
-/// How the energy of a pair of magnets is worked out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PairModel {
-    Dipole,
-    Cuboid,
-}
 
 /// Energies of single pairs.
 #[derive(Clone, Debug)]
@@ -66,7 +59,7 @@ fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<Shielded> {
 
 impl ShieldedPotential {
     /// Of two tiles with shields. Faces beyond the ends of the lists of shields have none.
-    pub fn new(model: PairModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
+    pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
         let middles = |tile: &Tile| tile.faces.iter().map(|face| face.middle()).collect();
         let (first, second) = (
             shielded(fixed, &shields.fixed),
@@ -80,10 +73,10 @@ impl ShieldedPotential {
         let corners = moving.magnets.iter().flat_map(|magnet| magnet.corners());
         Self {
             pairs: match model {
-                PairModel::Dipole => {
+                MagnetModel::Dipole => {
                     Pairs::Dipole(dipoles(&fixed.magnets), dipoles(&moving.magnets))
                 }
-                PairModel::Cuboid => {
+                MagnetModel::Cuboid => {
                     Pairs::Cuboid(CuboidPotential::new(&fixed.magnets, &moving.magnets))
                 }
             },
@@ -248,5 +241,13 @@ impl Potential for ShieldedPotential {
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         step.xy().norm() + self.lever * step.z.abs()
+    }
+
+    /// That of the bare pairs.
+    fn noise(&self) -> f64 {
+        match &self.pairs {
+            Pairs::Dipole(..) => 1e-12,
+            Pairs::Cuboid(potential) => potential.noise(),
+        }
     }
 }

@@ -12,6 +12,9 @@
 
 mod approach;
 mod canvas;
+pub mod curve_data;
+mod curve_map;
+mod curves;
 pub(in crate::report) mod disconnectivity;
 pub mod dock;
 mod energy_map;
@@ -22,6 +25,7 @@ mod marks;
 pub(in crate::report) mod merge_tree;
 mod picture;
 mod profiles;
+pub mod ranking;
 mod raster;
 pub(in crate::report) mod scale;
 pub(in crate::report) mod scene;

@@ -1,0 +1,169 @@
+//! Measurements from a CSV file.
+
+use super::Row;
+use crate::configuration::Configuration;
+
+/// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0),
+/// and what was measured on the moving tile (the torque about its reference point). The columns
+/// may come in any order and those of the measured values may be left out, as may their entries.
+pub const COLUMNS: [&str; 8] = [
+    "x_m",
+    "y_m",
+    "theta_rad",
+    "iron",
+    "energy_J",
+    "force_x_N",
+    "force_y_N",
+    "torque_Nm",
+];
+
+/// How many of the columns must be there.
+const NEEDED: usize = 4;
+
+/// What is wrong with a file of measurements, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CsvError {
+    #[error("the file is empty; its first line should name the columns: {known}", known = COLUMNS.join(","))]
+    Empty,
+    #[error("unknown column `{0}`; the columns are {known}", known = COLUMNS.join(", "))]
+    UnknownColumn(String),
+    #[error("the column `{0}` is there twice")]
+    TwiceColumn(String),
+    #[error("there is no column `{0}`")]
+    MissingColumn(&'static str),
+    #[error("there are no rows of measurements below the line that names the columns")]
+    NoRows,
+    #[error("none of the columns {known} is there: nothing was measured", known = COLUMNS[NEEDED..].join(", "))]
+    NothingMeasured,
+    #[error("line {line} has {found} entries, the first line names {expected} columns")]
+    WrongCount {
+        line: usize,
+        found: usize,
+        expected: usize,
+    },
+    #[error("line {line}: `{text}` is no finite number for {column}")]
+    NotANumber {
+        line: usize,
+        column: &'static str,
+        text: String,
+    },
+    #[error("line {line}: iron is `{text}`, but must be 1 (shields in place) or 0")]
+    NotZeroOrOne { line: usize, text: String },
+}
+
+/// Reads measurements. Empty lines and lines that begin with `#` are skipped.
+///
+/// # Errors
+/// Where the text is not a table of the given [`COLUMNS`].
+pub fn read_rows(text: &str) -> Result<Vec<Row>, CsvError> {
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let (_, header) = lines.next().ok_or(CsvError::Empty)?;
+    let columns = columns(header)?;
+    let rows: Vec<Row> = lines
+        .map(|(line, text)| row(line, text, &columns))
+        .collect::<Result<_, _>>()?;
+    if rows.is_empty() {
+        return Err(CsvError::NoRows);
+    }
+    Ok(rows)
+}
+
+/// Which of [`COLUMNS`] each column of the file is.
+fn columns(header: &str) -> Result<Vec<usize>, CsvError> {
+    let mut columns = Vec::new();
+    for name in header
+        .trim_start_matches('\u{feff}')
+        .split(',')
+        .map(str::trim)
+    {
+        let known = COLUMNS.iter().position(|column| *column == name);
+        let column = known.ok_or_else(|| CsvError::UnknownColumn(name.to_owned()))?;
+        if columns.contains(&column) {
+            return Err(CsvError::TwiceColumn(name.to_owned()));
+        }
+        columns.push(column);
+    }
+    if let Some(missing) = (0..NEEDED).find(|column| !columns.contains(column)) {
+        return Err(CsvError::MissingColumn(COLUMNS[missing]));
+    }
+    if columns.iter().all(|column| *column < NEEDED) {
+        return Err(CsvError::NothingMeasured);
+    }
+    Ok(columns)
+}
+
+fn row(line: usize, text: &str, columns: &[usize]) -> Result<Row, CsvError> {
+    let entries: Vec<&str> = text.split(',').map(str::trim).collect();
+    if entries.len() != columns.len() {
+        return Err(CsvError::WrongCount {
+            line,
+            found: entries.len(),
+            expected: columns.len(),
+        });
+    }
+    let mut values = [None; COLUMNS.len()];
+    for (&column, &entry) in columns.iter().zip(&entries) {
+        if column >= NEEDED && entry.is_empty() {
+            continue;
+        }
+        let number = entry
+            .parse::<f64>()
+            .ok()
+            .filter(|number| number.is_finite());
+        values[column] = Some(number.ok_or_else(|| CsvError::NotANumber {
+            line,
+            column: COLUMNS[column],
+            text: entry.to_owned(),
+        })?);
+    }
+    let [x, y, theta, iron] = [0, 1, 2, 3].map(|column| values[column].unwrap_or_default());
+    if iron != 0.0 && iron != 1.0 {
+        return Err(CsvError::NotZeroOrOne {
+            line,
+            text: iron.to_string(),
+        });
+    }
+    Ok(Row {
+        line,
+        configuration: Configuration::from([x, y, theta]),
+        iron: iron == 1.0,
+        measured: [values[4], values[5], values[6], values[7]],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_read() {
+        let text = "# bench of May\nx_m, y_m, theta_rad, iron, force_x_N, energy_J\n\
+                    0.43,0,0.1,1,-2.5,\n\n0.44,0.01,-0.1,0,,-1e-3\n";
+        let rows = read_rows(text).unwrap();
+        assert_eq!((rows[0].line, rows[1].line), (3, 5));
+        assert!(rows[0].iron && !rows[1].iron);
+        assert_eq!(rows[0].measured, [None, Some(-2.5), None, None]);
+        assert_eq!(rows[1].measured, [Some(-1e-3), None, None, None]);
+        assert_eq!(rows[1].configuration, Configuration::new(0.44, 0.01, -0.1));
+    }
+
+    #[test]
+    fn wrong_tables_are_refused_with_the_place() {
+        let message = |text: &str| read_rows(text).unwrap_err().to_string();
+        assert!(message("").contains("x_m,y_m"));
+        assert!(message("x_m,y_m,theta,iron").contains("`theta`"));
+        assert!(message("x_m,y_m,iron,energy_J").contains("`theta_rad`"));
+        assert!(message("x_m,y_m,theta_rad,iron").contains("nothing was measured"));
+        assert!(message("x_m,x_m").contains("twice"));
+        let head = "x_m,y_m,theta_rad,iron,energy_J\n";
+        assert!(message(head).contains("no rows"));
+        assert!(message(&format!("{head}1,2,3")).starts_with("line 2 has 3 entries"));
+        assert!(message(&format!("{head}1,2,NaN,1,4")).contains("theta_rad"));
+        assert!(message(&format!("{head}1,2,3,0.5,4")).contains("must be 1"));
+        assert!(message(&format!("{head}1,,3,1,4")).contains("y_m"));
+    }
+}

@@ -1,0 +1,159 @@
+//! `tilebind compare`: designs side by side.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::comparison::{self, Assessment, Quantity};
+use tilebind::design::{Design, MagnetModel};
+use tilebind::pipeline::Observer;
+use tilebind::report::comparison::Comparison;
+use tilebind::report::plots::ranking;
+use tilebind::report::writer::{self, WriteError};
+
+use super::assessment::AssessmentOptions;
+use super::progress::Progress;
+use super::{Failure, input, interrupt, print};
+
+/// Set designs side by side: bond, traps, barriers with bounds, capture range
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Writes compare.csv, compare.json, compare.md, ranking.svg and ranking.png.
+
+Example:
+  tilebind compare shapes/tab-10mm.toml shapes/tab-20mm.toml shapes/paper-tile.toml \\
+      --out target/compare"
+)]
+pub struct Compare {
+    /// The design files
+    #[arg(required = true)]
+    designs: Vec<PathBuf>,
+
+    /// Model of the magnets, dipole or cuboid [default: each design's own]
+    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    model: Option<MagnetModel>,
+
+    /// Folder for the results; made if need be
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+
+    /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
+    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity)]
+    by: Quantity,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    #[command(flatten)]
+    options: AssessmentOptions,
+
+    /// Threads [default: all cores]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Print compare.json instead of the tables
+    #[arg(long)]
+    json: bool,
+
+    /// Print neither progress nor the tables
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Compare {
+    pub fn run(self) -> Result<(), Failure> {
+        let designs = self.load()?;
+        input::check_folder(&self.out)?;
+        input::use_threads(self.threads)?;
+        interrupt::prepare()?;
+
+        let settings = self.options.settings();
+        let progress = Progress::new(self.quiet);
+        let assessments: Vec<Assessment> = designs
+            .iter()
+            .enumerate()
+            .map(|(k, design)| {
+                let observer = Part {
+                    progress: &progress,
+                    done: k,
+                    count: designs.len(),
+                };
+                comparison::assess(design, &settings, self.seed, &observer)
+            })
+            .collect();
+        let comparison = Comparison::new(&assessments, self.by, settings);
+        let picture = ranking::draw(&comparison).map_err(WriteError::from)?;
+        let json = comparison.json();
+        let files = [
+            ("compare.csv", comparison.csv().into_bytes()),
+            ("compare.md", comparison.markdown().into_bytes()),
+            ("ranking.svg", picture.svg.into_bytes()),
+            ("ranking.png", picture.png),
+            ("compare.json", json.clone().into_bytes()),
+        ];
+        interrupt::without(|| {
+            files
+                .iter()
+                .try_for_each(|(name, content)| writer::write_file(&self.out.join(name), content))
+        })?;
+        progress.finish();
+        if self.json {
+            print(&json)
+        } else if self.quiet {
+            Ok(())
+        } else {
+            let folder = self.out.display();
+            let names = "compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
+            print(&format!(
+                "{}results in {folder}: {names}\n",
+                comparison.summary()
+            ))
+        }
+    }
+
+    /// The designs; those of the same name and model are told apart by their files.
+    fn load(&self) -> Result<Vec<Design>, Failure> {
+        let mut designs = Vec::new();
+        for path in &self.designs {
+            designs.push(input::load_as(path, self.model)?);
+        }
+        let mut seen = HashSet::new();
+        let repeated: HashSet<String> = designs
+            .iter()
+            .filter(|design| !seen.insert((design.name.clone(), design.model.name())))
+            .map(|design| design.name.clone())
+            .collect();
+        for (design, path) in designs.iter_mut().zip(&self.designs) {
+            if repeated.contains(&design.name) {
+                design.name = format!("{} ({})", design.name, path.display());
+            }
+        }
+        Ok(designs)
+    }
+}
+
+/// The progress of one design among several.
+struct Part<'a> {
+    progress: &'a Progress,
+    done: usize,
+    count: usize,
+}
+
+impl Observer for Part<'_> {
+    fn stage(&self, name: &'static str, share: f64) {
+        let share = (self.done as f64 + share) / self.count as f64;
+        self.progress.share(name, share);
+    }
+}
+
+/// A figure by its name in the tables.
+fn quantity(text: &str) -> Result<Quantity, String> {
+    let known = || Quantity::ALL.map(Quantity::key).join(", ");
+    Quantity::ALL
+        .into_iter()
+        .find(|quantity| quantity.key() == text)
+        .ok_or_else(|| format!("known: {}", known()))
+}

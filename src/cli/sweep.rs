@@ -1,0 +1,273 @@
+//! `tilebind sweep`: many designs from one.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::json;
+use tilebind::report::json;
+use tilebind::report::plots::curve_data;
+use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::report::writer::{self, WriteError};
+use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
+
+use super::assessment::AssessmentOptions;
+use super::sweep_progress::PointBar;
+use super::{Failure, input, interrupt, print};
+
+/// The manifest's file where no other is named.
+const PLAN: &str = "plan.json";
+
+/// Vary keys of a design and assess every design that comes of it
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Writes sweep.csv, sweep.json and pictures: curves over one varied number, maps over two. A point's
+results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
+command goes on with what is missing and ends in the same bytes.
+
+Examples:
+  tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.05:11 \\
+      --out target/tab
+  tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0.01,0.02 \\
+      --vary fixed.faces.east.profile.width=0.1:0.3:5 --out target/tabs
+
+In parts, on one machine or many:
+  tilebind sweep shapes/tab-20mm.toml --vary magnet.pitch=0.02:0.06:9 --plan target/pitch/plan.json
+  tilebind sweep --run target/pitch/plan.json --shard 1/4 --threads 1     # and 2/4, 3/4, 4/4
+  tilebind sweep --status target/pitch/plan.json
+  tilebind sweep --merge target/pitch/plan.json"
+)]
+pub struct Sweep {
+    /// The design files; usually one
+    #[arg(required_unless_present_any = ["run", "merge", "status"])]
+    designs: Vec<PathBuf>,
+
+    /// A key of the design by its dotted path with its values, KEY=a:b:n (n from a to b) or
+    /// KEY=v,w,...; repeated for a grid
+    #[arg(long, value_name = "KEY=VALUES")]
+    vary: Vec<Axis>,
+
+    /// Folder for the results; made if need be [default with a manifest: the folder it is in]
+    #[arg(long, value_name = "DIR",
+          required_unless_present_any = ["plan", "run", "merge", "status"])]
+    out: Option<PathBuf>,
+
+    /// Seed that all points' seeds come from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    #[command(flatten)]
+    options: AssessmentOptions,
+
+    /// Only write the manifest [default file: plan.json in the folder of --out]
+    #[arg(long, value_name = "PLAN", num_args = 0..=1, conflicts_with_all = ["run", "merge", "status"])]
+    plan: Option<Option<PathBuf>>,
+
+    /// Work on the points of a manifest that have no results yet
+    #[arg(long, value_name = "PLAN",
+          conflicts_with_all = ["designs", "vary", "merge", "status"])]
+    run: Option<PathBuf>,
+
+    /// Part i of n, from 1/n to n/n: every nth point
+    #[arg(long, value_name = "i/n", requires = "run", value_parser = shard)]
+    shard: Option<Shard>,
+
+    /// Write the tables and pictures of a finished sweep
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["designs", "vary", "status"])]
+    merge: Option<PathBuf>,
+
+    /// Print how far a sweep is
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["designs", "vary"])]
+    status: Option<PathBuf>,
+
+    /// Points worked on at the same time [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+
+    /// Print neither progress nor the summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Sweep {
+    pub fn run(self) -> Result<(), Failure> {
+        if let Some(file) = &self.status {
+            let (plan, folder) = self.read(file)?;
+            return self.status(&plan, &folder);
+        }
+        if let Some(file) = &self.merge {
+            let (plan, folder) = self.read(file)?;
+            interrupt::prepare_resumable()?;
+            return self.merge(&plan, &folder);
+        }
+        if let Some(file) = &self.run {
+            let (plan, folder) = self.read(file)?;
+            interrupt::prepare_resumable()?;
+            let shard = self.shard.unwrap_or(Shard::WHOLE);
+            return self.work(&plan, &folder, shard);
+        }
+        let plan = Plan::new(
+            &self.designs,
+            self.vary.clone(),
+            self.options.settings(),
+            self.seed,
+        )
+        .map_err(usage)?;
+        let file = self.plan_file()?;
+        let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
+        input::check_folder(&folder)?;
+        interrupt::prepare_resumable()?;
+        let text = plan.to_text();
+        interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
+        if self.plan.is_some() {
+            if self.quiet {
+                return Ok(());
+            }
+            let count = plan.points().len();
+            return print(&format!("{count} points planned in {}\n", file.display()));
+        }
+        self.work(&plan, &folder, Shard::WHOLE)?;
+        self.merge(&plan, &folder)
+    }
+
+    /// Where the manifest goes.
+    fn plan_file(&self) -> Result<PathBuf, Failure> {
+        match (&self.plan, &self.out) {
+            (Some(Some(file)), _) => Ok(file.clone()),
+            (_, Some(folder)) => Ok(folder.join(PLAN)),
+            (_, None) => Err(Failure::Usage(
+                "say where the manifest goes: --plan DIR/plan.json, or --out DIR".to_owned(),
+            )),
+        }
+    }
+
+    /// A manifest, and the folder of its results.
+    fn read(&self, file: &Path) -> Result<(Plan, PathBuf), Failure> {
+        let file = if file.is_dir() {
+            file.join(PLAN)
+        } else {
+            file.to_owned()
+        };
+        let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
+        let text = std::fs::read_to_string(&file)
+            .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
+        let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
+        let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
+        Ok((plan, folder))
+    }
+
+    fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {
+        let store = Store::new(folder);
+        let mine = plan.points().into_iter().filter(|p| shard.contains(p));
+        let (known, missing): (Vec<Point>, Vec<Point>) =
+            mine.partition(|point| store.load(point).is_some());
+        let threads = self.threads.map_or_else(cores, usize::from);
+        let bar = PointBar::new(known.len(), missing.len(), self.quiet);
+        sweep::run(plan, &missing, threads, |point, outcome| {
+            interrupt::without(|| store.save(point, outcome))?;
+            bar.finished_one();
+            Ok(())
+        })
+        .map_err(|error: std::io::Error| {
+            Failure::Run(format!(
+                "cannot keep results in {}: {error}",
+                folder.display()
+            ))
+        })?;
+        bar.finish();
+        if self.run.is_some() && !self.quiet {
+            let (number, of) = (shard.number, shard.of);
+            let count = known.len() + missing.len();
+            print(&format!(
+                "part {number}/{of}: all {count} points have results\n"
+            ))?;
+        }
+        Ok(())
+    }
+
+    fn status(&self, plan: &Plan, folder: &Path) -> Result<(), Failure> {
+        let store = Store::new(folder);
+        let outcomes: Vec<_> = plan
+            .points()
+            .iter()
+            .map(|point| store.load(point))
+            .collect();
+        let progress = Counts::new(outcomes.iter().map(Option::as_ref));
+        if self.json {
+            return print(&json::text(&json!(progress)));
+        }
+        print(&format!("{}\n", counts(&progress)))
+    }
+
+    fn merge(&self, plan: &Plan, folder: &Path) -> Result<(), Failure> {
+        let store = Store::new(folder);
+        let report = Report::read(plan, &store).map_err(|progress| {
+            Failure::Run(format!(
+                "the sweep is not finished, {}: run its parts again; they go on where they were",
+                counts(&progress)
+            ))
+        })?;
+        let json = report.json();
+        let mut files = vec![
+            ("sweep.csv".to_owned(), report.csv().into_bytes()),
+            (PLAN.to_owned(), plan.to_text().into_bytes()),
+        ];
+        for (name, picture) in curve_data::pictures(&report).map_err(WriteError::from)? {
+            files.push((format!("pictures/{name}.svg"), picture.svg.into_bytes()));
+            files.push((format!("pictures/{name}.png"), picture.png));
+        }
+        files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
+        interrupt::without(|| {
+            store.tidy();
+            files
+                .iter()
+                .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
+        })?;
+        if self.json {
+            print(&json)?;
+        } else if !self.quiet {
+            let folder = folder.display();
+            let files = "sweep.csv, sweep.json, pictures/";
+            print(&format!(
+                "{}results in {folder}: {files}\n",
+                report.summary()
+            ))?;
+        }
+        match report.progress().failed {
+            0 => Ok(()),
+            failed => Err(Failure::Run(format!(
+                "{failed} points failed by a fault of tilebind; sweep.csv says which and why"
+            ))),
+        }
+    }
+}
+
+fn folder_of(file: &Path) -> PathBuf {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+fn usage(error: PlanError) -> Failure {
+    Failure::Usage(error.to_string())
+}
+
+/// A part as `i/n`.
+fn shard(text: &str) -> Result<Shard, String> {
+    let (number, of) = text.split_once('/').ok_or("a part is i/n, such as 1/4")?;
+    let parse = |part: &str| part.trim().parse().ok();
+    match (parse(number), parse(of)) {
+        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok(Shard { number, of }),
+        _ => Err("parts of n are 1/n, 2/n, ... n/n".to_owned()),
+    }
+}

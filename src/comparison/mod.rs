@@ -1,0 +1,234 @@
+//! Designs side by side: what the main job says of each in a dozen figures.
+//!
+//! [`assess`] runs the main job on a design and keeps an [`Assessment`]; a [`Quantity`] reads one
+//! figure of it, with its bounds; [`ranking`] sorts designs by a figure and says which order is
+//! proved.
+//!
+//! - The *depth* of a state is minus its energy.
+//! - *Unbinding* climbs from the bond to `free`, *binding* the other way, over the same saddle: a
+//!   barrier for binding is the saddle's energy above that of tiles far apart, which is 0, and 0
+//!   where the saddle lies below that. Bounds are those of the saddle, shifted likewise.
+//! - *Selectivity* is the depth of the bond over that of the deepest trap.
+//! - The *capture range* is defined in [`capture_range`].
+
+pub mod capture_range;
+mod quantity;
+pub mod ranking;
+
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::{Analysis, Certified, Settings};
+use crate::design::Design;
+use crate::landscape::{Barrier, Place, State, StateKind};
+use crate::pipeline::{self, Observer};
+
+pub use capture_range::CaptureRange;
+pub use quantity::{Bounds, Estimate, Quantity};
+
+/// How designs are assessed: all that decides an assessment besides the design and the seed.
+///
+/// There is no limit of time among it, so that every machine finds the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AssessmentSettings {
+    /// Milestones of the roadmap.
+    pub milestones: usize,
+    /// Neighbours of each milestone; by the PRM* rule where `None`.
+    pub neighbours: Option<usize>,
+    /// A barrier is settled when it moves by less than this fraction.
+    pub settled: f64,
+    /// Number of far starts from which capture shares are counted.
+    pub far_starts: usize,
+    /// Width (J) to which certified bounds are narrowed; a hundredth of the bond where `None`.
+    #[serde(rename = "tolerance_J")]
+    pub tolerance: Option<f64>,
+    /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
+    pub certify_cells: usize,
+}
+
+impl Default for AssessmentSettings {
+    fn default() -> Self {
+        let settings = Settings::default();
+        Self {
+            milestones: settings.milestones,
+            neighbours: settings.neighbours,
+            settled: settings.settled,
+            far_starts: settings.far_starts,
+            tolerance: settings.tolerance,
+            certify_cells: 200_000,
+        }
+    }
+}
+
+impl AssessmentSettings {
+    /// The settings of the main job.
+    pub fn settings(&self, seed: u64) -> Settings {
+        Settings {
+            seed,
+            milestones: self.milestones,
+            neighbours: self.neighbours,
+            settled: self.settled,
+            far_starts: self.far_starts,
+            tolerance: self.tolerance,
+            certify_cells: self.certify_cells,
+            certify_seconds: if self.certify_cells > 0 {
+                f64::INFINITY
+            } else {
+                0.0
+            },
+            certified: Certified::BondAndDeepestTrap,
+            ..Settings::default()
+        }
+    }
+}
+
+/// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Assessment {
+    pub name: String,
+    /// SHA-256 of the design file's bytes.
+    pub sha256: String,
+    /// The magnet model, as design files call it.
+    pub model: String,
+    pub seed: u64,
+    /// Energy with the target faces coinciding (J).
+    #[serde(rename = "target_energy_J")]
+    pub target_energy: f64,
+    /// `None` where the bond does not hold.
+    pub bond: Option<Bond>,
+    /// Kinds of trap, symmetric copies taken together.
+    pub trap_kinds: usize,
+    pub deepest_trap: Option<Trap>,
+    /// Number of far starts, and how many of them end bound and in no state.
+    pub far_starts: usize,
+    pub captured: usize,
+    pub uncaptured: usize,
+}
+
+/// The bound state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bond {
+    pub pose: [f64; 3],
+    #[serde(rename = "energy_J")]
+    pub energy: f64,
+    /// To `free`.
+    pub way_out: Way,
+    /// `None` where tiles that meet head-on do not bind.
+    pub capture_range: Option<CaptureRange>,
+}
+
+/// A trap.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trap {
+    pub pose: [f64; 3],
+    #[serde(rename = "energy_J")]
+    pub energy: f64,
+    /// To the nearest lower state or to `free`.
+    pub escape: Way,
+}
+
+/// The best way out of a state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Way {
+    /// Highest energy on the way (J); `None` where no way was found.
+    #[serde(rename = "saddle_energy_J")]
+    pub saddle: Option<f64>,
+    /// Certified bounds of the least possible highest energy (J), where certified.
+    #[serde(rename = "lower_J")]
+    pub lower: Option<f64>,
+    #[serde(rename = "upper_J")]
+    pub upper: Option<f64>,
+    /// Proved that there is no way at all.
+    pub caged: bool,
+}
+
+impl Way {
+    fn new(barrier: Option<&Barrier>) -> Self {
+        barrier.map_or_else(Self::default, |barrier| Self {
+            saddle: Some(barrier.saddle_energy).filter(|saddle| saddle.is_finite()),
+            lower: barrier.lower,
+            upper: barrier.upper,
+            caged: barrier.caged,
+        })
+    }
+
+    /// The climb (J) above `energy`, never negative.
+    pub fn climb(&self, energy: f64) -> Option<Estimate> {
+        let above = |saddle: f64| (saddle - energy).max(0.0);
+        if self.caged {
+            return Some(Estimate {
+                value: f64::INFINITY,
+                low: Some(f64::INFINITY),
+                high: None,
+            });
+        }
+        self.saddle.map(|saddle| Estimate {
+            value: above(saddle),
+            low: self.lower.map(above),
+            high: self.upper.map(above),
+        })
+    }
+}
+
+/// Analyses a design and keeps what is compared.
+pub fn assess(
+    design: &Design,
+    settings: &AssessmentSettings,
+    seed: u64,
+    observer: &dyn Observer,
+) -> Assessment {
+    let analysis = pipeline::analyse(design, &settings.settings(seed), observer);
+    Assessment::new(design, &analysis)
+}
+
+impl Assessment {
+    /// What is compared of an analysed design; the capture range is found here.
+    pub fn new(design: &Design, analysis: &Analysis) -> Self {
+        let first = |kind| analysis.states.iter().find(|state| state.kind == kind);
+        let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);
+        let bound = first(StateKind::Bound);
+        Self {
+            name: design.name.clone(),
+            sha256: design.sha256.clone(),
+            model: design.model.name().to_owned(),
+            seed: analysis.settings.seed,
+            target_energy: analysis.bound.1,
+            bond: bound.map(|state| bond(design, analysis, state)),
+            trap_kinds: analysis
+                .states
+                .iter()
+                .filter(|state| state.kind == StateKind::Misbound && state.id == state.class)
+                .count(),
+            deepest_trap: first(StateKind::Misbound).map(|state| Trap {
+                pose: state.configuration.to_array(),
+                energy: state.energy,
+                escape: escape(analysis, state),
+            }),
+            far_starts: analysis.uncaptured.of,
+            captured: analysis
+                .states
+                .iter()
+                .filter(|state| state.kind == StateKind::Bound)
+                .map(captured)
+                .sum(),
+            uncaptured: analysis.uncaptured.count,
+        }
+    }
+}
+
+fn bond(design: &Design, analysis: &Analysis, state: &State) -> Bond {
+    let problem = pipeline::problem(design);
+    let to_free = |way: &&Barrier| way.from == Place::State(state.id) && way.to == Place::Free;
+    Bond {
+        pose: state.configuration.to_array(),
+        energy: state.energy,
+        way_out: Way::new(analysis.barriers.iter().find(to_free)),
+        capture_range: capture_range::find(design, &problem, &state.configuration, state.energy),
+    }
+}
+
+/// The escape of a state, or the proof that there is none.
+fn escape(analysis: &Analysis, state: &State) -> Way {
+    let escape = analysis.escapes[state.id].as_ref();
+    let caged = |way: &&Barrier| way.from == Place::State(state.id) && way.caged;
+    Way::new(escape.or_else(|| analysis.barriers.iter().find(caged)))
+}

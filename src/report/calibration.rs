@@ -1,0 +1,133 @@
+//! A calibration of shields for people and for programs.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::json;
+use crate::calibration::{Calibration, QUANTITIES, Residuals};
+use crate::design::Design;
+use crate::units::si;
+
+/// The constants of a shield: name in a design file, unit.
+const CONSTANTS: [(&str, &str); 4] = [
+    ("attenuation", ""),
+    ("length", " m"),
+    ("width", ""),
+    ("front_gain", ""),
+];
+/// Keys of the measured quantities.
+const KEYS: [&str; 4] = ["energy_J", "force_x_N", "force_y_N", "torque_Nm"];
+
+fn values(calibration: &Calibration) -> [f64; 4] {
+    let shield = calibration.shield;
+    [
+        shield.attenuation,
+        shield.length,
+        shield.width,
+        shield.front_gain,
+    ]
+}
+
+/// What a calibration found, with the lines for a design file.
+pub fn summary(design: &Design, calibration: &Calibration) -> String {
+    let (fitted, held_out) = (&calibration.fitted, &calibration.held_out);
+    let rows = |part: &Residuals| {
+        let bare = part.rows - part.with_iron;
+        format!("{} rows with iron and {bare} without", part.with_iron)
+    };
+    let mut text = format!(
+        "{}, magnets as {}s: fitted to {}; held out: {}\n\n[shield]\n",
+        design.name,
+        design.model.name(),
+        rows(fitted),
+        rows(held_out),
+    );
+    let constants = values(calibration).into_iter().zip(CONSTANTS);
+    for ((value, (name, unit)), error) in constants.zip(calibration.standard_errors) {
+        // By the logarithm, a constant is known only if its error is smaller than itself.
+        let error = if error < value {
+            format!("+- {error:.1e}{unit}")
+        } else {
+            "these rows do not tell it".to_owned()
+        };
+        let _ = writeln!(text, "{:<28}# {error}", format!("{name} = {value:.4}"));
+    }
+    let _ = writeln!(text, "\n{}", strength(calibration));
+    if !calibration.settled {
+        let steps = calibration.steps;
+        let _ = writeln!(
+            text,
+            "the fit had not settled after {steps} steps: its constants are not to be trusted"
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\nroot mean square of measured minus modelled, and relative to that of the measured:"
+    );
+    let _ = writeln!(text, "{:<16}{:<24}held out", "", "fitted");
+    for (k, (name, unit)) in QUANTITIES.iter().enumerate() {
+        if fitted.rms[k].is_some() || held_out.rms[k].is_some() {
+            let [a, b] = [fitted, held_out].map(|part| residual(part, k, unit));
+            let _ = writeln!(text, "{name:<16}{a:<24}{b}");
+        }
+    }
+    text
+}
+
+fn strength(calibration: &Calibration) -> String {
+    if calibration.fitted.rows == calibration.fitted.with_iron {
+        return "no rows without iron: the magnets are taken to be as strong as the design says"
+            .to_owned();
+    }
+    let strength = calibration.strength;
+    format!(
+        "without iron the measured values are {strength:.4} times the model's: multiply the \
+         magnets' remanence or moment by {:.4}",
+        strength.sqrt()
+    )
+}
+
+fn residual(part: &Residuals, k: usize, unit: &str) -> String {
+    match part.rms[k].zip(part.relative[k]) {
+        Some((rms, relative)) => format!("{} ({:.2} %)", si(rms, unit, 3), 100.0 * relative),
+        None => "none".to_owned(),
+    }
+}
+
+/// The same as JSON.
+pub fn json(design: &Design, calibration: &Calibration) -> String {
+    let [attenuation, length, width, front_gain] = values(calibration);
+    let errors = calibration.standard_errors;
+    json::text(&json!({
+        "tilebind": env!("CARGO_PKG_VERSION"),
+        "design": {"name": design.name, "sha256": design.sha256},
+        "model": design.model.name(),
+        "shield": {
+            "attenuation": attenuation, "length_m": length, "width": width,
+            "front_gain": front_gain,
+        },
+        "standard_errors": {
+            "attenuation": errors[0], "length_m": errors[1], "width": errors[2],
+            "front_gain": errors[3],
+        },
+        "strength": calibration.strength,
+        "fitted": residuals(&calibration.fitted),
+        "held_out": residuals(&calibration.held_out),
+        "steps": calibration.steps,
+        "settled": calibration.settled,
+    }))
+}
+
+fn residuals(part: &Residuals) -> Value {
+    let by_quantity = |values: &[Option<f64>; 4]| -> Value {
+        let entries = KEYS.iter().zip(values);
+        entries.map(|(key, value)| (*key, json!(value))).collect()
+    };
+    json!({
+        "rows": part.rows,
+        "rows_with_iron": part.with_iron,
+        "rms": by_quantity(&part.rms),
+        "relative": by_quantity(&part.relative),
+    })
+}

@@ -1,0 +1,388 @@
+//! Designs side by side: tables for the terminal, CSV, JSON and Markdown.
+
+use std::fmt::Write;
+
+use serde_json::{Map, Value, json};
+
+use super::csv::{number, text};
+use super::json;
+use super::summary::{percent, write_table};
+use crate::comparison::{
+    Assessment, AssessmentSettings, Bounds, Estimate, Quantity, capture_range, ranking,
+};
+use crate::landscape::Proportion;
+use crate::landscape::certificate::Ordering;
+use crate::units::{si, si_range};
+
+/// Significant digits of energies.
+const DIGITS: usize = 4;
+
+/// Figures whose order may be proved.
+const ORDERED: [Quantity; 3] = [Quantity::Unbinding, Quantity::Binding, Quantity::TrapEscape];
+
+/// Designs in the order of a ranking.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Best first.
+    pub designs: Vec<Assessment>,
+    pub by: Quantity,
+    pub settings: AssessmentSettings,
+}
+
+impl Comparison {
+    /// Designs ranked by a figure.
+    pub fn new(designs: &[Assessment], by: Quantity, settings: AssessmentSettings) -> Self {
+        let order = ranking::ranked(designs, by);
+        Self {
+            designs: order.into_iter().map(|i| designs[i].clone()).collect(),
+            by,
+            settings,
+        }
+    }
+
+    /// The tables and the proved order, for the terminal.
+    pub fn summary(&self) -> String {
+        let mut out = format!(
+            "{} designs, ranked by {}\n",
+            self.designs.len(),
+            self.by.label()
+        );
+        for table in self.tables() {
+            write_table(&mut out, &table);
+            out.push('\n');
+        }
+        for line in self.orders() {
+            let _ = writeln!(out, "{line}");
+        }
+        out
+    }
+
+    /// The same for people, as Markdown.
+    pub fn markdown(&self) -> String {
+        let mut out = format!("# Designs ranked by {}\n", self.by.label());
+        for table in self.tables() {
+            out.push('\n');
+            out += &markdown_table(&table);
+        }
+        out.push('\n');
+        for line in self.orders() {
+            let _ = writeln!(out, "- {line}");
+        }
+        let _ = write!(
+            out,
+            "\nBrackets hold certified bounds; percentages are of {} far starts, with 95 % \
+             intervals. The capture range is how far off a tile that touches head-on may be slid, \
+             drawn back or tilted and still run downhill into the bond, to within {} % of its \
+             depth.\n",
+            self.settings.far_starts,
+            100.0 * capture_range::ENERGY_SHARE,
+        );
+        out
+    }
+
+    fn tables(&self) -> [Vec<Vec<String>>; 2] {
+        let heads = |heads: &[&str]| heads.iter().map(|head| (*head).to_owned()).collect();
+        let mut depths = vec![heads(&[
+            "design",
+            "bond",
+            "deepest trap",
+            "selectivity",
+            "captured",
+            "offset (mm)",
+            "gap (mm)",
+            "tilt (°)",
+        ])];
+        let mut barriers = vec![heads(&[
+            "design",
+            "unbinding barrier",
+            "binding barrier",
+            "escape from the deepest trap",
+            "kinds of trap",
+        ])];
+        for design in &self.designs {
+            let cell = |quantity: Quantity| cell(quantity, design);
+            let name = self.name(design);
+            depths.push(vec![
+                name.clone(),
+                cell(Quantity::BondDepth),
+                cell(Quantity::TrapDepth),
+                cell(Quantity::Selectivity),
+                cell(Quantity::Captured),
+                to_either_side(design, [Quantity::OffsetLow, Quantity::OffsetHigh]),
+                cell(Quantity::Gap),
+                to_either_side(design, [Quantity::TiltLow, Quantity::TiltHigh]),
+            ]);
+            barriers.push(vec![
+                name,
+                cell(Quantity::Unbinding),
+                cell(Quantity::Binding),
+                cell(Quantity::TrapEscape),
+                cell(Quantity::TrapKinds),
+            ]);
+        }
+        [depths, barriers]
+    }
+
+    /// A design's name, with the model where models differ.
+    fn name(&self, design: &Assessment) -> String {
+        let models = |d: &Assessment| d.model != self.designs[0].model;
+        if self.designs.iter().any(models) {
+            format!("{} ({})", design.name, design.model)
+        } else {
+            design.name.clone()
+        }
+    }
+
+    /// A line for each figure whose order may be proved, from the highest to the lowest.
+    fn orders(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for quantity in ORDERED {
+            let order = ranking::ranked(&self.designs, quantity);
+            let known: Vec<&Assessment> = order
+                .into_iter()
+                .map(|i| &self.designs[i])
+                .filter(|design| quantity.of(design).is_some_and(|e| e.low.is_some()))
+                .collect();
+            if known.len() < 2 {
+                continue;
+            }
+            let mut line = format!("certified order of the {}: ", named(quantity));
+            line += &self.name(known[0]);
+            for pair in known.windows(2) {
+                let sign = match ranking::order(pair[0], pair[1], quantity) {
+                    Ordering::Higher => ">",
+                    Ordering::Lower | Ordering::Undecided => "~",
+                };
+                let _ = write!(line, " {sign} {}", self.name(pair[1]));
+            }
+            lines.push(line);
+        }
+        if !lines.is_empty() {
+            lines.push("(> proved for the stated model, ~ undecided: bounds overlap)".to_owned());
+        }
+        lines
+    }
+
+    /// One line a design, best first.
+    pub fn csv(&self) -> String {
+        let mut out = format!("rank,name,model,{}\n", columns().join(","));
+        for (k, design) in self.designs.iter().enumerate() {
+            let _ = writeln!(
+                out,
+                "{},{},{},{}",
+                k + 1,
+                text(&design.name),
+                design.model,
+                cells(design).join(",")
+            );
+        }
+        out
+    }
+
+    /// Everything, with what reproduces it.
+    pub fn json(&self) -> String {
+        let designs: Vec<Value> = self
+            .designs
+            .iter()
+            .enumerate()
+            .map(|(k, design)| {
+                let mut entry = json!({"rank": k + 1});
+                merge(&mut entry, json!(design));
+                merge(&mut entry, json!({"quantities": quantities(design)}));
+                entry
+            })
+            .collect();
+        json::text(&json!({
+            "tilebind": env!("CARGO_PKG_VERSION"),
+            "ranked_by": self.by.key(),
+            "settings": self.settings,
+            "capture_range": capture_settings(),
+            "designs": designs,
+            "certified_order": self.proved(),
+        }))
+    }
+
+    /// For each figure the pairs of designs whose order is proved, by their places in the ranking.
+    fn proved(&self) -> Value {
+        let mut all = Map::new();
+        for quantity in ORDERED {
+            let mut pairs = Vec::new();
+            for (i, a) in self.designs.iter().enumerate() {
+                for (j, b) in self.designs.iter().enumerate() {
+                    if ranking::order(a, b, quantity) == Ordering::Higher {
+                        pairs.push(json!({
+                            "higher": a.name, "higher_rank": i + 1,
+                            "lower": b.name, "lower_rank": j + 1,
+                        }));
+                    }
+                }
+            }
+            all.insert(quantity.key().to_owned(), Value::Array(pairs));
+        }
+        Value::Object(all)
+    }
+}
+
+fn named(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::TrapEscape => "escape from the deepest trap",
+        other => other.label(),
+    }
+}
+
+/// What a capture range depends on.
+pub fn capture_settings() -> Value {
+    json!({
+        "steps": capture_range::STEPS,
+        "halvings": capture_range::HALVINGS,
+        "same_bond_m": capture_range::SAME_BOND,
+        "energy_share": capture_range::ENERGY_SHARE,
+    })
+}
+
+/// Adds the keys of one object to another.
+pub fn merge(object: &mut Value, more: Value) {
+    if let (Value::Object(object), Value::Object(more)) = (object, more) {
+        object.extend(more);
+    }
+}
+
+/// The figures of a design as JSON: a number, or an object with its bounds.
+pub fn quantities(design: &Assessment) -> Value {
+    let mut all = Map::new();
+    for quantity in Quantity::ALL {
+        let estimate = quantity.of(design);
+        let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
+        let value = finite(estimate.map(|e| e.value));
+        let [low, high] = [estimate.and_then(|e| e.low), estimate.and_then(|e| e.high)].map(finite);
+        let entry = match quantity.bounds() {
+            Bounds::None => json!(value),
+            Bounds::Certified => json!({"value": value, "lower": low, "upper": high}),
+            Bounds::Interval => json!({"value": value, "low": low, "high": high}),
+        };
+        all.insert(quantity.column(""), entry);
+    }
+    Value::Object(all)
+}
+
+/// Names of a bound below and one above.
+fn parts(bounds: Bounds) -> &'static [&'static str] {
+    match bounds {
+        Bounds::None => &[],
+        Bounds::Certified => &["_lower", "_upper"],
+        Bounds::Interval => &["_low", "_high"],
+    }
+}
+
+/// Columns of a table of assessments.
+pub fn columns() -> Vec<String> {
+    let mut columns = Vec::new();
+    for quantity in Quantity::ALL {
+        columns.push(quantity.column(""));
+        columns.extend(parts(quantity.bounds()).iter().map(|p| quantity.column(p)));
+    }
+    columns.extend(["caged", "target_energy_J", "seed", "sha256"].map(str::to_owned));
+    columns
+}
+
+/// The cells of [`columns`]; empty where there is nothing to say, or no way at all.
+pub fn cells(design: &Assessment) -> Vec<String> {
+    let finite = |value: Option<f64>| {
+        let value = value.filter(|v| v.is_finite());
+        value.map(number).unwrap_or_default()
+    };
+    let mut cells = Vec::new();
+    for quantity in Quantity::ALL {
+        let estimate = quantity.of(design);
+        cells.push(finite(estimate.map(|e| e.value)));
+        if quantity.bounds() != Bounds::None {
+            cells.push(finite(estimate.and_then(|e| e.low)));
+            cells.push(finite(estimate.and_then(|e| e.high)));
+        }
+    }
+    let caged = design.bond.as_ref().is_some_and(|b| b.way_out.caged);
+    cells.extend([
+        caged.to_string(),
+        number(design.target_energy),
+        design.seed.to_string(),
+        design.sha256.clone(),
+    ]);
+    cells
+}
+
+/// A figure for people, with its bounds; `-` where there is none.
+pub fn cell(quantity: Quantity, design: &Assessment) -> String {
+    let Some(estimate) = quantity.of(design) else {
+        return match quantity {
+            Quantity::TrapDepth | Quantity::TrapEscape if design.trap_kinds == 0 => "no traps",
+            Quantity::BondDepth => "does not hold",
+            _ => "-",
+        }
+        .to_owned();
+    };
+    let value = estimate.value;
+    match (quantity, quantity.unit()) {
+        (Quantity::Captured, _) => percent(&Proportion::new(design.captured, design.far_starts)),
+        (Quantity::TrapKinds, _) => format!("{value}"),
+        (_, "J") => energy(&estimate),
+        (_, "m") => at_least(quantity, design, &format!("{:.1}", 1e3 * value)),
+        (_, "rad") => at_least(quantity, design, &format!("{:.1}", value.to_degrees())),
+        _ => format!("{value:.3}"),
+    }
+}
+
+/// A capture range, marked where it reaches the limit of what was looked at.
+fn at_least(quantity: Quantity, design: &Assessment, text: &str) -> String {
+    let range = design.bond.as_ref().and_then(|bond| bond.capture_range);
+    let at_limit = range.is_some_and(|range| match quantity {
+        Quantity::OffsetLow => range.offset[0] <= -range.limits[0],
+        Quantity::OffsetHigh => range.offset[1] >= range.limits[0],
+        Quantity::Gap => range.gap >= range.limits[1],
+        Quantity::TiltLow => range.tilt[0] <= -range.limits[2],
+        _ => range.tilt[1] >= range.limits[2],
+    });
+    match (at_limit, quantity) {
+        (false, _) => text.to_owned(),
+        (true, Quantity::OffsetLow | Quantity::TiltLow) => format!("\u{2264} {text}"),
+        (true, _) => format!("\u{2265} {text}"),
+    }
+}
+
+/// An energy with its bounds: `65.46 mJ [64.84 to 65.46 mJ]`.
+fn energy(estimate: &Estimate) -> String {
+    if estimate.value.is_infinite() {
+        return "no way, proved".to_owned();
+    }
+    let value = si(estimate.value, "J", DIGITS);
+    match (estimate.low, estimate.high) {
+        (Some(low), Some(high)) if high > 0.0 => {
+            format!("{value} [{}]", si_range(low, high, "J", DIGITS))
+        }
+        (Some(_), Some(_)) => "none, proved".to_owned(),
+        _ => value,
+    }
+}
+
+/// `-18.2 to 18.1`.
+fn to_either_side(design: &Assessment, quantities: [Quantity; 2]) -> String {
+    let sides = quantities.map(|quantity| cell(quantity, design));
+    if sides[0] == "-" {
+        return "-".to_owned();
+    }
+    sides.join(" to ")
+}
+
+/// Rows as a Markdown table, the first one its head.
+pub fn markdown_table(rows: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let mut out = String::new();
+    if let Some((head, rest)) = rows.split_first() {
+        out += &line(head);
+        out += &format!("|{}\n", "---|".repeat(head.len()));
+        rest.iter().for_each(|row| out += &line(row));
+    }
+    out
+}

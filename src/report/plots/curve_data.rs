@@ -1,0 +1,247 @@
+//! What the pictures of a sweep show: its points sorted into series over one or two numbers.
+
+use super::PictureError;
+use super::style::Axis;
+use super::{curve_map, curves, picture::Picture};
+use crate::comparison::Assessment;
+use crate::report::sweep::{Sweep, short};
+use crate::sweep::{Point, Value};
+
+/// Keys of the design that are lengths: their axes are in mm.
+const LENGTHS: [&str; 12] = [
+    "depth",
+    "width",
+    "offset",
+    "span",
+    "side",
+    "thickness",
+    "pitch",
+    "inset",
+    "fit",
+    "size",
+    "x",
+    "y",
+];
+/// Most pictures of a sweep.
+const MOST_PICTURES: usize = 24;
+
+/// A varied number.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Which of the plan's axes.
+    axis: usize,
+    key: String,
+    pub values: Vec<f64>,
+}
+
+impl Variable {
+    /// What the numbers of the file are multiplied by on an axis, and its name.
+    pub fn shown(&self) -> (f64, String) {
+        let mut parts = self.key.rsplit('.');
+        let mut last = parts.next().unwrap_or_default().to_owned();
+        if last.parse::<usize>().is_ok() {
+            // An item of an array.
+            last = format!("{} {last}", parts.next().unwrap_or_default());
+        }
+        let word = last.split(' ').next().unwrap_or_default();
+        if LENGTHS.contains(&word) {
+            (1e3, format!("{last} (mm)"))
+        } else {
+            (1.0, last)
+        }
+    }
+
+    /// The axis, a little longer than the numbers.
+    pub fn axis(&self) -> Axis {
+        let (factor, name) = self.shown();
+        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self
+            .values
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        let room = 0.03 * (high - low);
+        Axis::linear(factor * (low - room)..factor * (high + room), 6, name)
+    }
+}
+
+/// One curve: over the varied number, as the axis shows it, what came of each point.
+#[derive(Clone, Debug)]
+pub struct Series<'a> {
+    pub name: String,
+    /// `None` where the design is impossible.
+    pub points: Vec<(f64, Option<&'a Assessment>)>,
+}
+
+/// The content of a picture of curves.
+#[derive(Clone, Debug)]
+pub struct Group<'a> {
+    pub title: String,
+    pub series: Vec<Series<'a>>,
+    /// Series that found no place.
+    pub left_out: usize,
+}
+
+/// What all points of a picture of a map, or of a curve, have in common.
+type Common = Vec<(String, String)>;
+
+/// The pictures of a sweep by the stems of their files: curves where one number is varied, maps
+/// where two are; none otherwise. Everything else that is varied tells series and pictures apart.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn pictures(sweep: &Sweep) -> Result<Vec<(String, Picture)>, PictureError> {
+    let numbers = variables(sweep);
+    let fixed: Vec<usize> = (0..sweep.plan.axes.len())
+        .filter(|axis| numbers.iter().all(|number| number.axis != *axis))
+        .collect();
+    let mut groups: Vec<(Common, Vec<&Point>)> = Vec::new();
+    for point in &sweep.points {
+        let common = common(sweep, point, &fixed);
+        match groups.iter_mut().find(|(known, _)| *known == common) {
+            Some((_, points)) => points.push(point),
+            None => groups.push((common, vec![point])),
+        }
+    }
+    match &numbers[..] {
+        [number] => curve_pictures(sweep, number, &groups),
+        [x, y] => groups
+            .iter()
+            .take(MOST_PICTURES)
+            .map(|(common, points)| {
+                let cells = cells(sweep, points, x, y);
+                let title = titled(sweep, common);
+                Ok((file("map", common), curve_map::draw(&title, x, y, &cells)?))
+            })
+            .collect(),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// A picture for each value of all but the first word that is varied, a series for each value of
+/// that first one.
+fn curve_pictures(
+    sweep: &Sweep,
+    number: &Variable,
+    groups: &[(Common, Vec<&Point>)],
+) -> Result<Vec<(String, Picture)>, PictureError> {
+    let mut pictures: Vec<(Common, Vec<Series>)> = Vec::new();
+    for (common, points) in groups {
+        let (name, rest) = match common.split_first() {
+            Some((first, rest)) => (first.1.clone(), rest.to_vec()),
+            None => (String::new(), Vec::new()),
+        };
+        let points = points.iter().map(|point| {
+            let value = point.values[number.axis].number().unwrap_or(f64::NAN);
+            (number.shown().0 * value, sweep.assessment(point.index))
+        });
+        let mut points: Vec<_> = points.collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let series = Series { name, points };
+        match pictures.iter_mut().find(|(known, _)| *known == rest) {
+            Some((_, all)) => all.push(series),
+            None => pictures.push((rest, vec![series])),
+        }
+    }
+    pictures
+        .into_iter()
+        .take(MOST_PICTURES)
+        .map(|(rest, mut series)| {
+            let left_out = series.len().saturating_sub(curves::MOST_SERIES);
+            series.truncate(curves::MOST_SERIES);
+            let group = Group {
+                title: titled(sweep, &rest),
+                series,
+                left_out,
+            };
+            Ok((file("curves", &rest), curves::draw(&group, number)?))
+        })
+        .collect()
+}
+
+/// The axes along which more than one number is varied.
+fn variables(sweep: &Sweep) -> Vec<Variable> {
+    let axes = sweep.plan.axes.iter().enumerate();
+    axes.filter_map(|(axis, varied)| {
+        let values: Option<Vec<f64>> = varied.values.iter().map(Value::number).collect();
+        let mut values = values?;
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        (values.len() > 1).then(|| Variable {
+            axis,
+            key: varied.key.clone(),
+            values,
+        })
+    })
+    .collect()
+}
+
+/// The design, where there are several, and the varied words of a point.
+fn common(sweep: &Sweep, point: &Point, fixed: &[usize]) -> Common {
+    let mut common = Vec::new();
+    if sweep.plan.designs.len() > 1 {
+        let name = sweep.plan.designs[point.design].name.clone();
+        common.push(("design".to_owned(), name));
+    }
+    common.extend(fixed.iter().map(|&axis| {
+        let key = short(&sweep.plan.axes[axis].key).to_owned();
+        (key, point.values[axis].to_string())
+    }));
+    common
+}
+
+fn titled(sweep: &Sweep, common: &Common) -> String {
+    let mut parts: Vec<String> = common
+        .iter()
+        .map(|(key, value)| format!("{key} {value}"))
+        .collect();
+    if let [design] = &sweep.plan.designs[..] {
+        parts.insert(0, design.name.clone());
+    }
+    let keys = variables(sweep);
+    let keys: Vec<&str> = keys.iter().map(|number| short(&number.key)).collect();
+    let over = format!("over {}", keys.join(" and "));
+    if parts.is_empty() {
+        over
+    } else {
+        format!("{}: {over}", parts.join(", "))
+    }
+}
+
+/// The stem of a picture's file.
+fn file(kind: &str, common: &Common) -> String {
+    let mut stem = kind.to_owned();
+    for (_, value) in common {
+        let plain = |c: char| {
+            if c.is_alphanumeric() || c == '.' {
+                c
+            } else {
+                '-'
+            }
+        };
+        stem.push('-');
+        stem.extend(value.chars().map(plain));
+    }
+    stem
+}
+
+/// What came of the points of a map, row by row from the lowest; the outer `None` where there is no
+/// such point.
+fn cells<'a>(
+    sweep: &'a Sweep,
+    points: &[&Point],
+    x: &Variable,
+    y: &Variable,
+) -> Vec<Option<Option<&'a Assessment>>> {
+    let mut cells = vec![None; x.values.len() * y.values.len()];
+    for point in points {
+        let place = |variable: &Variable| {
+            let value = point.values[variable.axis].number()?;
+            variable.values.iter().position(|known| *known == value)
+        };
+        if let (Some(i), Some(j)) = (place(x), place(y)) {
+            cells[j * x.values.len() + i] = Some(sweep.assessment(point.index));
+        }
+    }
+    cells
+}

@@ -1,0 +1,305 @@
+//! The figures of a sweep as curves over one varied number, bounds as bands around them.
+
+use plotters::prelude::{Color, RGBColor};
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::curve_data::{Group, Series, Variable};
+use super::marks::{Pixel, polygon, polyline};
+use super::picture::{Area, Picture, PictureError};
+use super::ranking::disc;
+use super::style::{
+    Axis, BLUE, Chart, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title, units,
+};
+use crate::comparison::{Estimate, Quantity};
+use crate::units::prefix_of;
+
+const WIDTH: f64 = 1200.0;
+/// The title and the key of the series (pixels).
+const HEAD: f64 = 84.0;
+const PANEL_HEIGHT: f64 = 262.0;
+const COLUMNS: usize = 3;
+/// Space around a panel's plot (pixels): top, right, bottom, left.
+const MARGIN: [f64; 4] = [34.0, 20.0, 58.0, 78.0];
+
+/// Okabe and Ito's colours, told apart by colour-blind readers.
+const COLOURS: [RGBColor; 7] = [
+    BLUE,
+    VERMILLION,
+    GREEN,
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    INK,
+];
+/// Most series in a picture: one a colour.
+pub const MOST_SERIES: usize = COLOURS.len();
+
+/// What a panel shows: figures of the same kind, as one curve or, to either side of zero, two.
+struct Panel {
+    heading: &'static str,
+    quantities: &'static [Quantity],
+}
+
+const PANELS: [Panel; 9] = [
+    Panel {
+        heading: "bond: depth",
+        quantities: &[Quantity::BondDepth],
+    },
+    Panel {
+        heading: "deepest trap: depth",
+        quantities: &[Quantity::TrapDepth],
+    },
+    Panel {
+        heading: "selectivity",
+        quantities: &[Quantity::Selectivity],
+    },
+    Panel {
+        heading: "unbinding barrier",
+        quantities: &[Quantity::Unbinding],
+    },
+    Panel {
+        heading: "escape from the deepest trap",
+        quantities: &[Quantity::TrapEscape],
+    },
+    Panel {
+        heading: "binding barrier",
+        quantities: &[Quantity::Binding],
+    },
+    Panel {
+        heading: "captured far starts",
+        quantities: &[Quantity::Captured],
+    },
+    Panel {
+        heading: "capture range: offset to either side",
+        quantities: &[Quantity::OffsetLow, Quantity::OffsetHigh],
+    },
+    Panel {
+        heading: "capture range: tilt to either side",
+        quantities: &[Quantity::TiltLow, Quantity::TiltHigh],
+    },
+];
+
+/// A panel a figure, a curve a series.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn draw(group: &Group, variable: &Variable) -> Result<Picture, PictureError> {
+    let rows = PANELS.len().div_ceil(COLUMNS);
+    let height = HEAD + PANEL_HEIGHT * rows as f64 + 8.0;
+    Picture::draw((WIDTH as u32, height as u32), |root, _| {
+        title(root, &group.title)?;
+        key(root, group)?;
+        let (_, body) = root.split_vertically(units(HEAD));
+        let (body, _) = body.split_vertically(units(PANEL_HEIGHT * rows as f64));
+        let areas = body.split_evenly((rows, COLUMNS));
+        for (area, panel) in areas.iter().zip(&PANELS) {
+            panel.draw(area, root, group, variable)?;
+        }
+        Ok(())
+    })
+}
+
+/// Which colour is which series, and what the marks mean.
+fn key(root: &Area, group: &Group) -> Result<(), PictureError> {
+    let y = HEAD - 24.0;
+    let mut x = 22.0;
+    let font = Text::new(LABEL);
+    for (series, colour) in group.series.iter().zip(COLOURS) {
+        if group.series.len() > 1 {
+            polyline(root, &[(x, y), (x + 24.0, y)], colour, 2.4)?;
+            font.write(
+                root,
+                &series.name,
+                (x + 31.0, y),
+                (HPos::Left, VPos::Center),
+            )?;
+            x += 31.0 + 1.08 * font.width(&series.name) + 22.0;
+        }
+    }
+    let note = match group.left_out {
+        0 => "bands: certified bounds, 95 % for shares; ^ no way, proved; x impossible".to_owned(),
+        more => format!("{more} more series in sweep.csv"),
+    };
+    let at = (WIDTH - 20.0, 22.0);
+    let font = Text::new(SMALL).colour(SOFT);
+    font.write(root, &note, at, (HPos::Right, VPos::Top))
+}
+
+impl Panel {
+    fn draw<'a>(
+        &self,
+        area: &Area<'a>,
+        root: &Area<'a>,
+        group: &Group,
+        variable: &Variable,
+    ) -> Result<(), PictureError> {
+        let (low, high) = self.range(group);
+        let (unit, name) = self.unit(low, high);
+        let x = variable.axis();
+        let y = Axis::linear(low / unit..high / unit, 5, name);
+        let chart = chart(area, MARGIN, &x, &y, true)?;
+        let at = |x: f64, y: f64| pixel(&chart, x, y / unit);
+        let (left, top) = at(x.range.start, high);
+        let (right, bottom) = at(x.range.end, low);
+        Text::new(LABEL).bold().write(
+            root,
+            self.heading,
+            (left, top - 8.0),
+            (HPos::Left, VPos::Bottom),
+        )?;
+        if low < 0.0 {
+            let zero = at(0.0, 0.0).1;
+            polyline(root, &[(left, zero), (right, zero)], INK, 1.2)?;
+        }
+        let mut any = false;
+        for (number, (series, colour)) in group.series.iter().zip(COLOURS).enumerate() {
+            for quantity in self.quantities {
+                let curve = Curve {
+                    root,
+                    chart: &chart,
+                    unit,
+                    top,
+                    colour,
+                    width: width(number, group.series.len()),
+                };
+                any |= curve.draw(series, *quantity)?;
+            }
+            for (x, assessment) in &series.points {
+                if assessment.is_none() {
+                    let at = (pixel(&chart, *x, 0.0).0, bottom - 7.0 - 9.0 * number as f64);
+                    cross(root, at, colour)?;
+                }
+            }
+        }
+        if !any {
+            let at = ((left + right) / 2.0, (top + bottom) / 2.0);
+            let font = Text::new(SMALL).colour(SOFT);
+            font.write(root, "none", at, (HPos::Center, VPos::Center))?;
+        }
+        Ok(())
+    }
+
+    /// From zero, or from below it, to a little above the highest value.
+    fn range(&self, group: &Group) -> (f64, f64) {
+        let mut range = (0.0_f64, 0.0_f64);
+        for series in &group.series {
+            for (_, assessment) in &series.points {
+                let estimates = self.quantities.iter();
+                let estimates = estimates.filter_map(|q| q.of((*assessment)?));
+                for value in estimates.flat_map(|e| [Some(e.value), e.low, e.high]) {
+                    let value = value.filter(|v| v.is_finite()).unwrap_or(0.0);
+                    range = (range.0.min(value), range.1.max(value));
+                }
+            }
+        }
+        if self.quantities == [Quantity::Captured] {
+            return (0.0, 1.0);
+        }
+        let span = range.1 - range.0;
+        if span <= 0.0 {
+            return (
+                0.0,
+                if self.quantities[0].unit() == "J" {
+                    2e-3
+                } else {
+                    1.0
+                },
+            );
+        }
+        let below = if range.0 < 0.0 { 0.08 * span } else { 0.0 };
+        (range.0 - below, range.1 + 0.08 * span)
+    }
+
+    /// What the axis' numbers are multiplied by to be SI, and its name.
+    fn unit(&self, low: f64, high: f64) -> (f64, String) {
+        let (prefixed, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
+        match (self.quantities[0], self.quantities[0].unit()) {
+            (Quantity::Captured, _) => (0.01, "far starts (%)".into()),
+            (_, "J") => (prefixed, format!("energy ({prefix}J)")),
+            (_, "m") => (1e-3, "length (mm)".into()),
+            (_, "rad") => (1f64.to_radians(), "angle (°)".into()),
+            _ => (1.0, "ratio".into()),
+        }
+    }
+}
+
+/// A series' figure on a panel.
+struct Curve<'a, 'b, 'c> {
+    root: &'a Area<'b>,
+    chart: &'a Chart<'c, 'b>,
+    unit: f64,
+    top: f64,
+    colour: RGBColor,
+    width: f64,
+}
+
+impl Curve<'_, '_, '_> {
+    fn at(&self, x: f64, y: f64) -> Pixel {
+        pixel(self.chart, x, y / self.unit)
+    }
+
+    /// Whether there was anything to draw.
+    fn draw(&self, series: &Series, quantity: Quantity) -> Result<bool, PictureError> {
+        let known: Vec<(f64, Option<Estimate>)> = series
+            .points
+            .iter()
+            .map(|(x, assessment)| (*x, assessment.and_then(|a| quantity.of(a))))
+            .collect();
+        let finite = |(_, estimate): &(f64, Option<Estimate>)| {
+            estimate.is_some_and(|estimate| estimate.value.is_finite())
+        };
+        for piece in known.split(|point| !finite(point)) {
+            let piece: Vec<(f64, Estimate)> = piece
+                .iter()
+                .filter_map(|(x, e)| Some((*x, (*e)?)))
+                .collect();
+            self.piece(&piece)?;
+        }
+        for (x, _) in known
+            .iter()
+            .filter(|(_, e)| e.is_some_and(|e| e.value.is_infinite()))
+        {
+            let x = self.at(*x, 0.0).0;
+            let arrow = [
+                (x - 5.0, self.top + 10.0),
+                (x, self.top + 2.0),
+                (x + 5.0, self.top + 10.0),
+            ];
+            polyline(self.root, &arrow, self.colour, 2.0)?;
+        }
+        Ok(known.iter().any(|(_, estimate)| estimate.is_some()))
+    }
+
+    /// A curve without a break, with its band.
+    fn piece(&self, piece: &[(f64, Estimate)]) -> Result<(), PictureError> {
+        for bounded in piece.split(|(_, e)| e.low.is_none() || e.high.is_none()) {
+            let edge = |of: fn(&Estimate) -> Option<f64>| -> Vec<Pixel> {
+                let edge = bounded.iter();
+                edge.map(|(x, e)| self.at(*x, of(e).unwrap_or(e.value)))
+                    .collect()
+            };
+            let mut band = edge(|e| e.low);
+            band.extend(edge(|e| e.high).into_iter().rev());
+            if bounded.len() > 1 {
+                polygon(self.root, &band, self.colour.mix(0.25), None)?;
+            } else if let [low, high] = band[..] {
+                polyline(self.root, &[low, high], self.colour.mix(0.5), 4.0)?;
+            }
+        }
+        let line: Vec<Pixel> = piece.iter().map(|(x, e)| self.at(*x, e.value)).collect();
+        polyline(self.root, &line, self.colour, self.width)?;
+        line.iter()
+            .try_for_each(|p| disc(self.root, *p, self.colour))
+    }
+}
+
+/// Later curves are thinner, so that an earlier one can be seen beneath.
+fn width(number: usize, count: usize) -> f64 {
+    1.6 + 2.4 * (count - 1 - number) as f64 / count as f64
+}
+
+fn cross(root: &Area, (x, y): Pixel, colour: RGBColor) -> Result<(), PictureError> {
+    let r = 3.5;
+    polyline(root, &[(x - r, y - r), (x + r, y + r)], colour, 1.6)?;
+    polyline(root, &[(x - r, y + r), (x + r, y - r)], colour, 1.6)
+}

@@ -1,0 +1,196 @@
+//! Sweeps: tables of all points, and what the terminal is told.
+
+use std::fmt::Write;
+
+use serde_json::{Map, Value as Json, json};
+
+use super::comparison::{capture_settings, cells, columns, merge, quantities};
+use super::csv::text;
+use super::json;
+use crate::comparison::Assessment;
+use crate::sweep::{Outcome, Plan, Point, Progress, Store};
+
+/// Reasons that the summary gives.
+const REASONS: usize = 5;
+
+/// A finished sweep.
+#[derive(Clone, Debug)]
+pub struct Sweep<'a> {
+    pub plan: &'a Plan,
+    pub points: Vec<Point>,
+    /// What came of each point.
+    pub outcomes: Vec<Outcome>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Reads what came of each point.
+    ///
+    /// # Errors
+    /// How far the sweep is, where points are missing.
+    pub fn read(plan: &'a Plan, store: &Store) -> Result<Self, Progress> {
+        let points = plan.points();
+        let found: Vec<Option<Outcome>> = points.iter().map(|point| store.load(point)).collect();
+        let progress = Progress::new(found.iter().map(Option::as_ref));
+        if progress.missing > 0 {
+            return Err(progress);
+        }
+        Ok(Self {
+            plan,
+            points,
+            outcomes: found.into_iter().flatten().collect(),
+        })
+    }
+
+    pub fn progress(&self) -> Progress {
+        Progress::new(self.outcomes.iter().map(Some))
+    }
+
+    /// The assessment of a point, if its design is possible.
+    pub fn assessment(&self, index: usize) -> Option<&Assessment> {
+        match &self.outcomes[index] {
+            Outcome::Done { result } => Some(result),
+            Outcome::Impossible { .. } | Outcome::Failed { .. } => None,
+        }
+    }
+
+    /// One line a point: the varied keys (as the design file has them, in SI units), the figures
+    /// with their bounds, and for impossible designs the reason.
+    pub fn csv(&self) -> String {
+        let keys = self.plan.axes.iter().map(|axis| text(&axis.key));
+        let mut head = vec!["index".to_owned(), "design".to_owned()];
+        head.extend(keys);
+        head.extend(["status", "reason", "model", "point"].map(str::to_owned));
+        let figures = columns();
+        head.extend(figures.iter().cloned());
+        let mut out = head.join(",");
+        for point in &self.points {
+            let mut row = vec![
+                point.index.to_string(),
+                text(&self.plan.designs[point.design].name),
+            ];
+            row.extend(point.values.iter().map(|value| text(&value.to_string())));
+            let outcome = &self.outcomes[point.index];
+            row.extend([
+                status(outcome).to_owned(),
+                text(reason(outcome).unwrap_or_default()),
+            ]);
+            let result = self.assessment(point.index);
+            row.push(result.map(|r| r.model.clone()).unwrap_or_default());
+            row.push(point.name.clone());
+            row.extend(result.map_or_else(|| vec![String::new(); figures.len()], cells));
+            let _ = write!(out, "\n{}", row.join(","));
+        }
+        out.push('\n');
+        out
+    }
+
+    /// Everything, with what reproduces it.
+    pub fn json(&self) -> String {
+        let points: Vec<Json> = self.points.iter().map(|point| self.entry(point)).collect();
+        let designs: Vec<Json> = self
+            .plan
+            .designs
+            .iter()
+            .map(|source| json!({"name": source.name, "sha256": source.sha256}))
+            .collect();
+        json::text(&json!({
+            "tilebind": self.plan.tilebind,
+            "designs": designs,
+            "axes": self.plan.axes,
+            "settings": self.plan.settings,
+            "capture_range": capture_settings(),
+            "seed": self.plan.seed,
+            "counts": self.progress(),
+            "points": points,
+        }))
+    }
+
+    fn entry(&self, point: &Point) -> Json {
+        let values: Map<String, Json> = self
+            .plan
+            .axes
+            .iter()
+            .zip(&point.values)
+            .map(|(axis, value)| (axis.key.clone(), json!(value)))
+            .collect();
+        let mut entry = json!({
+            "index": point.index,
+            "design": self.plan.designs[point.design].name,
+            "values": values,
+            "point": point.name,
+        });
+        let outcome = &self.outcomes[point.index];
+        merge(&mut entry, json!(outcome));
+        if let Some(assessment) = self.assessment(point.index) {
+            merge(&mut entry, json!({"quantities": quantities(assessment)}));
+        }
+        entry
+    }
+
+    /// What came of it, for the terminal.
+    pub fn summary(&self) -> String {
+        let mut out = counts(&self.progress());
+        out.push('\n');
+        let refused: Vec<(&Point, &str)> = self
+            .points
+            .iter()
+            .filter_map(|point| Some((point, reason(&self.outcomes[point.index])?)))
+            .collect();
+        for (point, reason) in refused.iter().take(REASONS) {
+            let _ = writeln!(out, "  {}: {reason}", self.called(point));
+        }
+        if refused.len() > REASONS {
+            let more = refused.len() - REASONS;
+            let _ = writeln!(out, "  and {more} more, see sweep.csv");
+        }
+        out
+    }
+
+    /// A point by its values: `depth = 0.05, model = dipole`.
+    fn called(&self, point: &Point) -> String {
+        let axes = self.plan.axes.iter().zip(&point.values);
+        let mut parts: Vec<String> = axes
+            .map(|(axis, value)| format!("{} = {value}", short(&axis.key)))
+            .collect();
+        if self.plan.designs.len() > 1 {
+            parts.insert(0, self.plan.designs[point.design].name.clone());
+        }
+        parts.join(", ")
+    }
+}
+
+/// The last part of a dotted path.
+pub fn short(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+/// `11 points: 10 done, 1 impossible`.
+pub fn counts(progress: &Progress) -> String {
+    let kinds = [
+        (progress.done, "done"),
+        (progress.impossible, "impossible"),
+        (progress.failed, "failed"),
+        (progress.missing, "missing"),
+    ];
+    let kinds: Vec<String> = kinds
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, kind)| format!("{count} {kind}"))
+        .collect();
+    format!("{} points: {}", progress.points, kinds.join(", "))
+}
+
+fn status(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Done { .. } => "done",
+        Outcome::Impossible { .. } => "impossible",
+        Outcome::Failed { .. } => "failed",
+    }
+}
+
+fn reason(outcome: &Outcome) -> Option<&str> {
+    match outcome {
+        Outcome::Done { .. } => None,
+        Outcome::Impossible { reason } | Outcome::Failed { reason } => Some(reason),
+    }
+}

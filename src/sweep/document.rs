@@ -1,0 +1,115 @@
+//! A design file as a document whose keys can be set.
+
+use toml::{Table, Value as Toml};
+
+use super::vary::Value;
+
+/// Sets the key at a dotted path; tables on the way that are missing are made.
+///
+/// # Errors
+/// Where the path leads through something that is neither a table nor an array long enough.
+pub fn set(document: &mut Table, path: &str, value: &Value) -> Result<(), String> {
+    let parts: Vec<&str> = path.split('.').map(str::trim).collect();
+    let (first, rest) = parts.split_first().ok_or("the path is empty")?;
+    if rest.is_empty() {
+        document.insert((*first).to_owned(), toml(value));
+        return Ok(());
+    }
+    let mut here = document
+        .entry(*first)
+        .or_insert_with(|| Toml::Table(Table::new()));
+    for (k, part) in rest.iter().enumerate() {
+        let last = k + 1 == rest.len();
+        let reached = || parts[..=k].join(".");
+        let next = match here {
+            Toml::Table(table) => table
+                .entry(*part)
+                .or_insert_with(|| Toml::Table(Table::new())),
+            Toml::Array(items) => {
+                let count = items.len();
+                let item = part.parse().ok().and_then(|i: usize| items.get_mut(i));
+                item.ok_or_else(|| {
+                    let name = reached();
+                    format!("`{name}` is an array of {count}: say which item, from 0, not `{part}`")
+                })?
+            }
+            _ => {
+                return Err(format!(
+                    "`{}` holds no keys: `{path}` leads nowhere",
+                    reached()
+                ));
+            }
+        };
+        if last {
+            *next = toml(value);
+            return Ok(());
+        }
+        here = next;
+    }
+    Ok(())
+}
+
+/// Whether there is something at a dotted path.
+pub fn holds(document: &Table, path: &str) -> bool {
+    let mut parts = path.split('.').map(str::trim);
+    let first = parts.next().and_then(|part| document.get(part));
+    parts
+        .try_fold(first, |here, part| match here {
+            Some(Toml::Table(table)) => Some(table.get(part)),
+            Some(Toml::Array(items)) => Some(part.parse().ok().and_then(|i: usize| items.get(i))),
+            _ => None,
+        })
+        .flatten()
+        .is_some()
+}
+
+fn toml(value: &Value) -> Toml {
+    match value {
+        Value::Truth(truth) => Toml::Boolean(*truth),
+        Value::Whole(whole) => Toml::Integer(*whole),
+        Value::Number(number) => Toml::Float(*number),
+        Value::Text(text) => Toml::String(text.clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn document() -> Table {
+        "side = 1.5\nsize = [1.0, 2.0]\n[faces]\nall = { code = \"NN\" }"
+            .parse()
+            .unwrap()
+    }
+
+    #[test]
+    fn keys_are_set_wherever_they_are() {
+        let mut edited = document();
+        for (path, value) in [
+            ("side", Value::Whole(2)),
+            ("size.1", Value::Number(0.5)),
+            ("faces.all.code", Value::Text("NS".into())),
+            ("faces.east.profile.depth", Value::Number(0.01)),
+        ] {
+            assert_eq!(holds(&edited, path), !path.contains("east"), "{path}");
+            set(&mut edited, path, &value).unwrap();
+            assert!(holds(&edited, path));
+        }
+        let expected: Table = "side = 2\nsize = [1.0, 0.5]\n[faces]\nall = { code = \"NS\" }\n\
+                               east = { profile = { depth = 0.01 } }"
+            .parse()
+            .unwrap();
+        assert_eq!(edited, expected);
+    }
+
+    #[test]
+    fn paths_that_lead_nowhere_are_refused() {
+        for path in ["side.depth", "size.2", "size.x", "size.0.y"] {
+            assert!(
+                set(&mut document(), path, &Value::Whole(1)).is_err(),
+                "{path}"
+            );
+            assert!(!holds(&document(), path));
+        }
+    }
+}

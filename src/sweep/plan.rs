@@ -1,0 +1,280 @@
+//! The manifest of a sweep: everything that decides it, and the points that come of it.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use sha2::{Digest, Sha256};
+use toml::Table;
+
+use super::document;
+use super::vary::{Axis, Value};
+use crate::comparison::AssessmentSettings;
+use crate::design::{Design, DesignError};
+
+/// Most points of a sweep.
+const MOST_POINTS: usize = 1_000_000;
+/// Characters of a point's name: 128 bits in hexadecimal.
+const NAME: usize = 32;
+/// Characters of the name that make the seed: 48 bits, exact in every reader of JSON.
+const SEED: usize = 12;
+
+/// A sweep: designs, what is varied of them, and how they are assessed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Version of tilebind.
+    pub tilebind: String,
+    pub designs: Vec<Source>,
+    /// The first one varies slowest.
+    pub axes: Vec<Axis>,
+    pub settings: AssessmentSettings,
+    /// Goes into every point's name, and so into its seed.
+    pub seed: u64,
+}
+
+/// A design that is varied.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    pub name: String,
+    /// Its file as it was named; files that the design refers to are looked for beside it.
+    pub file: String,
+    /// SHA-256 of the file's bytes.
+    pub sha256: String,
+    pub text: String,
+}
+
+/// One design of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Place in the sweep, from 0.
+    pub index: usize,
+    /// Hash of the design, the settings and the version.
+    pub name: String,
+    pub seed: u64,
+    /// Which of the plan's designs.
+    pub design: usize,
+    /// A value for each of the plan's axes.
+    pub values: Vec<Value>,
+    /// The design's text with the values set; where they cannot be set, why.
+    text: Result<String, String>,
+}
+
+/// Part `number`, from 1, of `of` parts of a sweep: every `of`th point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    pub number: usize,
+    pub of: usize,
+}
+
+impl Shard {
+    pub const WHOLE: Self = Self { number: 1, of: 1 };
+
+    pub fn contains(&self, point: &Point) -> bool {
+        point.index % self.of + 1 == self.number
+    }
+}
+
+/// Why there is no such sweep.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    #[error(transparent)]
+    Design(#[from] Box<DesignError>),
+    #[error("`{0}` is varied twice")]
+    Twice(String),
+    #[error("the sweep has {0} points, more than {MOST_POINTS}")]
+    TooMany(usize),
+    #[error("two designs are called `{0}`: give them different names")]
+    SameName(String),
+    #[error("`{path}` cannot be varied: {reason}")]
+    Unknown { path: String, reason: String },
+    #[error("this is no manifest of a sweep: {0}")]
+    Malformed(String),
+    #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
+    Version(String),
+}
+
+impl Plan {
+    /// A sweep over design files.
+    ///
+    /// # Errors
+    /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
+    /// are too many points. A key that the design does not hold is taken for a mistake if no value
+    /// of it gives a possible design.
+    pub fn new(
+        files: &[impl AsRef<Path>],
+        axes: Vec<Axis>,
+        settings: AssessmentSettings,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        let mut designs: Vec<Source> = Vec::new();
+        for file in files {
+            let source = Source::read(file.as_ref())?;
+            if designs.iter().any(|known| known.name == source.name) {
+                return Err(PlanError::SameName(source.name));
+            }
+            designs.push(source);
+        }
+        for (k, axis) in axes.iter().enumerate() {
+            if axes[..k].iter().any(|earlier| earlier.key == axis.key) {
+                return Err(PlanError::Twice(axis.key.clone()));
+            }
+        }
+        let lengths = axes.iter().map(|axis| axis.values.len());
+        let count = lengths.fold(designs.len(), usize::saturating_mul);
+        if count > MOST_POINTS {
+            return Err(PlanError::TooMany(count));
+        }
+        let plan = Self {
+            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+            designs,
+            axes,
+            settings,
+            seed,
+        };
+        plan.check_keys()?;
+        Ok(plan)
+    }
+
+    /// The manifest's text. It lists the points too, for people and schedulers.
+    pub fn to_text(&self) -> String {
+        let points: Vec<_> = self
+            .points()
+            .into_iter()
+            .map(|point| {
+                json!({
+                    "index": point.index, "point": point.name, "seed": point.seed,
+                    "design": self.designs[point.design].name, "values": point.values,
+                })
+            })
+            .collect();
+        let mut all = json!(self);
+        if let Some(object) = all.as_object_mut() {
+            object.insert("points".to_owned(), points.into());
+        }
+        // Plain values with string keys are always written.
+        serde_json::to_string_pretty(&all).unwrap_or_default() + "\n"
+    }
+
+    /// Reads a manifest.
+    ///
+    /// # Errors
+    /// Where it is none, or one of another version.
+    pub fn parse(text: &str) -> Result<Self, PlanError> {
+        let plan: Self =
+            serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;
+        if plan.tilebind != env!("CARGO_PKG_VERSION") {
+            return Err(PlanError::Version(plan.tilebind));
+        }
+        Ok(plan)
+    }
+
+    /// All points, in order.
+    pub fn points(&self) -> Vec<Point> {
+        let grid: usize = self.axes.iter().map(|axis| axis.values.len()).product();
+        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
+        (0..self.designs.len() * grid)
+            .map(|index| self.point(&documents, index, grid))
+            .collect()
+    }
+
+    fn point(&self, documents: &[Table], index: usize, grid: usize) -> Point {
+        let (design, mut place) = (index / grid, index % grid);
+        let mut values: Vec<Value> = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            values.push(axis.values[place % axis.values.len()].clone());
+            place /= axis.values.len();
+        }
+        values.reverse();
+        let mut document = documents[design].clone();
+        let mut set = self.axes.iter().zip(&values);
+        let text = set
+            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value))
+            .map(|()| document.to_string());
+        let name = self.name(text.as_ref().unwrap_or_else(|reason| reason));
+        Point {
+            index,
+            seed: u64::from_str_radix(&name[..SEED], 16).unwrap_or(0),
+            name,
+            design,
+            values,
+            text,
+        }
+    }
+
+    fn name(&self, text: &str) -> String {
+        let settings = json!({"settings": self.settings, "seed": self.seed});
+        let mut hash = Sha256::new();
+        for part in [&self.tilebind, &settings.to_string(), text] {
+            hash.update((part.len() as u64).to_le_bytes());
+            hash.update(part);
+        }
+        let mut name: String = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
+        name.truncate(NAME);
+        name
+    }
+
+    /// The design of a point; where it is impossible, why.
+    pub fn design(&self, point: &Point) -> Result<Design, String> {
+        let source = &self.designs[point.design];
+        let text = point.text.as_ref().map_err(Clone::clone)?;
+        Design::parse(text, &source.file)
+            .map_err(|error| format!("{}; {}", error.message, error.help))
+    }
+
+    /// Refuses a key that the designs do not hold, if no value of it gives a possible design.
+    fn check_keys(&self) -> Result<(), PlanError> {
+        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
+        for axis in &self.axes {
+            for (source, document) in self.designs.iter().zip(&documents) {
+                if document::holds(document, &axis.key) {
+                    continue;
+                }
+                let reasons: Vec<String> = axis
+                    .values
+                    .iter()
+                    .map_while(|value| source.fault(document, &axis.key, value))
+                    .collect();
+                if reasons.len() == axis.values.len() {
+                    return Err(PlanError::Unknown {
+                        path: axis.key.clone(),
+                        reason: reasons.into_iter().next().unwrap_or_default(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Source {
+    fn read(file: &Path) -> Result<Self, PlanError> {
+        let design = Design::load(file).map_err(Box::new)?;
+        let text = std::fs::read_to_string(file)
+            .map_err(|error| PlanError::Malformed(format!("{}: {error}", file.display())))?;
+        Ok(Self {
+            name: design.name,
+            file: file.display().to_string(),
+            sha256: design.sha256,
+            text,
+        })
+    }
+
+    /// The design as a document, always with its name.
+    fn document(&self) -> Table {
+        let mut document: Table = self.text.parse().unwrap_or_default();
+        document
+            .entry("name")
+            .or_insert_with(|| self.name.clone().into());
+        document
+    }
+
+    /// What is wrong with the design where only this key is set.
+    fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
+        let mut document = document.clone();
+        if let Err(reason) = document::set(&mut document, key, value) {
+            return Some(reason);
+        }
+        let error = Design::parse(&document.to_string(), &self.file).err()?;
+        Some(format!("{}; {}", error.message, error.help))
+    }
+}

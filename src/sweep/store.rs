@@ -1,0 +1,135 @@
+//! The files of a sweep's points.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::plan::Point;
+use crate::comparison::Assessment;
+
+/// Folder of the points' files within that of the sweep.
+const POINTS: &str = "points";
+/// End of the name of a file that is being written.
+const PARTIAL: &str = ".partial";
+
+/// What came of a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "status", rename_all = "lowercase")]
+pub enum Outcome {
+    Done {
+        result: Box<Assessment>,
+    },
+    /// There is no such design.
+    Impossible {
+        reason: String,
+    },
+    /// The analysis broke down: a fault of tilebind.
+    Failed {
+        reason: String,
+    },
+}
+
+/// The content of a point's file.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    tilebind: String,
+    point: String,
+    #[serde(flatten)]
+    outcome: Outcome,
+}
+
+/// How many points there are of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Progress {
+    pub points: usize,
+    pub done: usize,
+    pub impossible: usize,
+    pub failed: usize,
+    pub missing: usize,
+}
+
+impl Progress {
+    pub fn new<'a>(outcomes: impl IntoIterator<Item = Option<&'a Outcome>>) -> Self {
+        let mut progress = Self::default();
+        for outcome in outcomes {
+            progress.points += 1;
+            *match outcome {
+                Some(Outcome::Done { .. }) => &mut progress.done,
+                Some(Outcome::Impossible { .. }) => &mut progress.impossible,
+                Some(Outcome::Failed { .. }) => &mut progress.failed,
+                None => &mut progress.missing,
+            } += 1;
+        }
+        progress
+    }
+}
+
+/// The folder of a sweep, with a file for each of its points.
+#[derive(Clone, Debug)]
+pub struct Store {
+    folder: PathBuf,
+}
+
+impl Store {
+    /// The store of the sweep whose results are in `folder`.
+    pub fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+        }
+    }
+
+    fn points(&self) -> PathBuf {
+        self.folder.join(POINTS)
+    }
+
+    fn path(&self, point: &Point) -> PathBuf {
+        self.points().join(format!("{}.json", point.name))
+    }
+
+    /// What came of a point; `None` where nothing is known, as of a file that is damaged.
+    pub fn load(&self, point: &Point) -> Option<Outcome> {
+        let text = fs::read_to_string(self.path(point)).ok()?;
+        let record: Record = serde_json::from_str(&text).ok()?;
+        (record.point == point.name).then_some(record.outcome)
+    }
+
+    /// Keeps what came of a point: written, synced, renamed, so that the file is there as a whole
+    /// or not at all, whatever happens.
+    ///
+    /// # Errors
+    /// Where the file system refuses.
+    pub fn save(&self, point: &Point, outcome: &Outcome) -> io::Result<()> {
+        let folder = self.points();
+        fs::create_dir_all(&folder)?;
+        let record = Record {
+            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+            point: point.name.clone(),
+            outcome: outcome.clone(),
+        };
+        let name = format!(".{}.{}{PARTIAL}", point.name, std::process::id());
+        let temporary = folder.join(name);
+        let mut file = File::create(&temporary)?;
+        file.write_all(&serde_json::to_vec_pretty(&record)?)?;
+        file.sync_all()?;
+        fs::rename(&temporary, self.path(point))?;
+        // The new name, too, is to survive a power cut; not every file system can sync a folder.
+        if let Ok(folder) = File::open(&folder) {
+            let _ = folder.sync_all();
+        }
+        Ok(())
+    }
+
+    /// Takes away files that a killed process left half written. For when nobody writes any more.
+    pub fn tidy(&self) {
+        let folders = ["", POINTS, "pictures"].map(|name| self.folder.join(name));
+        let entries = folders.iter().flat_map(fs::read_dir).flatten().flatten();
+        for entry in entries {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if name.starts_with('.') && name.ends_with(PARTIAL) {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What is varied: a key of the design and the values it takes.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Most points on a range.
+const MOST_VALUES: usize = 100_000;
+
+/// A value of a key.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    Truth(bool),
+    Whole(i64),
+    Number(f64),
+    Text(String),
+}
+
+impl Value {
+    /// The value as a number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Whole(whole) => Some(*whole as f64),
+            Self::Number(number) => Some(*number),
+            Self::Truth(_) | Self::Text(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Truth(truth) => truth.fmt(f),
+            Self::Whole(whole) => whole.fmt(f),
+            Self::Number(number) => number.fmt(f),
+            Self::Text(text) => text.fmt(f),
+        }
+    }
+}
+
+/// A key by its dotted path, such as `fixed.faces.east.profile.depth`, and its values in order. A
+/// number in the path counts the items of an array from 0.
+///
+/// Written as `KEY=a:b:n`, n evenly spaced numbers from a to b, or as a list `KEY=v,w,...` of
+/// numbers, `true` and `false`, and words; a word that looks like a number goes in double quotes.
+///
+/// ```
+/// use tilebind::sweep::{Axis, Value};
+/// let axis: Axis = "fixed.faces.east.profile.depth=0:0.03:4".parse()?;
+/// let values: Vec<String> = axis.values.iter().map(Value::to_string).collect();
+/// assert_eq!(values, ["0", "0.01", "0.02", "0.03"]);
+/// let axis: Axis = "potential.model=dipole,cuboid".parse()?;
+/// assert_eq!(axis.values[1], Value::Text("cuboid".into()));
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    pub key: String,
+    pub values: Vec<Value>,
+}
+
+impl std::str::FromStr for Axis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        const FORM: &str = "write KEY=a:b:n, such as fixed.faces.east.profile.depth=0:0.05:11, or \
+                            KEY=v,w,..., such as potential.model=dipole,cuboid";
+        let (key, values) = text.split_once('=').ok_or(FORM)?;
+        let key = key.trim();
+        if key.is_empty() || key.split('.').any(|part| part.trim().is_empty()) {
+            return Err(format!("`{key}` is no dotted path; {FORM}"));
+        }
+        let values = match values.split(':').collect::<Vec<_>>()[..] {
+            [from, to, count] => range(from, to, count)?,
+            _ => values
+                .split(',')
+                .map(|word| value(word.trim()))
+                .collect::<Result<_, _>>()?,
+        };
+        Ok(Self {
+            key: key.to_owned(),
+            values,
+        })
+    }
+}
+
+/// `count` evenly spaced numbers; whole ones where all of them are and both ends are written so.
+fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
+    let end = |text: &str| {
+        let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+        number.ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
+    };
+    let (first, last) = (end(from)?, end(to)?);
+    let steps = count.trim().parse().ok();
+    let count: usize = steps
+        .filter(|n| (1..=MOST_VALUES).contains(n))
+        .ok_or_else(|| format!("`{count}` is no whole number from 1 to {MOST_VALUES}"))?;
+    let number = |k: usize| {
+        let share = k as f64 / (count - 1).max(1) as f64;
+        rounded(first + (last - first) * share)
+    };
+    let numbers: Vec<f64> = (0..count).map(number).collect();
+    let written_whole = [from, to].iter().all(|t| t.trim().parse::<i64>().is_ok());
+    let whole = written_whole && numbers.iter().all(|x| x.fract() == 0.0 && x.abs() < 1e15);
+    let value = |x: f64| {
+        if whole {
+            Value::Whole(x as i64)
+        } else {
+            Value::Number(x)
+        }
+    };
+    Ok(numbers.into_iter().map(value).collect())
+}
+
+/// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
+fn rounded(value: f64) -> f64 {
+    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    rounded + 0.0
+}
+
+fn value(word: &str) -> Result<Value, String> {
+    if let Some(quoted) = word.strip_prefix('"').and_then(|w| w.strip_suffix('"')) {
+        return Ok(Value::Text(quoted.to_owned()));
+    }
+    if word.is_empty() {
+        return Err("a value of the list is missing".to_owned());
+    }
+    if let Ok(whole) = word.parse() {
+        return Ok(Value::Whole(whole));
+    }
+    Ok(match (word, word.parse::<f64>()) {
+        ("true", _) => Value::Truth(true),
+        ("false", _) => Value::Truth(false),
+        (_, Ok(number)) if number.is_finite() => Value::Number(number),
+        _ => Value::Text(word.to_owned()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<Value> {
+        text.parse::<Axis>().unwrap().values
+    }
+
+    #[test]
+    fn ranges_hold_both_ends_and_round_numbers() {
+        let depth = values("a.b=0:0.05:11");
+        assert_eq!(depth.len(), 11);
+        assert_eq!(depth[0], Value::Number(0.0));
+        assert_eq!(depth[3], Value::Number(0.015));
+        assert_eq!(depth[10], Value::Number(0.05));
+        assert_eq!(values("a=2:6:3"), [2, 4, 6].map(Value::Whole));
+        assert_eq!(values("a=1:2:3")[1], Value::Number(1.5));
+        assert_eq!(values("a=3:9:1"), [Value::Whole(3)]);
+        assert_eq!(values("a=1:-1:3")[2], Value::Whole(-1));
+    }
+
+    #[test]
+    fn lists_hold_numbers_words_and_quoted_words() {
+        let list = values("a=1, 2.5,true,NNNS,\"7\"");
+        let seven = Value::Text("7".into());
+        let word = Value::Text("NNNS".into());
+        let expected = [
+            Value::Whole(1),
+            Value::Number(2.5),
+            Value::Truth(true),
+            word,
+            seven,
+        ];
+        assert_eq!(list, expected);
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for wrong in [
+            "a",
+            "=1",
+            "a..b=1",
+            "a=",
+            "a=1,,2",
+            "a=1:2:0",
+            "a=1:x:3",
+            "a=1:inf:3",
+        ] {
+            assert!(wrong.parse::<Axis>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn values_survive_json() {
+        for value in values("a=1,2.0,true,x,\"1\"") {
+            let text = serde_json::to_string(&value).unwrap();
+            assert_eq!(
+                serde_json::from_str::<Value>(&text).unwrap(),
+                value,
+                "{text}"
+            );
+        }
+    }
+}
