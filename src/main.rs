@@ -35,6 +35,8 @@ enum Command {
     Sweep(cli::sweep::Sweep),
     Dock(cli::dock::Dock),
     Calibrate(cli::calibrate::Calibrate),
+    Init(cli::init::Init),
+    Schema(cli::schema::Schema),
     Completions(cli::completions::Completions),
 }
 
@@ -47,6 +49,8 @@ fn main() -> ExitCode {
         Command::Sweep(command) => command.run(),
         Command::Dock(command) => command.run(),
         Command::Calibrate(command) => command.run(),
+        Command::Init(command) => command.run(),
+        Command::Schema(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),
     };
     match outcome {

@@ -9,9 +9,11 @@ pub mod completions;
 pub mod dock;
 pub mod energy;
 mod failure;
+pub mod init;
 mod input;
 mod interrupt;
 mod progress;
+pub mod schema;
 pub mod sweep;
 mod sweep_progress;
 

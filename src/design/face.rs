@@ -70,7 +70,7 @@ pub(super) struct FaceEntry<'a> {
     all: Option<Section<'a>>,
 }
 
-const FACE_KEYS: [&str; 7] = [
+pub(super) const FACE_KEYS: [&str; 7] = [
     "code", "magnets", "profile", "magnet", "mates", "fit", "shield",
 ];
 

@@ -178,13 +178,17 @@ pub(super) struct ListedMagnet {
 }
 
 impl ListedMagnet {
-    pub fn read(entry: &Entry) -> Result<Self> {
-        let section = entry.section("a magnet of `magnets`")?;
-        let known: Vec<_> = ["at", "pole"]
+    /// The keys of an entry of `magnets`.
+    pub fn keys() -> Vec<&'static str> {
+        ["at", "pole"]
             .into_iter()
             .chain(MAGNET_KEYS.into_iter().filter(|key| *key != "pitch"))
-            .collect();
-        section.allow(&known)?;
+            .collect()
+    }
+
+    pub fn read(entry: &Entry) -> Result<Self> {
+        let section = entry.section("a magnet of `magnets`")?;
+        section.allow(&Self::keys())?;
         let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
         let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
         Ok(Self {

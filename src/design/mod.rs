@@ -36,6 +36,7 @@ mod potential;
 mod profile;
 mod quantity;
 mod reader;
+mod schema;
 mod shield;
 mod svg;
 mod target;
@@ -44,6 +45,7 @@ mod tile;
 pub use crate::potential::MagnetModel;
 pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
+pub use schema::{SCHEMA, STARTER};
 
 use std::path::Path;
 
@@ -228,9 +230,11 @@ impl Design {
 
 const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";
 
+const TABLE_KEYS: [&str; 1] = ["size"];
+
 fn table(root: &Section) -> Result<[f64; 2]> {
     let section = root.require("table", TABLE_HELP)?.section("[table]")?;
-    section.allow(&["size"])?;
+    section.allow(&TABLE_KEYS)?;
     section
         .require("size", TABLE_HELP)?
         .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")

@@ -24,6 +24,29 @@ const SHAPES: [(&str, Shape); 6] = [
     ("svg", Shape::Svg),
 ];
 
+impl Shape {
+    /// The keys of a profile of this shape.
+    const fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Flat => &["shape"],
+            Self::Tab => &["shape", "width", "depth", "draft", "offset"],
+            Self::Teeth => &["shape", "form", "count", "depth", "span"],
+            Self::Arc => &["shape", "width", "depth", "offset"],
+            Self::Points => &["shape", "points"],
+            Self::Svg => &["shape", "file"],
+        }
+    }
+}
+
+/// The shapes that can be read, and the keys of each.
+#[cfg(test)]
+pub(super) fn shapes() -> impl Iterator<Item = (&'static str, &'static [&'static str])> {
+    SHAPES
+        .into_iter()
+        .filter(|(_, shape)| !matches!(shape, Shape::Svg))
+        .map(|(name, shape)| (name, shape.keys()))
+}
+
 /// Most points of a face's line, curves drawn as chords: contact with more takes too long.
 const MOST_POINTS: usize = 4000;
 
@@ -35,8 +58,9 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
     let section = entry.section("`profile`")?;
     let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
     let shape = section.require("shape", example)?.word(&SHAPES)?;
+    section.allow(shape.keys())?;
     let profile = match shape {
-        Shape::Flat => flat(&section),
+        Shape::Flat => Ok(Profile::Flat),
         Shape::Tab => tab(&section),
         Shape::Teeth => teeth(&section, length),
         Shape::Arc => arc(&section),
@@ -57,13 +81,7 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
     Ok(line)
 }
 
-fn flat(section: &Section) -> Result<Profile> {
-    section.allow(&["shape"])?;
-    Ok(Profile::Flat)
-}
-
 fn tab(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "width", "depth", "draft", "offset"])?;
     Ok(Profile::Tab {
         width: width(section)?,
         depth: depth(section)?,
@@ -75,7 +93,6 @@ fn tab(section: &Section) -> Result<Profile> {
 }
 
 fn teeth(section: &Section, length: f64) -> Result<Profile> {
-    section.allow(&["shape", "form", "count", "depth", "span"])?;
     let forms = [
         ("sine", Waveform::Sine),
         ("triangle", Waveform::Triangle),
@@ -94,7 +111,6 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
 }
 
 fn arc(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "width", "depth", "offset"])?;
     Ok(Profile::Arc {
         width: width(section)?,
         depth: depth(section)?,
@@ -105,7 +121,6 @@ fn arc(section: &Section) -> Result<Profile> {
 }
 
 fn points(section: &Section) -> Result<Profile> {
-    section.allow(&["shape", "points"])?;
     let points = section.require("points", "give the line: points = [[s, h], ...] (m)")?;
     let points = points
         .array()?

@@ -6,7 +6,7 @@ use super::reader::{Entry, Result, Section};
 use crate::potential::shielding::{Shield, ShieldRule};
 
 /// The constants of a shield, as a file names them.
-const CONSTANTS: [(&str, Quantity); 4] = [
+pub(super) const CONSTANTS: [(&str, Quantity); 4] = [
     ("attenuation", quantity::ATTENUATION),
     ("length", quantity::SHIELD_LENGTH),
     ("width", quantity::SHIELD_WIDTH),

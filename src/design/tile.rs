@@ -11,7 +11,8 @@ use crate::potential::shielding::Shield;
 /// The two tiles' names, in the order in which they are stored.
 pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
 
-const TILE_KEYS: [&str; 7] = [
+/// The keys of `[fixed]` and `[moving]`.
+pub(super) const TILE_KEYS: [&str; 7] = [
     "side",
     "sides",
     "vertices",

@@ -6,6 +6,7 @@ mod calibrate;
 mod energy;
 mod mistakes;
 mod shields;
+mod starting;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -62,7 +63,14 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn help_lists_the_commands_and_every_command_has_an_example() {
     let help = stdout(&tilebind(&["--help"]));
-    for command in ["analyse", "energy", "barrier", "completions"] {
+    for command in [
+        "analyse",
+        "energy",
+        "barrier",
+        "init",
+        "schema",
+        "completions",
+    ] {
         assert!(help.contains(command), "{command} in\n{help}");
         let own = stdout(&tilebind(&[command, "--help"]));
         assert!(own.contains("Example"), "{own}");

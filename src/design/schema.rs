@@ -1,0 +1,161 @@
+//! The JSON Schema of the design file, and a design to start from.
+//!
+//! The schema is there for editors: it knows the keys, their types, units and limits. What takes
+//! geometry to tell, such as tiles that overlap, only [`Design::load`](super::Design::load) finds.
+
+/// The JSON Schema (draft 2020-12) of the design file.
+pub const SCHEMA: &str = include_str!("schema.json");
+
+/// A design with remarks, to start from.
+pub const STARTER: &str = include_str!("starter.toml");
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::super::face::FACE_KEYS;
+    use super::super::magnet::{ListedMagnet, MAGNET_KEYS};
+    use super::super::quantity::{self, Quantity};
+    use super::super::shield::CONSTANTS;
+    use super::super::tile::{TILE_KEYS, TILES};
+    use super::super::{Design, MagnetModel, ROOT_KEYS, TABLE_KEYS, profile};
+    use super::*;
+    use crate::potential::shielding::ShieldRule;
+
+    fn schema() -> Value {
+        serde_json::from_str(SCHEMA).unwrap()
+    }
+
+    #[track_caller]
+    fn assert_keys(object: &Value, known: &[&str]) {
+        let mut said: Vec<&str> = object["properties"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .map(String::as_str)
+            .collect();
+        let mut known = known.to_vec();
+        said.sort_unstable();
+        known.sort_unstable();
+        assert_eq!(said, known);
+        assert_eq!(object["additionalProperties"], false);
+    }
+
+    #[test]
+    fn it_has_every_key_that_is_read_and_no_other() {
+        let schema = schema();
+        let of = |name: &str| &schema["$defs"][name];
+        assert_keys(&schema, &ROOT_KEYS);
+        assert_keys(of("table"), &TABLE_KEYS);
+        assert_keys(of("magnet"), &MAGNET_KEYS);
+        assert_keys(of("listed_magnet"), &ListedMagnet::keys());
+        assert_keys(of("tile"), &TILE_KEYS);
+        assert_keys(of("face"), &FACE_KEYS);
+        assert_keys(of("faces"), &["all", "east", "north", "west", "south"]);
+        assert_keys(of("target"), &TILES);
+        assert_keys(of("potential"), &["model"]);
+        let mut constants = CONSTANTS.map(|(name, _)| name).to_vec();
+        assert_keys(of("shield_constants"), &constants);
+        constants.push("rule");
+        assert_keys(of("shield"), &constants);
+    }
+
+    #[test]
+    fn it_has_every_profile_with_its_keys() {
+        let schema = schema();
+        let mut read = 0;
+        for (shape, keys) in profile::shapes() {
+            let of_shape = &schema["$defs"][shape];
+            assert_keys(of_shape, keys);
+            assert_eq!(of_shape["properties"]["shape"]["const"], shape);
+            read += 1;
+        }
+        let offered = schema["$defs"]["profile"]["oneOf"].as_array().unwrap();
+        assert_eq!(offered.len(), read);
+    }
+
+    #[test]
+    fn it_has_every_model_and_rule() {
+        let names = MagnetModel::NAMES.map(|(name, _)| name);
+        let schema = schema();
+        let model = &schema["$defs"]["potential"]["properties"]["model"];
+        assert_eq!(model["enum"], serde_json::json!(names));
+        assert_eq!(model["default"], MagnetModel::default().name());
+        let rules = ShieldRule::NAMES.map(|(name, _)| name);
+        let rule = &schema["$defs"]["shield"]["properties"]["rule"];
+        assert_eq!(rule["enum"], serde_json::json!(rules));
+        assert_eq!(rule["default"], ShieldRule::default().name());
+    }
+
+    /// Each limit of the schema is accepted by the reader, and what lies just beyond is not.
+    #[test]
+    fn its_limits_are_those_of_the_reader() {
+        let schema = schema();
+        let quantities: [(&str, Quantity); 22] = [
+            ("tile_side", quantity::TILE_SIDE),
+            ("tile_corner", quantity::TILE_CORNER),
+            ("tile_thickness", quantity::TILE_THICKNESS),
+            ("mass", quantity::MASS),
+            ("table_size", quantity::TABLE_SIZE),
+            ("magnet_size", quantity::MAGNET_SIZE),
+            ("remanence", quantity::REMANENCE),
+            ("moment", quantity::MOMENT),
+            ("surface_field", quantity::SURFACE_FIELD),
+            ("pitch", quantity::PITCH),
+            ("inset", quantity::INSET),
+            ("axis", quantity::AXIS),
+            ("fit", quantity::FIT),
+            ("along_face", quantity::ALONG_FACE),
+            ("profile_width", quantity::PROFILE_WIDTH),
+            ("profile_depth", quantity::PROFILE_DEPTH),
+            ("draft", quantity::DRAFT),
+            ("offset", quantity::ALONG_FACE),
+            ("attenuation", quantity::ATTENUATION),
+            ("shield_length", quantity::SHIELD_LENGTH),
+            ("shield_width", quantity::SHIELD_WIDTH),
+            ("front_gain", quantity::FRONT_GAIN),
+        ];
+        for (name, quantity) in quantities {
+            let mut limits = &schema["$defs"][name];
+            if let Some(path) = limits["$ref"].as_str() {
+                limits = schema.pointer(path.trim_start_matches('#')).unwrap();
+            }
+            for (bound, outwards) in [("minimum", -1.0), ("maximum", 1.0)] {
+                let limit = limits[bound].as_f64().unwrap();
+                let beyond = limit + outwards * 1e-9 * limit.abs().max(1e-3);
+                assert!(quantity.check(name, limit).is_ok(), "{name} {bound}");
+                assert!(quantity.check(name, beyond).is_err(), "{name} {bound}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_starter_is_a_sound_design() {
+        let design = Design::parse(STARTER, "starter.toml").unwrap();
+        assert!(design.warnings.is_empty());
+        assert_eq!(design.bound.to_array(), [0.43, 0.0, 0.0]);
+    }
+
+    /// What the remarks offer can be had by taking the `#` away.
+    #[test]
+    fn the_starter_s_remarks_are_sound_too() {
+        let mut taken = 0;
+        for line in STARTER.lines() {
+            let offered = line.strip_prefix("# ").filter(|rest| {
+                let first = rest.split(' ').nth(1);
+                first == Some("=") || rest.starts_with("[potential]")
+            });
+            // Corners instead of a side make another tile, with other faces.
+            let Some(offered) = offered.filter(|rest| !rest.starts_with("vertices")) else {
+                continue;
+            };
+            let mut text = STARTER.replacen(line, offered, 1);
+            if offered.starts_with("model") {
+                text = text.replacen("# [potential]", "[potential]", 1);
+            }
+            Design::parse(&text, "starter.toml").unwrap_or_else(|e| panic!("{offered}: {e}"));
+            taken += 1;
+        }
+        assert_eq!(taken, 5);
+    }
+}
