@@ -56,6 +56,8 @@ install_packages() {
 }
 
 [[ $(id -u) == 0 ]] || skip "not root"
+# slurmd does not start without control groups, whatever it tracks its jobs by.
+[[ -n $(ls -A /sys/fs/cgroup 2>/dev/null) ]] || skip "no control groups are mounted"
 PATH=$PATH:/usr/sbin:/sbin
 installed || install_packages || skip "slurm-wlm and munge cannot be installed"
 installed || skip "slurm-wlm and munge are not whole"
