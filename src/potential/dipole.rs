@@ -19,7 +19,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::Potential;
+use super::lever::Lever;
+use super::{Potential, finite};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
@@ -74,7 +75,7 @@ pub fn dipoles(magnets: &[Magnet]) -> Vec<Dipole> {
 pub struct ScalarDipoles {
     fixed: Vec<Dipole>,
     moving: Vec<Dipole>,
-    lever: f64,
+    lever: Lever,
 }
 
 impl ScalarDipoles {
@@ -82,7 +83,7 @@ impl ScalarDipoles {
         Self {
             fixed: fixed.to_vec(),
             moving: moving.to_vec(),
-            lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
+            lever: Lever::of(moving.iter().map(|d| d.position)),
         }
     }
 }
@@ -106,11 +107,7 @@ impl Potential for ScalarDipoles {
                 gradient += Vector3::new(-force.x, -force.y, slope - torque);
             }
         }
-        if energy.is_finite() {
-            (energy, gradient)
-        } else {
-            (f64::INFINITY, Vector3::zeros())
-        }
+        finite(energy, gradient)
     }
 
     /// For one pair, U is a second directional derivative of `K / r` and the n-th directional
@@ -119,11 +116,7 @@ impl Potential for ScalarDipoles {
     /// `|U''| <= K [24 v^2 / r^5 + 18 v w / r^4 + 2 w^2 / r^3]`, with r the smallest distance
     /// within reach and `w <= v / lever`.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let turn = if self.lever > 0.0 {
-            1.0 / self.lever
-        } else {
-            0.0
-        };
+        let turn = self.lever.turn();
         let mut bound = 0.0;
         for second in &self.moving {
             let position = q.transform(second.position);
@@ -140,7 +133,7 @@ impl Potential for ScalarDipoles {
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
+        self.lever.displacement(step)
     }
 }
 

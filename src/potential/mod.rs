@@ -27,6 +27,7 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+mod lever;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -118,5 +119,17 @@ pub trait Potential: Sync {
     /// by to be so for certain: what is lost to rounding and, where there is any, to approximation.
     fn noise(&self) -> f64 {
         1e-12
+    }
+}
+
+/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
+fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
+    if !energy.is_finite() {
+        return (f64::INFINITY, Vector3::zeros());
+    }
+    if gradient.iter().all(|slope| slope.is_finite()) {
+        (energy, gradient)
+    } else {
+        (energy, Vector3::zeros())
     }
 }

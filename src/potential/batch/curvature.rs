@@ -66,7 +66,7 @@ impl Curvature<'_> {
     ) {
         let b = Bundle::<L, N, TOGETHER>(l);
         let DipolePotential { moving, lever, .. } = self.potential;
-        let turn = if *lever > 0.0 { 1.0 / lever } else { 0.0 };
+        let turn = lever.turn();
         let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
         for (k, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
             let i = first + k * L::WIDTH;

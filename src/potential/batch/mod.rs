@@ -32,6 +32,7 @@ pub use operations::Operations;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
+use super::lever::Lever;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
@@ -48,8 +49,7 @@ pub struct DipolePotential {
     sources: Vec<Source>,
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
-    /// The largest distance of a moving dipole from its tile's reference point (m).
-    lever: f64,
+    lever: Lever,
 }
 
 /// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
@@ -87,7 +87,7 @@ impl DipolePotential {
                 moment_y: column(|d| d.moment.y),
                 magnitude: column(|d| d.moment.norm()),
             },
-            lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
+            lever: Lever::of(moving.iter().map(|d| d.position)),
         }
     }
 
@@ -150,19 +150,7 @@ impl Potential for DipolePotential {
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
-    }
-}
-
-/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
-fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
-    if !energy.is_finite() {
-        return (f64::INFINITY, Vector3::zeros());
-    }
-    if gradient.iter().all(|slope| slope.is_finite()) {
-        (energy, gradient)
-    } else {
-        (energy, Vector3::zeros())
+        self.lever.displacement(step)
     }
 }
 

@@ -40,6 +40,7 @@ mod sum;
 use nalgebra::{Complex, Vector3};
 
 use super::batch::Level;
+use super::lever::Lever;
 use super::{DipolePotential, Potential};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
@@ -63,7 +64,7 @@ pub struct CuboidPotential {
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
     far: Vec<Vec<Far>>,
-    lever: f64,
+    lever: Lever,
 }
 
 /// A block and the number of its size.
@@ -152,11 +153,7 @@ impl CuboidPotential {
 
     /// Of two tiles' magnets, for the given instruction set.
     pub fn with_level(fixed: &[Magnet], moving: &[Magnet], level: Level) -> Self {
-        let lever = moving
-            .iter()
-            .flat_map(|magnet| magnet.corners())
-            .map(|corner| corner.norm())
-            .fold(0.0, f64::max);
+        let lever = Lever::of(moving.iter().flat_map(|magnet| magnet.corners()));
         let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
         let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
         for group in &mut fixed_groups {
@@ -212,11 +209,7 @@ impl Potential for CuboidPotential {
     /// average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let (sin, cos) = q.theta.sin_cos();
-        let turn = if self.lever > 0.0 {
-            1.0 / self.lever
-        } else {
-            0.0
-        };
+        let turn = self.lever.turn();
         let mut bound = 0.0;
         for second in &self.moving {
             let moved = second.block.moved(cos, sin, q.position());
@@ -241,7 +234,7 @@ impl Potential for CuboidPotential {
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
+        self.lever.displacement(step)
     }
 
     /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the
