@@ -77,7 +77,7 @@ impl Survey {
         images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
         settings: &SurveySettings,
     ) -> Self {
-        let mut survey = Self::start(problem, roadmap);
+        let mut survey = Self::of_roadmap(problem, roadmap);
         survey.find_states(problem, guesses, settings);
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
@@ -96,7 +96,8 @@ impl Survey {
         survey
     }
 
-    fn start(problem: &Problem, roadmap: &Roadmap) -> Self {
+    /// The roadmap as it is, nothing looked at more closely yet.
+    pub(crate) fn of_roadmap(problem: &Problem, roadmap: &Roadmap) -> Self {
         let mut network = Network::new(roadmap);
         let free = network.add_node(None);
         for (i, milestone) in roadmap.milestones.iter().enumerate() {
@@ -241,6 +242,18 @@ impl Survey {
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
+        self.add_transition_states_near(problem, &places, images, &settings.edge);
+    }
+
+    /// Looks for the transition states near some places, each given with the direction in which it
+    /// is to be passed, and adds those found, with their symmetric images.
+    pub(crate) fn add_transition_states_near(
+        &mut self,
+        problem: &Problem,
+        places: &[(Configuration, Vector3<f64>)],
+        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
+        settings: &EdgeSettings,
+    ) {
         let found: Vec<Option<Stationary>> = places
             .par_iter()
             .map(|(q, along)| {
@@ -271,7 +284,7 @@ impl Survey {
         problem: &Problem,
         saddle: Stationary,
         sides: [Option<Descent>; 2],
-        settings: &SurveySettings,
+        settings: &EdgeSettings,
     ) {
         let [Some(first), Some(second)] = sides else {
             return;
@@ -284,7 +297,7 @@ impl Survey {
         way.reverse();
         way.push(saddle.point);
         way.extend(second.way);
-        let link = self.network.add_way(problem, from, to, way, &settings.edge);
+        let link = self.network.add_way(problem, from, to, way, settings);
         self.transition_states.push((saddle, link));
     }
 
