@@ -173,6 +173,7 @@ pub(crate) fn survey(
     let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
     clock.start("edges", 0.06);
     let edges = edge::edges(problem, &milestones, &pairs, &edge_settings);
+    drop(pairs);
     let mut counts = Counts {
         milestones: milestones.len(),
         edges: edges.len(),
@@ -181,7 +182,7 @@ pub(crate) fn survey(
     clock.start("states and transition states", 0.4);
     let survey = Survey::new(
         problem,
-        &Roadmap { milestones, edges },
+        Roadmap { milestones, edges },
         &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {

@@ -21,12 +21,12 @@ use rayon::prelude::*;
 use nalgebra::Vector3;
 
 use super::minimum::{Descent, Outcome, descend};
-use super::network::{Link, Merge, Network, Way};
+use super::network::{Merge, Network, Way};
 use super::slide::{self, Point};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-use crate::roadmap::edge::{self, EdgeCosts};
+use crate::roadmap::edge;
 use crate::roadmap::{EdgeSettings, Milestone, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
@@ -72,13 +72,14 @@ impl Survey {
     /// minima; `images` gives the configurations that symmetries make of one (itself included).
     pub fn new(
         problem: &Problem,
-        roadmap: &Roadmap,
+        roadmap: Roadmap,
         guesses: &[Configuration],
         images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
         survey.find_states(problem, guesses, settings);
+        survey.network.span();
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
             survey.rounds = round;
@@ -92,17 +93,19 @@ impl Survey {
             }
             survey.polish(problem, &open, images, &mut tried, settings);
             survey.densify(problem, &open, round as u64, settings);
+            survey.network.span();
         }
         survey
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
-    pub(crate) fn of_roadmap(problem: &Problem, roadmap: &Roadmap) -> Self {
+    pub(crate) fn of_roadmap(problem: &Problem, roadmap: Roadmap) -> Self {
         let mut network = Network::new(roadmap);
         let free = network.add_node(None);
-        for (i, milestone) in roadmap.milestones.iter().enumerate() {
-            if problem.space.is_far(&milestone.configuration) {
-                network.add_link(same_link(i, free, milestone.energy));
+        for node in 0..free {
+            let far = network.nodes[node].filter(|known| problem.space.is_far(&known.0));
+            if let Some((_, energy)) = far {
+                network.add_same(node, free, energy);
             }
         }
         Self {
@@ -173,8 +176,7 @@ impl Survey {
             Outcome::Free => {
                 let last = descent.way.last()?;
                 let node = self.network.add_node(Some((last.q, last.energy)));
-                let link = same_link(node, self.free, last.energy);
-                self.network.add_link(link);
+                self.network.add_same(node, self.free, last.energy);
                 Some(node)
             }
             Outcome::Stuck => None,
@@ -212,7 +214,7 @@ impl Survey {
             .map(|s| (s.node, s.minimum.point.energy))
             .collect();
         labelled.push((self.free, f64::NEG_INFINITY));
-        self.network.minimax_tree().merges(&labelled)
+        self.network.merges(&labelled)
     }
 
     fn is_settled(&self, merge: &Merge, settings: &SurveySettings) -> bool {
@@ -303,16 +305,13 @@ impl Survey {
 
     /// The highest configuration of a link and the direction in which the link passes it.
     fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
-        let link = &self.network.links[number];
         let q = self.network.peak_configuration(number)?;
-        let along = match &link.way {
+        let along = match self.network.way(number) {
             Way::Same => return None,
             Way::Straight => {
-                let (a, b) = (
-                    self.network.nodes[link.from]?.0,
-                    self.network.nodes[link.to]?.0,
-                );
-                a.step_to(&b)
+                let link = &self.network.links[number];
+                let [a, b] = [link.from, link.to].map(|node| self.network.nodes[node as usize]);
+                a?.0.step_to(&b?.0)
             }
             Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
         };
@@ -393,12 +392,8 @@ impl Survey {
         let pairs = pairs_with_new(problem, &around, old, 12);
         let milestones: Vec<Milestone> = around.iter().map(|a| a.1).collect();
         for found in edge::edges(problem, &milestones, &pairs, &settings.edge) {
-            self.network.add_link(Link {
-                from: around[found.from as usize].0,
-                to: around[found.to as usize].0,
-                costs: found.costs,
-                way: Way::Straight,
-            });
+            let [from, to] = [found.from, found.to].map(|end| around[end as usize].0);
+            self.network.add_motion(from, to, found.costs);
         }
     }
 }
@@ -464,17 +459,4 @@ fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Desce
     let start = slide::settle(problem, &aim, OFF_SADDLE)?;
     let descent = descend(problem, &start);
     (descent.way[0].energy <= saddle.point.energy).then_some(descent)
-}
-
-/// A link that identifies a far configuration with `free`.
-pub(crate) fn same_link(from: usize, to: usize, energy: f64) -> Link {
-    Link {
-        from,
-        to,
-        costs: EdgeCosts {
-            peak: energy,
-            ..EdgeCosts::default()
-        },
-        way: Way::Same,
-    }
 }
