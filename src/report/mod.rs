@@ -3,7 +3,7 @@
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`csv`] - tables of states and barriers, and pathways;
 //! - [`calibration`] - fitted shields;
-//! - [`docking`] - docking experiments;
+//! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
@@ -14,6 +14,7 @@ pub mod calibration;
 pub mod comparison;
 pub mod csv;
 pub mod docking;
+pub mod dynamics;
 pub mod json;
 pub mod page;
 pub mod plots;
