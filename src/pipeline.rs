@@ -184,21 +184,7 @@ pub(crate) fn survey(
     let depth = energy_scale(design, problem);
     let edge_settings = edge_settings(settings, depth);
     clock.start("milestones", 0.0);
-    let acceptance = match settings.boltzmann {
-        Some(energy) => Acceptance::Boltzmann { energy },
-        None => Acceptance::Linear {
-            lowest: -depth,
-            highest: 0.1 * depth,
-        },
-    };
-    let milestones = milestone::milestones(
-        problem,
-        &MilestoneSettings {
-            count: settings.milestones,
-            acceptance,
-            seed,
-        },
-    );
+    let milestones = milestone::milestones(problem, &milestone_settings(settings, seed, depth));
     clock.start("neighbours", 0.05);
     let k = settings
         .neighbours
@@ -228,6 +214,32 @@ pub(crate) fn survey(
     );
     counts.transition_states = survey.transition_states.len();
     Surveyed { survey, counts }
+}
+
+/// The roadmap of an analysis with these settings, built anew.
+pub fn roadmap(design: &Design, problem: &Problem, settings: &Settings) -> Roadmap {
+    let depth = energy_scale(design, problem);
+    Roadmap::build(
+        problem,
+        &milestone_settings(settings, settings.seed, depth),
+        settings.neighbours,
+        &edge_settings(settings, depth),
+    )
+}
+
+fn milestone_settings(settings: &Settings, seed: u64, depth: f64) -> MilestoneSettings {
+    let acceptance = match settings.boltzmann {
+        Some(energy) => Acceptance::Boltzmann { energy },
+        None => Acceptance::Linear {
+            lowest: -depth,
+            highest: 0.1 * depth,
+        },
+    };
+    MilestoneSettings {
+        count: settings.milestones,
+        acceptance,
+        seed,
+    }
 }
 
 /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest

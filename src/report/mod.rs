@@ -8,8 +8,11 @@
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
+//! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
+//!   for programs that draw disconnectivity graphs;
 //! - [`writer`] - all of it as files of one folder.
 
+pub mod arrays;
 pub mod calibration;
 pub mod comparison;
 pub mod csv;
@@ -20,4 +23,5 @@ pub mod page;
 pub mod plots;
 pub mod summary;
 pub mod sweep;
+pub mod topsearch;
 pub mod writer;

@@ -6,7 +6,7 @@
 //! all; it opens from disk. The same page comes out as the same bytes.
 
 mod docking;
-mod landscape;
+pub(super) mod landscape;
 mod packed;
 mod pathways;
 mod tables;
