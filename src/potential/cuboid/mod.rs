@@ -27,13 +27,14 @@
 pub mod block;
 #[cfg(test)]
 mod cloud;
+pub(in crate::potential) mod correction;
 mod elementary;
 mod far;
 pub mod limits;
 mod multipole;
 mod panel;
-mod quadrature;
-mod sheet;
+pub(in crate::potential) mod quadrature;
+pub(in crate::potential) mod sheet;
 
 mod sum;
 
@@ -181,6 +182,13 @@ impl CuboidPotential {
 }
 
 impl CuboidPotential {
+    /// The distance (m) of their centres from which on the multipole series stands for every pair
+    /// of blocks.
+    pub(in crate::potential) fn hand_over(&self) -> f64 {
+        let all = self.far.iter().flatten();
+        all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
+    }
+
     /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
     /// moving tile's block j is number `j * fixed blocks + i`.
     pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
