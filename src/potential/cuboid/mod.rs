@@ -268,6 +268,13 @@ impl Potential for CuboidPotential {
         self.lever.displacement(step)
     }
 
+    /// Half the shortest side in the plane of any block.
+    fn feature_length(&self) -> f64 {
+        let blocks = self.fixed.iter().chain(&self.moving);
+        let sides = blocks.flat_map(|each| [each.block.size[0], each.block.size[1]]);
+        sides.fold(f64::INFINITY, f64::min) / 2.0
+    }
+
     /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the
     /// integral of the gradient.
     fn noise(&self) -> f64 {
