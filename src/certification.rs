@@ -209,7 +209,11 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
 }
 
 /// The better of two bounds, of which either may be missing.
-fn either(a: Option<f64>, b: Option<f64>, better: impl Fn(f64, f64) -> f64) -> Option<f64> {
+pub(crate) fn either(
+    a: Option<f64>,
+    b: Option<f64>,
+    better: impl Fn(f64, f64) -> f64,
+) -> Option<f64> {
     match (a, b) {
         (Some(a), Some(b)) => Some(better(a, b)),
         _ => a.or(b),

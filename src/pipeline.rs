@@ -6,6 +6,8 @@ use crate::analysis::{Analysis, Counts, Settings, Stage};
 use crate::certification;
 use crate::configuration::Configuration;
 use crate::design::Design;
+use crate::dynamics::Body;
+use crate::dynamics::check::{self, BarrierCheck, CheckSettings};
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
@@ -88,6 +90,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         settings,
         observer,
     );
+    let dynamics = check_barriers(design, &problem, &inventory, settings, &mut clock);
     let stages = clock.stop();
     let Inventory {
         states,
@@ -109,6 +112,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         uncaptured,
         ring: capture::ring(&problem),
         uncertified: certified.err(),
+        dynamics,
         counts: Counts {
             energy_evaluations: problem.evaluations(),
             cells: certified.unwrap_or(0),
@@ -131,6 +135,35 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     }
 }
 
+/// What moving tiles say of the barriers, if they are asked.
+fn check_barriers(
+    design: &Design,
+    problem: &Problem,
+    inventory: &Inventory,
+    settings: &Settings,
+    clock: &mut Clock,
+) -> Option<Vec<BarrierCheck>> {
+    if settings.dynamics_runs == 0 {
+        return None;
+    }
+    clock.start("dynamics", 0.8);
+    let check = CheckSettings {
+        seed: settings.seed,
+        runs: settings.dynamics_runs,
+        settled: settings.settled,
+        ..CheckSettings::default()
+    };
+    let observer = clock.observer;
+    Some(check::check(
+        problem,
+        Body::of_tile(&design.moving),
+        &inventory.states,
+        &inventory.barriers,
+        &check,
+        &|done, count| observer.part("dynamics", done, count),
+    ))
+}
+
 /// A survey, and how much was done for it.
 pub(crate) struct Surveyed {
     pub survey: Survey,
@@ -151,21 +184,7 @@ pub(crate) fn survey(
     let depth = energy_scale(design, problem);
     let edge_settings = edge_settings(settings, depth);
     clock.start("milestones", 0.0);
-    let acceptance = match settings.boltzmann {
-        Some(energy) => Acceptance::Boltzmann { energy },
-        None => Acceptance::Linear {
-            lowest: -depth,
-            highest: 0.1 * depth,
-        },
-    };
-    let milestones = milestone::milestones(
-        problem,
-        &MilestoneSettings {
-            count: settings.milestones,
-            acceptance,
-            seed,
-        },
-    );
+    let milestones = milestone::milestones(problem, &milestone_settings(settings, seed, depth));
     clock.start("neighbours", 0.05);
     let k = settings
         .neighbours
@@ -173,6 +192,7 @@ pub(crate) fn survey(
     let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
     clock.start("edges", 0.06);
     let edges = edge::edges(problem, &milestones, &pairs, &edge_settings);
+    drop(pairs);
     let mut counts = Counts {
         milestones: milestones.len(),
         edges: edges.len(),
@@ -181,7 +201,7 @@ pub(crate) fn survey(
     clock.start("states and transition states", 0.4);
     let survey = Survey::new(
         problem,
-        &Roadmap { milestones, edges },
+        Roadmap { milestones, edges },
         &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {
@@ -194,6 +214,32 @@ pub(crate) fn survey(
     );
     counts.transition_states = survey.transition_states.len();
     Surveyed { survey, counts }
+}
+
+/// The roadmap of an analysis with these settings, built anew.
+pub fn roadmap(design: &Design, problem: &Problem, settings: &Settings) -> Roadmap {
+    let depth = energy_scale(design, problem);
+    Roadmap::build(
+        problem,
+        &milestone_settings(settings, settings.seed, depth),
+        settings.neighbours,
+        &edge_settings(settings, depth),
+    )
+}
+
+fn milestone_settings(settings: &Settings, seed: u64, depth: f64) -> MilestoneSettings {
+    let acceptance = match settings.boltzmann {
+        Some(energy) => Acceptance::Boltzmann { energy },
+        None => Acceptance::Linear {
+            lowest: -depth,
+            highest: 0.1 * depth,
+        },
+    };
+    MilestoneSettings {
+        count: settings.milestones,
+        acceptance,
+        seed,
+    }
 }
 
 /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest

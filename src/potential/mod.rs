@@ -28,6 +28,7 @@ pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
 mod lever;
+mod motion;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -110,6 +111,12 @@ pub trait Potential: Sync {
     /// square metre of the displacement of the magnet that moves farthest. Infinite where nothing
     /// is known.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64;
+
+    /// The same of the fourth derivative, per fourth power of the displacement. Infinite where
+    /// nothing is known.
+    fn fourth_derivative_bound(&self, _q: &Configuration, _reach: f64) -> f64 {
+        f64::INFINITY
+    }
 
     /// How far (m) the motion `step` = (dx, dy, dtheta) moves the point of the moving tile that
     /// matters to the potential and moves farthest, at most.

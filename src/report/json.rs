@@ -10,9 +10,10 @@ use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use serde_json::{Value, json};
 
+use super::dynamics::DynamicsEntry;
 use crate::analysis::{Alternative, Analysis, Counts, PathwayCost, Settings, Stage};
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, Drawing};
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
 use crate::pipeline;
 use crate::roadmap::neighbour;
@@ -31,6 +32,8 @@ pub struct Report {
     pub barriers: Vec<BarrierEntry>,
     /// Why the bounds of all barriers are null; itself null where they are certified.
     pub uncertified: Option<String>,
+    /// What moving tiles say of the barriers; null where they were not asked.
+    pub dynamics: Option<DynamicsEntry>,
     pub alternatives: Vec<AlternativeEntry>,
     pub counts: CountsEntry,
     pub timing: TimingEntry,
@@ -43,6 +46,9 @@ pub struct DesignEntry {
     pub description: String,
     /// Of the design file's bytes.
     pub sha256: String,
+    /// The drawings that the design refers to.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drawings: Vec<Drawing>,
 }
 
 /// All that decides the result, besides the design and the seed.
@@ -197,6 +203,7 @@ impl Report {
                 name: design.name.clone(),
                 description: design.description.clone(),
                 sha256: design.sha256.clone(),
+                drawings: design.drawings.clone(),
             },
             seed: analysis.settings.seed,
             settings: SettingsEntry::new(design, &analysis.settings, &analysis.counts),
@@ -216,6 +223,7 @@ impl Report {
             },
             barriers: analysis.barriers.iter().map(BarrierEntry::new).collect(),
             uncertified: analysis.uncertified.map(|why| why.to_string()),
+            dynamics: DynamicsEntry::new(analysis),
             alternatives: analysis
                 .alternatives
                 .iter()
@@ -456,7 +464,7 @@ impl From<&Stage> for StageEntry {
     }
 }
 
-fn place(place: Place) -> Value {
+pub(super) fn place(place: Place) -> Value {
     match place {
         Place::State(id) => json!(id),
         Place::Free => json!("free"),

@@ -6,7 +6,6 @@ use parry2d_f64::transformation::convex_hull;
 
 use super::convex;
 use super::edge_grid::EdgeGrid;
-use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
@@ -22,13 +21,6 @@ impl ConvexPart {
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();
         Self { points, normals }
-    }
-
-    /// The part as it lies at a configuration of its tile.
-    pub fn placed(&self, q: &Configuration) -> Self {
-        let mut placed = Self::default();
-        placed.place(self, &q.rotation(), &q.position());
-        placed
     }
 
     /// Becomes `part`, turned and moved; takes no new memory once it has held as many points.

@@ -13,7 +13,7 @@
 //! gradient zero. Poses beyond 1e18 m are not supported.
 
 mod bundle;
-mod curvature;
+mod derivative;
 mod field;
 pub mod lanes;
 mod level;
@@ -33,10 +33,11 @@ pub use operations::Operations;
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::lever::Lever;
+use super::motion;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
-use curvature::Curvature;
+use derivative::DerivativeBound;
 use field::{Source, TOGETHER};
 use tasks::{Many, One};
 
@@ -140,12 +141,21 @@ impl Potential for DipolePotential {
         });
     }
 
-    /// By the formula of [`super::dipole::ScalarDipoles`].
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.level.run(Curvature {
+        self.level.run(DerivativeBound {
             potential: self,
             q,
             reach,
+            terms: motion::second_derivative(self.lever.turn()),
+        })
+    }
+
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        self.level.run(DerivativeBound {
+            potential: self,
+            q,
+            reach,
+            terms: motion::fourth_derivative(self.lever.turn()),
         })
     }
 

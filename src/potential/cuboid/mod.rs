@@ -242,6 +242,29 @@ impl Potential for CuboidPotential {
         bound
     }
 
+    /// Known only where all blocks are farther apart than their own size: closer, the second
+    /// derivative's bound tells more.
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let (sin, cos) = q.theta.sin_cos();
+        let turn = self.lever.turn();
+        let mut bound = 0.0;
+        for second in &self.moving {
+            let moved = second.block.moved(cos, sin, q.position());
+            for first in &self.fixed {
+                let r = (moved.position - first.block.position).norm();
+                let radii = first.block.radius() + moved.radius();
+                let distance = r - radii - reach;
+                if distance < radii {
+                    return f64::INFINITY;
+                }
+                let limits = &self.far[first.size][second.size].limits;
+                let strength = (first.block.moment * moved.moment).abs();
+                bound += strength * limits.fourth_derivative(turn, distance);
+            }
+        }
+        bound
+    }
+
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         self.lever.displacement(step)
     }

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::packed::Packed;
-use super::pathways::{Played, played};
+use super::pathways::Played;
 use super::tree::{Node, nodes};
 use super::{fixed, rounded};
 use crate::configuration::Configuration;
@@ -90,7 +90,8 @@ struct DrawnState {
 }
 
 impl Landscape {
-    pub fn new(design: &Design, scene: &Scene) -> Self {
+    /// The landscape of a scene and the ways through it that are played.
+    pub fn new(design: &Design, scene: &Scene, pathways: Vec<Played>) -> Self {
         let around = whole(scene);
         let in_front = in_front(scene);
         let volumes = [&around, &in_front.volume];
@@ -117,15 +118,19 @@ impl Landscape {
                 .map(|distance| distance.map(|d| fixed(d, 5)))
                 .collect(),
             states: scene.states.iter().map(DrawnState::new).collect(),
-            pathways: played(scene),
-            tree: nodes(scene, &scale),
+            pathways,
+            tree: if scene.barriers.is_empty() {
+                Vec::new()
+            } else {
+                nodes(scene, &scale)
+            },
         }
     }
 }
 
 /// The map all around the fixed tile: at least so many orientations, and as many places as the
 /// number of grid points leaves.
-fn whole(scene: &Scene) -> Volume {
+pub fn whole(scene: &Scene) -> Volume {
     let repeats = crate::tile::symmetry::rotations(scene.pair.moving).len();
     let orientations = ORIENTATIONS[usize::from(repeats == 1)];
     let reach = scene.reach();
@@ -135,7 +140,8 @@ fn whole(scene: &Scene) -> Volume {
     around(&scene.pair, reach, orientations, side as usize)
 }
 
-fn in_front(scene: &Scene) -> InFront {
+/// The map in front of the target face.
+pub fn in_front(scene: &Scene) -> InFront {
     let pair = &scene.pair;
     let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
     let length = pair.fixed.faces[scene.target.0].length();

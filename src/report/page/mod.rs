@@ -5,7 +5,8 @@
 //! policy lets the page run its own script and style, known by their SHA-256, and load nothing at
 //! all; it opens from disk. The same page comes out as the same bytes.
 
-mod landscape;
+mod docking;
+pub(super) mod landscape;
 mod packed;
 mod pathways;
 mod tables;
@@ -104,7 +105,7 @@ impl Page {
             title: design.name.clone(),
             subtitle: design.description.clone(),
             facts: tables::facts(design, analysis, scene),
-            landscape: Some(Landscape::new(design, scene)),
+            landscape: Some(Landscape::new(design, scene, pathways::played(scene))),
             pictures: Vec::new(),
             tables: vec![
                 tables::states(design, analysis, scene),
