@@ -190,10 +190,11 @@ impl CuboidPotential {
     }
 
     /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
-    /// moving tile's block j is number `j * fixed blocks + i`.
-    pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
+    /// moving tile's block j is number `j * fixed blocks + i`. Derivatives are zero where not asked
+    /// for.
+    pub fn pairs<const SLOPE: bool>(&self, q: &Configuration) -> Vec<PairEnergy> {
         let mut out = vec![PairEnergy::default(); self.fixed.len() * self.moving.len()];
-        self.level.run(Each {
+        self.level.run(Each::<SLOPE> {
             potential: self,
             q,
             out: &mut out,
