@@ -5,6 +5,7 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
@@ -17,6 +18,7 @@ pub mod calibration;
 pub mod comparison;
 pub mod csv;
 pub mod docking;
+pub mod figures;
 pub mod json;
 pub mod page;
 pub mod plots;
