@@ -2,6 +2,7 @@
 
 use crate::certification::Uncertified;
 use crate::configuration::Configuration;
+use crate::dynamics::check::BarrierCheck;
 use crate::landscape::{Barrier, Pathway, Place, Proportion, State};
 
 /// The result of the main job, with everything that reproduces it.
@@ -28,6 +29,8 @@ pub struct Analysis {
     pub ring: [f64; 2],
     /// Why the barriers have no certified bounds, where they have none.
     pub uncertified: Option<Uncertified>,
+    /// What moving tiles say of the barriers; `None` where they were not asked.
+    pub dynamics: Option<Vec<BarrierCheck>>,
     pub counts: Counts,
     /// Wall time (s) and energy evaluations of each stage, in order.
     pub stages: Vec<Stage>,
@@ -62,6 +65,16 @@ pub struct Settings {
     pub certified: Certified,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
+    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
+    pub dynamics_runs: usize,
+}
+
+impl Analysis {
+    /// The barriers that moving tiles contradict.
+    pub fn contradicted(&self) -> impl Iterator<Item = &BarrierCheck> {
+        let checks = self.dynamics.iter().flatten();
+        checks.filter(|check| check.is_contradicted())
+    }
 }
 
 impl Default for Settings {
@@ -80,6 +93,7 @@ impl Default for Settings {
             certify_cells: 1_000_000,
             certified: Certified::All,
             repeats: 1,
+            dynamics_runs: 0,
         }
     }
 }

@@ -6,6 +6,8 @@ use crate::analysis::{Analysis, Counts, Settings, Stage};
 use crate::certification;
 use crate::configuration::Configuration;
 use crate::design::Design;
+use crate::dynamics::Body;
+use crate::dynamics::check::{self, BarrierCheck, CheckSettings};
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
@@ -88,6 +90,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         settings,
         observer,
     );
+    let dynamics = check_barriers(design, &problem, &inventory, settings, &mut clock);
     let stages = clock.stop();
     let Inventory {
         states,
@@ -109,6 +112,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         uncaptured,
         ring: capture::ring(&problem),
         uncertified: certified.err(),
+        dynamics,
         counts: Counts {
             energy_evaluations: problem.evaluations(),
             cells: certified.unwrap_or(0),
@@ -129,6 +133,35 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     for state in &mut inventory.states {
         state.block_energy = Some(blocks.energy(&state.configuration));
     }
+}
+
+/// What moving tiles say of the barriers, if they are asked.
+fn check_barriers(
+    design: &Design,
+    problem: &Problem,
+    inventory: &Inventory,
+    settings: &Settings,
+    clock: &mut Clock,
+) -> Option<Vec<BarrierCheck>> {
+    if settings.dynamics_runs == 0 {
+        return None;
+    }
+    clock.start("dynamics", 0.8);
+    let check = CheckSettings {
+        seed: settings.seed,
+        runs: settings.dynamics_runs,
+        settled: settings.settled,
+        ..CheckSettings::default()
+    };
+    let observer = clock.observer;
+    Some(check::check(
+        problem,
+        Body::of_tile(&design.moving),
+        &inventory.states,
+        &inventory.barriers,
+        &check,
+        &|done, count| observer.part("dynamics", done, count),
+    ))
 }
 
 /// A survey, and how much was done for it.
@@ -159,6 +192,7 @@ pub(crate) fn survey(
     let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
     clock.start("edges", 0.06);
     let edges = edge::edges(problem, &milestones, &pairs, &edge_settings);
+    drop(pairs);
     let mut counts = Counts {
         milestones: milestones.len(),
         edges: edges.len(),
@@ -167,7 +201,7 @@ pub(crate) fn survey(
     clock.start("states and transition states", 0.4);
     let survey = Survey::new(
         problem,
-        &Roadmap { milestones, edges },
+        Roadmap { milestones, edges },
         &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {

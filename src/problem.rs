@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::contact::Contact;
+use crate::contact::{Contact, TOUCH};
 use crate::potential::Potential;
 use crate::tile::{Face, Tile};
 
@@ -119,6 +119,21 @@ impl Problem {
         self.contact
             .as_ref()
             .is_none_or(|contact| contact.motion_is_free(a, b))
+    }
+
+    /// A cheap lower bound of the clearance (m).
+    pub fn clearance_bound(&self, q: &Configuration) -> f64 {
+        self.contact
+            .as_ref()
+            .map_or(f64::INFINITY, |contact| contact.clearance_bound(q))
+    }
+
+    /// The same as [`Self::motion_is_free`], for ends whose clearances are known to be at least
+    /// `clearances` (m).
+    pub fn known_motion_is_free(&self, ends: [&Configuration; 2], clearances: [f64; 2]) -> bool {
+        self.contact
+            .as_ref()
+            .is_none_or(|contact| contact.known_motion_overlaps_at_most(ends, clearances, TOUCH))
     }
 
     /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two

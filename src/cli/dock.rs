@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::dynamics::docking::{self, Docking, DockingError, DockingMap, DockingSettings, End};
+use tilebind::dynamics::docking::{
+    self, Docking, DockingError, DockingMap, DockingRun, DockingSettings, End,
+};
 use tilebind::dynamics::{Fan, Sample};
+use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::dock;
 use tilebind::report::{docking as report, writer};
 
@@ -31,7 +34,7 @@ pub struct Dock {
           value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
 
-    /// Folder for dock.json, runs.csv, map.csv, trajectory.csv and the pictures
+    /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -67,7 +70,8 @@ pub struct Dock {
     #[arg(long, value_name = "E_J", value_parser = input::not_negative)]
     shaking: Option<f64>,
 
-    /// Number of the trajectory that is written to trajectory.csv [default: the first bound one]
+    /// Number of the trajectory that is written to trajectory.csv and that the page plays first
+    /// [default: the first bound one]
     #[arg(long, value_name = "N")]
     trajectory: Option<u32>,
 
@@ -97,6 +101,12 @@ impl Dock {
         input::use_threads(self.threads)?;
         interrupt::prepare()?;
         let settings = self.settings();
+        if let Some(index) = self.trajectory.filter(|index| *index >= self.runs) {
+            return Err(Failure::Usage(format!(
+                "--trajectory {index}: the {} trajectories are numbered from 0; ask for more --runs",
+                self.runs
+            )));
+        }
         let progress = Progress::new(self.quiet);
         let done = std::sync::atomic::AtomicUsize::new(0);
         let step = || {
@@ -112,22 +122,34 @@ impl Dock {
                 ("runs.csv", report::runs_csv(&docking).into_bytes()),
                 ("map.csv", map.csv().into_bytes()),
             ];
-            let trace = |index| docking::trajectory(&design, &settings, index, INTERVAL);
-            let picked = trace(self.picked(&docking)).map_err(usage)?;
+            let trace = |run: &DockingRun| {
+                let samples = docking::trajectory(&design, &settings, run.index, INTERVAL);
+                Ok((*run, samples.map_err(usage)?))
+            };
+            let played = self.played(&docking);
+            let played = played.iter().map(trace);
+            let played: Vec<_> = played.collect::<Result<_, Failure>>()?;
+            let picked = &played[0].1;
             files.push((
                 "trajectory.csv",
-                report::trajectory_csv(&picked).into_bytes(),
+                report::trajectory_csv(picked).into_bytes(),
             ));
             let drawn: Vec<(End, Vec<Sample>)> = docking
                 .runs
                 .iter()
                 .take(DRAWN)
-                .map(|run| Ok((run.end, trace(run.index)?)))
-                .collect::<Result<_, _>>()
-                .map_err(usage)?;
+                .map(|run| Ok((run.end, trace(run)?.1)))
+                .collect::<Result<_, Failure>>()?;
             let picture = |error| Failure::from(writer::WriteError::from(error));
             let chances = dock::map(&design, &map).map_err(picture)?;
             let paths = dock::trajectories(&design, &drawn).map_err(picture)?;
+            let pictures = [("Chance of a match", &chances), ("Trajectories", &paths)];
+            let pictures = pictures.map(|(title, picture)| Illustration {
+                title: title.to_owned(),
+                svg: picture.svg.clone(),
+            });
+            let page = Page::of_docking(&design, &docking, &played, pictures.into());
+            files.push((writer::PAGE, page.to_html().into_bytes()));
             files.push(("chances.svg", chances.svg.into_bytes()));
             files.push(("chances.png", chances.png));
             files.push(("trajectories.svg", paths.svg.into_bytes()));
@@ -167,14 +189,28 @@ impl Dock {
         settings
     }
 
-    fn picked(&self, docking: &Docking) -> usize {
-        self.trajectory.map_or_else(
-            || {
-                let bound = docking.runs.iter().find(|run| run.is_bound());
-                bound.map_or(0, |run| run.index)
-            },
-            |index| index as usize,
-        )
+    /// The trajectory that was asked for, or else the first bound one, and a few of each end.
+    fn played(&self, docking: &Docking) -> Vec<DockingRun> {
+        let runs = &docking.runs;
+        let asked = self.trajectory.and_then(|index| runs.get(index as usize));
+        let mut chosen: Vec<DockingRun> = asked.copied().into_iter().collect();
+        let mut take = |count: usize, is: &dyn Fn(&DockingRun) -> bool| {
+            let fitting = runs.iter().filter(|run| is(run)).take(count);
+            let new: Vec<_> = fitting
+                .filter(|run| !chosen.contains(run))
+                .copied()
+                .collect();
+            chosen.extend(new);
+        };
+        take(4, &DockingRun::is_bound);
+        for trap in 0..4 {
+            take(1, &|run| run.end == End::Misbound { trap: Some(trap) });
+        }
+        take(2, &|run| run.end == End::Free);
+        if chosen.is_empty() {
+            chosen.extend(runs.first());
+        }
+        chosen
     }
 }
 

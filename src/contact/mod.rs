@@ -5,15 +5,17 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+mod admissible;
 pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
 mod tree;
 
-pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
+pub use admissible::closest_admissible;
+pub use constraint::{Constraint, EdgeOf, Touch};
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
@@ -93,7 +95,7 @@ impl Contact {
         if circles > 0.0 {
             return circles;
         }
-        let hulls = separation(&self.fixed_hull, &self.moving_hull.placed(q));
+        let hulls = separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q));
         if hulls >= 0.0 {
             hulls
         } else {
@@ -109,8 +111,14 @@ impl Contact {
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
     fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
         self.clearance_bound(q) >= -depth
-            || (separated(&self.fixed_core, &self.moving_core.placed(q), -depth)
-                && self.close_parts(q, |fixed, moving| separated(fixed, moving, -depth)))
+            || (separated(
+                &self.fixed_core,
+                &self.moving_core,
+                &Placement::of(q),
+                -depth,
+            ) && self.close_parts(q, |fixed, moving| {
+                separated(fixed, moving, &Placement::none(), -depth)
+            }))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -118,13 +126,12 @@ impl Contact {
         if q.x.hypot(q.y) >= self.fixed.circumradius() + self.moving.circumradius() {
             return 0.0;
         }
-        let moving_hull = self.moving_hull.placed(q);
-        if separation(&self.fixed_hull, &moving_hull) >= 0.0 {
+        if separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q)) >= 0.0 {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
         self.close_parts(q, |fixed, moving| {
-            deepest = deepest.max(-separation(fixed, moving));
+            deepest = deepest.max(-separation(fixed, moving, &Placement::none()));
             true
         });
         deepest
@@ -158,30 +165,70 @@ impl Contact {
     }
 }
 
-/// Largest separation (m) of two convex polygons over the normals of their edges: at most their
-/// distance where they are apart, minus the overlap's depth where they are not (separating axis
-/// theorem).
-pub(crate) fn separation(a: &ConvexPart, b: &ConvexPart) -> f64 {
-    one_sided_separation(a, b).max(one_sided_separation(b, a))
+/// Largest separation (m) of two convex polygons, the second one placed, over the normals of their
+/// edges: at most their distance where they are apart, minus the overlap's depth where they are not
+/// (separating axis theorem).
+pub(crate) fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement) -> f64 {
+    separations(fixed, moving, at).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Whether the separation is at least `least` (m); looks no farther than the first edge that says
 /// so.
-fn separated(a: &ConvexPart, b: &ConvexPart, least: f64) -> bool {
-    let mut all = separations(a, b).chain(separations(b, a));
-    all.any(|separation| separation >= least)
+fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
+    separations(fixed, moving, at).any(|separation| separation >= least)
 }
 
-fn one_sided_separation(of: &ConvexPart, from: &ConvexPart) -> f64 {
-    separations(of, from).fold(f64::NEG_INFINITY, f64::max)
+/// How far (m) each polygon lies outside each edge of the other.
+fn separations<'a>(
+    fixed: &'a ConvexPart,
+    moving: &'a ConvexPart,
+    at: &'a Placement,
+) -> impl Iterator<Item = f64> + 'a {
+    let by_fixed = fixed.points.iter().zip(&fixed.normals);
+    let by_fixed = by_fixed.map(|(point, normal)| {
+        support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
+    });
+    let by_moving = moving.points.iter().zip(&moving.normals);
+    let by_moving = by_moving.map(|(point, normal)| {
+        let outside = |x: &Vector2<f64>| normal.dot(&(at.point(x) - point));
+        fixed
+            .points
+            .iter()
+            .map(outside)
+            .fold(f64::INFINITY, f64::min)
+    });
+    by_fixed.chain(by_moving)
 }
 
-/// How far (m) one polygon lies outside each edge of another.
-fn separations<'a>(of: &'a ConvexPart, from: &'a ConvexPart) -> impl Iterator<Item = f64> + 'a {
-    of.points
-        .iter()
-        .zip(&of.normals)
-        .map(|(point, normal)| support(from, normal) - normal.dot(point))
+/// Where a convex part lies. What is outside it is brought into its own frame, so that the part
+/// need not be moved.
+pub(crate) struct Placement {
+    rotation: Rotation2<f64>,
+    position: Vector2<f64>,
+}
+
+impl Placement {
+    pub fn of(q: &Configuration) -> Self {
+        Self {
+            rotation: q.rotation(),
+            position: q.position(),
+        }
+    }
+
+    /// Of a part given where it lies.
+    pub fn none() -> Self {
+        Self::of(&Configuration::new(0.0, 0.0, 0.0))
+    }
+
+    /// A point in the part's frame.
+    fn point(&self, p: &Vector2<f64>) -> Vector2<f64> {
+        self.direction(&(p - self.position))
+    }
+
+    /// A direction in the part's frame.
+    fn direction(&self, d: &Vector2<f64>) -> Vector2<f64> {
+        self.rotation.inverse_transform_vector(d)
+    }
 }
 
 /// Least coordinate of a polygon along a direction.

@@ -1,8 +1,6 @@
 //! Whether a straight motion is free of overlap, from its start to its end and everywhere between.
 
-use nalgebra::Vector2;
-
-use super::{Contact, TOUCH};
+use super::{Contact, Placement, TOUCH};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -28,12 +26,23 @@ impl Contact {
         b: &Configuration,
         allowed: f64,
     ) -> bool {
+        let clearances = [a, b].map(|end| self.clearance_bound(end));
+        self.known_motion_overlaps_at_most([a, b], clearances, allowed)
+    }
+
+    /// The same for ends whose clearances are known to be at least `clearances` (m).
+    pub fn known_motion_overlaps_at_most(
+        &self,
+        [a, b]: [&Configuration; 2],
+        clearances: [f64; 2],
+        allowed: f64,
+    ) -> bool {
         let step = a.step_to(b);
         let reach = step.xy().norm() + self.moving().circumradius() * step.z.abs();
-        if self.clearance_bound(a) >= reach || self.clearance_bound(b) >= reach {
-            return true;
-        }
-        self.stretch_overlaps_at_most(a, b, reach, allowed)
+        // What is closer to an end than its clearance is free, and a motion that brings no point
+        // farther than their sum passes from the one's surroundings into the other's.
+        clearances[0].max(0.0) + clearances[1].max(0.0) >= reach
+            || self.stretch_overlaps_at_most(a, b, reach, allowed)
     }
 
     fn stretch_overlaps_at_most(
@@ -65,42 +74,30 @@ impl Contact {
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
         let step = a.step_to(b);
         let motion = Motion {
-            positions: [a.position(), b.position()],
+            ends: [Placement::of(a), Placement::of(b)],
             path: step.xy().norm(),
             turn: step.z.abs(),
             allowed,
         };
-        let rotations = [a.rotation(), b.rotation()];
-        let hulls = [self.moving_hull.placed(a), self.moving_hull.placed(b)];
-        if motion.separates(&self.fixed_hull, &hulls) {
+        if motion.separates(&self.fixed_hull, &self.moving_hull) {
             return true;
         }
         let reach = motion.path + motion.turn * self.moving.circumradius() - allowed.min(0.0);
-        let mut ends = [ConvexPart::default(), ConvexPart::default()];
-        let mut placed = None;
+        let (rotation, position) = (a.rotation(), a.position());
         self.fixed_tree.near_pairs(
             &self.moving_tree,
-            &|p| motion.positions[0] + rotations[0] * p,
+            &|p| position + rotation * p,
             reach,
-            &mut |i, j| {
-                if placed != Some(j) {
-                    placed = Some(j);
-                    for k in 0..2 {
-                        let part = &self.moving.parts()[j];
-                        ends[k].place(part, &rotations[k], &motion.positions[k]);
-                    }
-                }
-                motion.separates(&self.fixed.parts()[i], &ends)
-            },
+            &mut |i, j| motion.separates(&self.fixed.parts()[i], &self.moving.parts()[j]),
         )
     }
 }
 
 /// What of a motion counts for proofs of separation.
 struct Motion {
-    /// The moving reference point at both ends (m).
-    positions: [Vector2<f64>; 2],
-    /// Length of its way (m).
+    /// The moving tile at both ends.
+    ends: [Placement; 2],
+    /// Length of the reference point's way (m).
     path: f64,
     /// Magnitude of the turn (rad).
     turn: f64,
@@ -109,33 +106,41 @@ struct Motion {
 }
 
 impl Motion {
-    /// Whether the line of one edge keeps a fixed part and a moving one, given at both `ends`,
+    /// Whether the line of one edge keeps a fixed part and a moving one, given in its own frame,
     /// apart throughout.
-    fn separates(&self, fixed: &ConvexPart, ends: &[ConvexPart; 2]) -> bool {
+    fn separates(&self, fixed: &ConvexPart, moving: &ConvexPart) -> bool {
         let turn_squared = self.turn * self.turn;
-        let edges = |part: &ConvexPart| 0..part.points.len();
-        let by_fixed = edges(fixed).any(|e| {
-            let normal = &fixed.normals[e];
-            let level = normal.dot(&fixed.points[e]);
-            edges(&ends[0]).all(|v| {
-                let gap = |k: usize| normal.dot(&ends[k].points[v]) - level;
-                let least = gap(0).min(gap(1)) + self.allowed;
-                let lever = || (ends[0].points[v] - self.positions[0]).norm();
-                least >= 0.0 && least >= turn_squared * lever() / 8.0
-            })
-        });
-        by_fixed
-            || edges(&ends[0]).any(|e| {
-                fixed.points.iter().all(|x| {
-                    let gap = |k: usize| ends[k].normals[e].dot(&(x - ends[k].points[e]));
+        let by_fixed = fixed
+            .points
+            .iter()
+            .zip(&fixed.normals)
+            .any(|(point, normal)| {
+                let normals = [0, 1].map(|k| self.ends[k].direction(normal));
+                let levels = [0, 1].map(|k| normal.dot(&(self.ends[k].position - point)));
+                moving.points.iter().all(|v| {
+                    let gap = |k: usize| normals[k].dot(v) + levels[k];
                     let least = gap(0).min(gap(1)) + self.allowed;
-                    let lever = |k: usize| (x - self.positions[k]).norm();
-                    let sag = || {
-                        (turn_squared * lever(0).max(lever(1)) + 2.0 * self.turn * self.path) / 8.0
-                    };
-                    least >= 0.0 && least >= sag()
+                    least >= 0.0 && least >= turn_squared * v.norm() / 8.0
                 })
-            })
+            });
+        by_fixed
+            || moving
+                .points
+                .iter()
+                .zip(&moving.normals)
+                .any(|(point, normal)| {
+                    let level = normal.dot(point);
+                    fixed.points.iter().all(|x| {
+                        let seen = [0, 1].map(|k| self.ends[k].point(x));
+                        let gap = |k: usize| normal.dot(&seen[k]) - level;
+                        let least = gap(0).min(gap(1)) + self.allowed;
+                        let sag = || {
+                            let lever = seen[0].norm().max(seen[1].norm());
+                            (turn_squared * lever + 2.0 * self.turn * self.path) / 8.0
+                        };
+                        least >= 0.0 && least >= sag()
+                    })
+                })
     }
 }
 

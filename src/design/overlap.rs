@@ -7,7 +7,7 @@ use super::build::BuiltTile;
 use super::quantity::four_digits;
 use super::reader::{Result, Section};
 use super::tile::TileEntry;
-use crate::contact::separation;
+use crate::contact::{Placement, separation};
 use crate::tile::assembly::{face_edges, surface_height};
 use crate::tile::outline::ConvexPart;
 use crate::tile::{Face, Magnet};
@@ -37,7 +37,9 @@ pub(super) fn check_magnets(entry: &TileEntry, built: &BuiltTile) -> Result<Vec<
                 "raise `inset`, move it away from corners and steps, or take a smaller magnet",
             ));
         }
-        if let Some(j) = (0..i).find(|&j| separation(&blocks[i], &blocks[j]) < -ROUNDING) {
+        if let Some(j) =
+            (0..i).find(|&j| separation(&blocks[i], &blocks[j], &Placement::none()) < -ROUNDING)
+        {
             return Err(section.error_at(
                 built.magnet_spans[i],
                 format!(

@@ -70,16 +70,25 @@ impl<'a> Simulation<'a> {
         settings: &'a MotionSettings,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
+        Ok(Self::of_sound_settings(problem, body, settings))
+    }
+
+    /// With settings that are known to make sense.
+    pub(super) fn of_sound_settings(
+        problem: &'a Problem,
+        body: Body,
+        settings: &'a MotionSettings,
+    ) -> Self {
         let circumradius = problem
             .contact
             .as_ref()
             .map_or(problem.space.rho, |c| c.moving().circumradius());
-        Ok(Self {
+        Self {
             problem,
             body,
             settings,
             reach: circumradius + body.centre.norm(),
-        })
+        }
     }
 
     pub fn body(&self) -> &Body {

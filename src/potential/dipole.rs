@@ -19,7 +19,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::Potential;
+use super::lever::Lever;
+use super::{Potential, finite, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
@@ -74,7 +75,7 @@ pub fn dipoles(magnets: &[Magnet]) -> Vec<Dipole> {
 pub struct ScalarDipoles {
     fixed: Vec<Dipole>,
     moving: Vec<Dipole>,
-    lever: f64,
+    lever: Lever,
 }
 
 impl ScalarDipoles {
@@ -82,8 +83,23 @@ impl ScalarDipoles {
         Self {
             fixed: fixed.to_vec(),
             moving: moving.to_vec(),
-            lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
+            lever: Lever::of(moving.iter().map(|d| d.position)),
         }
+    }
+}
+
+impl ScalarDipoles {
+    fn derivative_bound(&self, q: &Configuration, reach: f64, terms: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for second in &self.moving {
+            let position = q.transform(second.position);
+            for first in &self.fixed {
+                let r = (position - first.position).norm() - reach;
+                let k = 1e-7 * first.moment.norm() * second.moment.norm();
+                sum += motion::bound(terms, k, r);
+            }
+        }
+        sum
     }
 }
 
@@ -106,41 +122,20 @@ impl Potential for ScalarDipoles {
                 gradient += Vector3::new(-force.x, -force.y, slope - torque);
             }
         }
-        if energy.is_finite() {
-            (energy, gradient)
-        } else {
-            (f64::INFINITY, Vector3::zeros())
-        }
+        finite(energy, gradient)
     }
 
-    /// For one pair, U is a second directional derivative of `K / r` and the n-th directional
-    /// derivative of `1 / r` is at most `n! / r^(n+1)`; hence along a motion in which the moving
-    /// magnet has speed v, turns at the rate w and is accelerated by at most `w v`,
-    /// `|U''| <= K [24 v^2 / r^5 + 18 v w / r^4 + 2 w^2 / r^3]`, with r the smallest distance
-    /// within reach and `w <= v / lever`.
+    /// The sum of the bounds of all pairs that [`motion`] derives.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let turn = if self.lever > 0.0 {
-            1.0 / self.lever
-        } else {
-            0.0
-        };
-        let mut bound = 0.0;
-        for second in &self.moving {
-            let position = q.transform(second.position);
-            for first in &self.fixed {
-                let r = (position - first.position).norm() - reach;
-                if r <= 0.0 {
-                    return f64::INFINITY;
-                }
-                let k = 1e-7 * first.moment.norm() * second.moment.norm();
-                bound += k / r.powi(3) * (24.0 / (r * r) + 18.0 * turn / r + 2.0 * turn * turn);
-            }
-        }
-        bound
+        self.derivative_bound(q, reach, &motion::second_derivative(self.lever.turn()))
+    }
+
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        self.derivative_bound(q, reach, &motion::fourth_derivative(self.lever.turn()))
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
+        self.lever.displacement(step)
     }
 }
 
@@ -244,8 +239,12 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_curvature_is_bounded_within_reach() {
+    /// The largest share of a derivative's bound that finite differences along random motions
+    /// reach; `weights` are those of the differences.
+    fn largest_share_of_bound(
+        weights: &[f64],
+        bound: impl Fn(&ScalarDipoles, &Configuration, f64) -> f64,
+    ) -> f64 {
         let mut rng = ChaCha8Rng::seed_from_u64(4);
         let mut closest = 0f64;
         for _ in 0..300 {
@@ -253,19 +252,51 @@ mod tests {
             let away = random_vector(&mut rng, 1.0);
             let direction = Vector3::new(away.x, away.y, rng.random_range(-5.0..5.0));
             let step = direction / potential.displacement(direction);
-            let (reach, h) = (0.01, 1e-4);
-            let bound = potential.curvature_bound(&q, reach);
-            for at in [-reach + h, 0.0, reach - h] {
-                let u = |t: f64| potential.energy(&q.moved(step * t));
-                let curvature = (u(at + h) - 2.0 * u(at) + u(at - h)) / (h * h);
-                closest = closest.max(curvature.abs() / bound);
+            let (reach, h) = (0.01, 1e-3);
+            let order = weights.len() - 1;
+            let half = h * order as f64 / 2.0;
+            for middle in [-reach + half, 0.0, reach - half] {
+                let u =
+                    |k: usize| potential.energy(&q.moved(step * (middle - half + h * k as f64)));
+                let sum: f64 = weights.iter().enumerate().map(|(k, w)| w * u(k)).sum();
+                let derivative = sum / h.powi(order as i32);
+                closest = closest.max(derivative.abs() / bound(&potential, &q, reach));
             }
         }
+        closest
+    }
+
+    #[test]
+    fn derivatives_are_bounded_within_reach() {
+        let second =
+            largest_share_of_bound(&[1.0, -2.0, 1.0], |p, q, reach| p.curvature_bound(q, reach));
+        let fourth = largest_share_of_bound(&[1.0, -4.0, 6.0, -4.0, 1.0], |p, q, reach| {
+            p.fourth_derivative_bound(q, reach)
+        });
         // A bound that is never approached would be of little use.
-        assert!(
-            (0.01..=1.0).contains(&closest),
-            "at most {closest} of the bound"
-        );
+        for share in [second, fourth] {
+            assert!(
+                (0.01..=1.0).contains(&share),
+                "at most {share} of the bound"
+            );
+        }
+    }
+
+    #[test]
+    fn a_single_pair_pulled_straight_apart_attains_the_bounds() {
+        let dipole = Dipole {
+            position: X * 0.25,
+            moment: X,
+        };
+        let potential = ScalarDipoles::new(&[dipole], &[dipole]);
+        // In line, U = -2 K / r^3 at r = x: derivatives of 24 K / r^5 and 720 K / r^7, to which
+        // turns, which the bounds allow for, add what they may.
+        let (r, k, turn) = (0.02, 1e-7, 4.0);
+        let q = Configuration::new(r, 0.0, 0.0);
+        let second = k * (24.0 / r + 18.0 * turn + 2.0 * turn * turn * r) / r.powi(4);
+        assert!((potential.curvature_bound(&q, 0.0) / second - 1.0).abs() < 1e-12);
+        let fourth = potential.fourth_derivative_bound(&q, 0.0);
+        assert!((fourth * r.powi(7) / (720.0 * k) - 1.0).abs() < 0.2);
     }
 
     #[test]

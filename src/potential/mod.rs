@@ -27,6 +27,8 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+mod lever;
+mod motion;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -110,6 +112,12 @@ pub trait Potential: Sync {
     /// is known.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64;
 
+    /// The same of the fourth derivative, per fourth power of the displacement. Infinite where
+    /// nothing is known.
+    fn fourth_derivative_bound(&self, _q: &Configuration, _reach: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// How far (m) the motion `step` = (dx, dy, dtheta) moves the point of the moving tile that
     /// matters to the potential and moves farthest, at most.
     fn displacement(&self, step: Vector3<f64>) -> f64;
@@ -118,5 +126,17 @@ pub trait Potential: Sync {
     /// by to be so for certain: what is lost to rounding and, where there is any, to approximation.
     fn noise(&self) -> f64 {
         1e-12
+    }
+}
+
+/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
+fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
+    if !energy.is_finite() {
+        return (f64::INFINITY, Vector3::zeros());
+    }
+    if gradient.iter().all(|slope| slope.is_finite()) {
+        (energy, gradient)
+    } else {
+        (energy, Vector3::zeros())
     }
 }

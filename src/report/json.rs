@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use serde_json::{Value, json};
 
+use super::dynamics::DynamicsEntry;
 use crate::analysis::{Alternative, Analysis, Counts, PathwayCost, Settings, Stage};
 use crate::configuration::Configuration;
 use crate::design::{Design, Drawing};
@@ -31,6 +32,8 @@ pub struct Report {
     pub barriers: Vec<BarrierEntry>,
     /// Why the bounds of all barriers are null; itself null where they are certified.
     pub uncertified: Option<String>,
+    /// What moving tiles say of the barriers; null where they were not asked.
+    pub dynamics: Option<DynamicsEntry>,
     pub alternatives: Vec<AlternativeEntry>,
     pub counts: CountsEntry,
     pub timing: TimingEntry,
@@ -220,6 +223,7 @@ impl Report {
             },
             barriers: analysis.barriers.iter().map(BarrierEntry::new).collect(),
             uncertified: analysis.uncertified.map(|why| why.to_string()),
+            dynamics: DynamicsEntry::new(analysis),
             alternatives: analysis
                 .alternatives
                 .iter()
@@ -460,7 +464,7 @@ impl From<&Stage> for StageEntry {
     }
 }
 
-fn place(place: Place) -> Value {
+pub(super) fn place(place: Place) -> Value {
     match place {
         Place::State(id) => json!(id),
         Place::Free => json!("free"),

@@ -3,7 +3,7 @@
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`csv`] - tables of states and barriers, and pathways;
 //! - [`calibration`] - fitted shields;
-//! - [`docking`] - docking experiments;
+//! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
@@ -18,6 +18,7 @@ pub mod calibration;
 pub mod comparison;
 pub mod csv;
 pub mod docking;
+pub mod dynamics;
 pub mod figures;
 pub mod json;
 pub mod page;

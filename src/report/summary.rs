@@ -9,6 +9,7 @@ use crate::analysis::Analysis;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
+use crate::report::dynamics;
 use crate::report::json::face_names;
 use crate::units::{si, si_range};
 
@@ -53,6 +54,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     if let Some(why) = analysis.uncertified {
         let _ = writeln!(text, "barriers are not certified: {why}");
     }
+    text += &dynamics::summary(analysis);
     let _ = writeln!(
         text,
         "results in {folder}: report.html to look at; report.json, tables, pathways/, pictures/"

@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::json::Report;
 use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
-use super::{arrays, csv, json, topsearch};
+use super::{arrays, csv, dynamics, json, topsearch};
 use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::landscape::Barrier;
@@ -71,6 +71,9 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
         "barriers.csv".into(),
         csv::barriers(&analysis.barriers, json::pathway_file),
     );
+    if let Some(checks) = &analysis.dynamics {
+        add(dynamics::TABLE.into(), dynamics::csv(checks));
+    }
     let escapes = analysis
         .states
         .iter()
@@ -160,8 +163,11 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
         topsearch::FOLDER => topsearch::NAMES.contains(&name),
         _ => name.ends_with(".svg") || name.ends_with(".png"),
     };
-    let page = (!files.contains_key(PAGE)).then(|| folder.join(PAGE));
-    let page = page.filter(|page| page.is_file());
+    let single = [PAGE, dynamics::TABLE]
+        .into_iter()
+        .filter(|name| !files.contains_key(*name))
+        .map(|name| folder.join(name))
+        .filter(|path| path.is_file());
     ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER]
         .into_iter()
         .flat_map(|part| {
@@ -174,7 +180,7 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
                 })
                 .map(|entry| entry.path())
         })
-        .chain(page)
+        .chain(single)
         .collect()
 }
 

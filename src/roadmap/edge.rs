@@ -39,6 +39,9 @@ pub struct EdgeSettings {
     pub probability_step: f64,
 }
 
+/// Pairs whose edges are collected together.
+const TOGETHER: usize = 1 << 20;
+
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
     problem: &Problem,
@@ -46,43 +49,55 @@ pub fn edges(
     pairs: &[(u32, u32)],
     settings: &EdgeSettings,
 ) -> Vec<Edge> {
-    pairs
+    // Of every milestone once, not of every pair.
+    let clearances: Vec<f64> = milestones
         .par_iter()
-        .with_min_len(64)
-        .filter_map(|&(from, to)| {
-            let (a, b) = (&milestones[from as usize], &milestones[to as usize]);
-            let costs = costs(problem, a, b, settings)?;
-            Some(Edge { from, to, costs })
+        .map(|milestone| problem.clearance_bound(&milestone.configuration))
+        .collect();
+    let edge = |&(from, to): &(u32, u32)| {
+        let ends = [from, to].map(|end| &milestones[end as usize]);
+        let clearances = [from, to].map(|end| clearances[end as usize]);
+        let [a, b] = ends.map(|end| &end.configuration);
+        let free = problem.known_motion_is_free([a, b], clearances);
+        free.then(|| Edge {
+            from,
+            to,
+            costs: costs(problem, ends, settings),
         })
-        .collect()
+    };
+    let mut edges = Vec::with_capacity(pairs.len());
+    // In parts, as collecting in parallel takes twice the memory.
+    for part in pairs.chunks(TOGETHER) {
+        let found: Vec<Edge> = part.par_iter().with_min_len(64).filter_map(edge).collect();
+        edges.extend(found);
+    }
+    edges
 }
 
-/// The costs of the straight motion between two milestones; `None` where it is blocked.
-pub fn costs(
-    problem: &Problem,
-    a: &Milestone,
-    b: &Milestone,
-    settings: &EdgeSettings,
-) -> Option<EdgeCosts> {
-    if !problem.motion_is_free(&a.configuration, &b.configuration) {
-        return None;
-    }
+/// The costs of the straight motion between two milestones.
+pub fn costs(problem: &Problem, [a, b]: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
     let profile = Profile::new(problem, a, b, &settings.tolerance);
     let peak = profile.peak();
     let work = profile.work();
     let length = problem.space.distance(&a.configuration, &b.configuration);
-    Some(EdgeCosts {
+    EdgeCosts {
         peak: peak.energy,
         peak_at: peak.t,
         length,
         work: [work.0, work.1],
-        improbability: improbabilities(|t| profile.energy_at(t), length, settings),
-    })
+        improbability: improbabilities(profile.energies(steps(length, settings)), settings),
+    }
 }
 
 /// The costs of a way given by energies (J) at points so close that the energy between two of them
 /// is as good as linear, and the lengths (m) between them.
 pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSettings) -> EdgeCosts {
+    if let [only] = energies {
+        return EdgeCosts {
+            peak: *only,
+            ..EdgeCosts::default()
+        };
+    }
     let mut along = vec![0.0];
     for step in lengths {
         along.push(along[along.len() - 1] + step);
@@ -97,52 +112,54 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
         work[0] += climb.max(0.0);
         work[1] += (-climb).max(0.0);
     }
-    let energy_at = |t: f64| {
-        let s = t * length;
+    let count = steps(length, settings);
+    let evenly = (0..=count).map(|k| {
+        let s = k as f64 / count as f64 * length;
         let i = along
             .partition_point(|a| *a < s)
             .clamp(1, along.len().max(2) - 1);
         let (a, b) = (along[i - 1], along[i]);
         let share = if b > a { (s - a) / (b - a) } else { 1.0 };
         energies[i - 1] + (energies[i] - energies[i - 1]) * share
-    };
+    });
     EdgeCosts {
         peak: energies[highest],
         peak_at: along[highest] / length.max(f64::MIN_POSITIVE),
         length,
         work,
-        improbability: improbabilities(energy_at, length, settings),
+        improbability: improbabilities(evenly, settings),
     }
 }
 
-/// -ln of the probability of going along a profile, forwards and backwards: at each inner point of
-/// a fine subdivision the motion goes on to the next point (energy difference D+) rather than back
-/// to the last one (D-) with probability `e^(-D+/kT) / (e^(-D+/kT) + e^(-D-/kT))`; the first step
-/// is weighed against staying (D- = 0). Source: Singh, Latombe and Brutlag, *A motion planning
-/// approach to flexible ligand binding* (ISMB 1999), section "Edge weights". Both ends count.
-fn improbabilities(
-    energy_at: impl Fn(f64) -> f64,
-    length: f64,
-    settings: &EdgeSettings,
-) -> [f64; 2] {
-    let steps = (length / settings.probability_step).ceil().max(1.0) as usize;
-    let energies: Vec<f64> = (0..=steps)
-        .map(|i| energy_at(i as f64 / steps as f64))
-        .collect();
-    let mut reversed = energies.clone();
-    reversed.reverse();
-    [&energies, &reversed].map(|e| improbability(e, settings.thermal_energy))
+/// Steps of a motion at which transition probabilities are taken.
+fn steps(length: f64, settings: &EdgeSettings) -> usize {
+    (length / settings.probability_step).ceil().max(1.0) as usize
 }
 
-fn improbability(energies: &[f64], thermal_energy: f64) -> f64 {
-    (0..energies.len() - 1)
-        .map(|i| {
-            let back = if i == 0 { energies[0] } else { energies[i - 1] };
-            // -ln of e^-f / (e^-f + e^-b) is ln(1 + e^(f - b)), with f - b the difference of the
-            // next and the last energy.
-            softplus((energies[i + 1] - back) / thermal_energy)
-        })
-        .sum()
+/// -ln of the probability of going along a profile, forwards and backwards, from its energies (J)
+/// at evenly spaced points: at each inner point of a fine subdivision the motion goes on to the
+/// next point (energy difference D+) rather than back to the last one (D-) with probability
+/// `e^(-D+/kT) / (e^(-D+/kT) + e^(-D-/kT))`; the first step is weighed against staying (D- = 0).
+/// Source: Singh, Latombe and Brutlag, *A motion planning approach to flexible ligand binding*
+/// (ISMB 1999), section "Edge weights". Both ends count.
+fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings) -> [f64; 2] {
+    let kt = settings.thermal_energy;
+    let mut energies = energies;
+    let (Some(mut last), Some(mut here)) = (energies.next(), energies.next()) else {
+        return [0.0; 2];
+    };
+    // -ln of e^-f / (e^-f + e^-b) is ln(1 + e^(f - b)), with f - b the difference of the next and
+    // the last energy over kT; the other way round it is that less the difference.
+    let mut both = [softplus((here - last) / kt), 0.0];
+    for next in energies {
+        let climb = (next - last) / kt;
+        let onwards = softplus(climb);
+        both[0] += onwards;
+        both[1] += onwards - climb;
+        (last, here) = (here, next);
+    }
+    both[1] += softplus((last - here) / kt);
+    both
 }
 
 /// ln(1 + e^x) without overflow.

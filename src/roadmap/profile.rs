@@ -1,5 +1,7 @@
 //! The energy along a straight motion, sampled as finely as its curvature demands.
 
+use nalgebra::Vector3;
+
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::roadmap::Milestone;
@@ -13,7 +15,7 @@ pub struct ProfileTolerance {
     pub absolute: f64,
 }
 
-/// A sample of the energy along a motion.
+/// A point of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Fraction of the motion, 0 to 1.
@@ -24,8 +26,9 @@ pub struct Sample {
     pub slope: f64,
 }
 
-/// The energy along a motion: samples in order, both ends included, between which the energy
-/// nowhere exceeds the larger of its neighbours by more than the tolerance.
+/// The energy along a motion as a cubic spline: samples in order, both ends included, and the
+/// spline's own highest and lowest points between them. The energy nowhere exceeds the larger of
+/// its two neighbours by more than the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pub samples: Vec<Sample>,
@@ -37,10 +40,14 @@ const DEEPEST: u32 = 16;
 impl Profile {
     /// Samples the straight motion from `a` to `b`.
     ///
-    /// A stretch of duration h is accepted when an upper bound of the energy on it exceeds the
-    /// larger end by less than the tolerance. The bound comes from the ends' values and slopes and
-    /// from the potential's bound B of the second derivative: `U(t) <= U_a + s_a t + B t^2 / 2`,
-    /// and the same from the other end.
+    /// A stretch of duration h is accepted when one of two bounds says that it is known within the
+    /// tolerance, given the values and slopes at its ends:
+    ///
+    /// * the cubic through them is off by at most `h^4 / 384` times the largest fourth derivative
+    ///   (the error of Hermite's interpolation; Davis, *Interpolation and Approximation*, theorem
+    ///   3.5.1), or
+    /// * where no bound of that is known, `U(t) <= U_a + s_a t + B t^2 / 2` with B a bound of the
+    ///   second derivative, and the same from the other end, exceed the larger end by no more.
     pub fn new(
         problem: &Problem,
         a: &Milestone,
@@ -54,27 +61,31 @@ impl Profile {
             slope: milestone.gradient.dot(&step),
         };
         let mut profile = Self {
-            samples: vec![end(0.0, a)],
+            samples: Vec::with_capacity(16),
         };
+        profile.samples.push(end(0.0, a));
         let whole = Motion {
             problem,
             from: a.configuration,
-            to: b.configuration,
+            step,
             displacement: problem.potential().displacement(step),
             tolerance,
         };
-        profile.refine(&whole, end(0.0, a), end(1.0, b), 0);
+        profile.refine(&whole, [end(0.0, a), end(1.0, b)], f64::INFINITY, 0);
         profile
     }
 
-    fn refine(&mut self, motion: &Motion, a: Sample, b: Sample, depth: u32) {
-        if depth >= DEEPEST || motion.is_settled(&a, &b) {
+    /// `fourth` is a bound of the fourth derivative that holds on a longer stretch.
+    fn refine(&mut self, motion: &Motion, [a, b]: [Sample; 2], fourth: f64, depth: u32) {
+        let mut fourth = fourth;
+        if depth >= DEEPEST || motion.is_settled(&a, &b, &mut fourth) {
+            self.samples.extend(inner_extremes(&a, &b));
             self.samples.push(b);
             return;
         }
         let middle = motion.sample((a.t + b.t) / 2.0);
-        self.refine(motion, a, middle, depth + 1);
-        self.refine(motion, middle, b, depth + 1);
+        self.refine(motion, [a, middle], fourth, depth + 1);
+        self.refine(motion, [middle, b], fourth, depth + 1);
     }
 
     /// The highest sample.
@@ -97,47 +108,100 @@ impl Profile {
         work
     }
 
-    /// The energy at `t` (J), by cubic Hermite interpolation of the samples.
-    pub fn energy_at(&self, t: f64) -> f64 {
-        let i = self
-            .samples
-            .partition_point(|s| s.t <= t)
-            .clamp(1, self.samples.len() - 1);
-        let (a, b) = (&self.samples[i - 1], &self.samples[i]);
-        let h = b.t - a.t;
-        let u = (t - a.t) / h;
-        let (u2, u3) = (u * u, u * u * u);
-        a.energy * (2.0 * u3 - 3.0 * u2 + 1.0)
-            + a.slope * h * (u3 - 2.0 * u2 + u)
-            + b.energy * (3.0 * u2 - 2.0 * u3)
-            + b.slope * h * (u3 - u2)
+    /// The energy (J) at `count + 1` evenly spaced points from end to end.
+    pub fn energies(&self, count: usize) -> impl Iterator<Item = f64> + '_ {
+        let mut i = 1;
+        (0..=count).map(move |k| {
+            let t = k as f64 / count as f64;
+            while i + 1 < self.samples.len() && self.samples[i].t <= t {
+                i += 1;
+            }
+            cubic(&self.samples[i - 1], &self.samples[i], t)
+        })
     }
+}
+
+/// The cubic through the values and slopes of two samples.
+fn cubic(a: &Sample, b: &Sample, t: f64) -> f64 {
+    let h = b.t - a.t;
+    let u = (t - a.t) / h;
+    let (u2, u3) = (u * u, u * u * u);
+    a.energy * (2.0 * u3 - 3.0 * u2 + 1.0)
+        + a.slope * h * (u3 - 2.0 * u2 + u)
+        + b.energy * (3.0 * u2 - 2.0 * u3)
+        + b.slope * h * (u3 - u2)
+}
+
+/// Where the cubic through two samples is highest or lowest between them, in order.
+fn inner_extremes(a: &Sample, b: &Sample) -> impl Iterator<Item = Sample> {
+    // The derivative by u = (t - a.t) / h is p u^2 + 2 q u + r.
+    let h = b.t - a.t;
+    let climb = b.energy - a.energy;
+    let (first, last) = (a.slope * h, b.slope * h);
+    let p = 3.0 * (first + last) - 6.0 * climb;
+    let q = 3.0 * climb - 2.0 * first - last;
+    let r = first;
+    let root = (q * q - p * r).sqrt();
+    // Of the two forms of each root the one in which nothing cancels.
+    let sum = -(q + root.copysign(q));
+    let (mut low, mut high) = (sum / p, r / sum);
+    if low > high {
+        std::mem::swap(&mut low, &mut high);
+    }
+    let (a, b) = (*a, *b);
+    [low, high]
+        .into_iter()
+        .filter(|u| *u > 1e-9 && *u < 1.0 - 1e-9)
+        .map(move |u| {
+            let t = a.t + u * h;
+            Sample {
+                t,
+                energy: cubic(&a, &b, t),
+                slope: 0.0,
+            }
+        })
 }
 
 struct Motion<'a> {
     problem: &'a Problem,
     from: Configuration,
-    to: Configuration,
+    /// The whole motion (m, m, rad).
+    step: Vector3<f64>,
     /// Displacement of the whole motion, as the potential counts it (m).
     displacement: f64,
     tolerance: &'a ProfileTolerance,
 }
 
 impl Motion<'_> {
+    fn at(&self, t: f64) -> Configuration {
+        self.from.moved(self.step * t)
+    }
+
     fn sample(&self, t: f64) -> Sample {
-        let q = self.from.interpolate(&self.to, t);
-        let (energy, gradient) = self.problem.energy_and_gradient(&q);
-        let slope = gradient.dot(&self.from.step_to(&self.to));
+        let (energy, gradient) = self.problem.energy_and_gradient(&self.at(t));
+        let slope = gradient.dot(&self.step);
         Sample { t, energy, slope }
     }
 
-    fn is_settled(&self, a: &Sample, b: &Sample) -> bool {
+    /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
+    /// where that is worth while.
+    fn is_settled(&self, a: &Sample, b: &Sample, fourth: &mut f64) -> bool {
         let highest = a.energy.max(b.energy);
         let allowed = self.tolerance.absolute + self.tolerance.relative * highest.abs();
         let duration = b.t - a.t;
-        let middle = self.from.interpolate(&self.to, (a.t + b.t) / 2.0);
+        let is_close =
+            |fourth: f64| fourth * (self.displacement * duration).powi(4) <= 384.0 * allowed;
+        if is_close(*fourth) {
+            return true;
+        }
+        let middle = self.at((a.t + b.t) / 2.0);
         let reach = self.displacement * duration / 2.0;
-        let bound = self.problem.potential().curvature_bound(&middle, reach);
+        let potential = self.problem.potential();
+        *fourth = fourth.min(potential.fourth_derivative_bound(&middle, reach));
+        if fourth.is_finite() {
+            return is_close(*fourth);
+        }
+        let bound = potential.curvature_bound(&middle, reach);
         let curvature = bound * self.displacement * self.displacement;
         upper_bound(a, b, duration, curvature) - highest <= allowed
     }

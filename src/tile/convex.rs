@@ -10,7 +10,7 @@
 
 use nalgebra::Vector2;
 
-use super::outline::cross;
+use super::outline::{cross, segments_meet};
 
 /// Sines of angles below this count as zero.
 const STRAIGHT: f64 = 1e-12;
@@ -136,7 +136,11 @@ fn is_diagonal(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
         && (0..n).all(|k| {
             let next = (k + 1) % n;
             [k, next].iter().any(|end| *end == i || *end == j)
-                || !meet(vertices[i], vertices[j], vertices[k], vertices[next])
+                || !segments_meet(
+                    [vertices[i], vertices[j]],
+                    [vertices[k], vertices[next]],
+                    STRAIGHT,
+                )
         })
 }
 
@@ -160,21 +164,6 @@ fn starts_inside(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
         let in_wedge = sine(to_before, way) >= -STRAIGHT && sine(way, to_after) >= -STRAIGHT;
         !in_wedge
     }
-}
-
-/// Whether two segments share a point, ends included.
-fn meet(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>, d: Vector2<f64>) -> bool {
-    let side = |p: Vector2<f64>, q: Vector2<f64>, r: Vector2<f64>| {
-        let sine = cross(q - p, r - p) / ((q - p).norm() * (r - p).norm());
-        if sine.abs() <= STRAIGHT { 0.0 } else { sine }
-    };
-    let apart = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
-    if apart(side(a, b, c), side(a, b, d)) || apart(side(c, d, a), side(c, d, b)) {
-        return false;
-    }
-    // Segments on one line meet only where their boxes do.
-    let boxes = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
-    boxes(a.x, b.x, c.x, d.x) && boxes(a.y, b.y, c.y, d.y)
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use parry2d_f64::transformation::convex_hull;
 
 use super::convex;
 use super::edge_grid::EdgeGrid;
-use crate::configuration::Configuration;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
@@ -22,13 +21,6 @@ impl ConvexPart {
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();
         Self { points, normals }
-    }
-
-    /// The part as it lies at a configuration of its tile.
-    pub fn placed(&self, q: &Configuration) -> Self {
-        let mut placed = Self::default();
-        placed.place(self, &q.rotation(), &q.position());
-        placed
     }
 
     /// Becomes `part`, turned and moved; takes no new memory once it has held as many points.
@@ -72,22 +64,6 @@ impl Bounds {
                 high: bounds.high.sup(&p),
             },
         )
-    }
-
-    /// The box around both.
-    pub fn union(&self, other: &Self) -> Self {
-        Self {
-            low: self.low.inf(&other.low),
-            high: self.high.sup(&other.high),
-        }
-    }
-
-    /// The box with each side moved outwards by `margin` (m).
-    pub fn grown(&self, margin: f64) -> Self {
-        Self {
-            low: self.low.add_scalar(-margin),
-            high: self.high.add_scalar(margin),
-        }
     }
 
     /// Whether the boxes share no inner point.
@@ -323,14 +299,33 @@ fn edges_cross(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
     if i == 0 && j == n - 1 {
         return folds_back(a, b, c);
     }
-    let side = |p, q, r| cross(q - p, r - p);
-    let separated = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
-    if separated(side(a, b, c), side(a, b, d)) || separated(side(c, d, a), side(c, d, b)) {
+    segments_meet([a, b], [c, d], 0.0)
+}
+
+/// Whether two segments share a point, ends included. An end counts as lying on the other
+/// segment's line where it is seen from the line's first point at an angle of sine `straight` or
+/// less.
+pub(super) fn segments_meet(
+    [a, b]: [Vector2<f64>; 2],
+    [c, d]: [Vector2<f64>; 2],
+    straight: f64,
+) -> bool {
+    // Segments on one line meet only where their boxes do; all others then at the latest.
+    let boxes = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
+    if !boxes(a.x, b.x, c.x, d.x) || !boxes(a.y, b.y, c.y, d.y) {
         return false;
     }
-    // Collinear edges cross only where their boxes meet.
-    let overlap = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
-    overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y)
+    let side = |p: Vector2<f64>, q: Vector2<f64>, r: Vector2<f64>| {
+        let (u, v) = (q - p, r - p);
+        let across = cross(u, v);
+        if across.abs() <= straight * u.norm() * v.norm() {
+            0.0
+        } else {
+            across
+        }
+    };
+    let apart = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
+    !apart(side(a, b, c), side(a, b, d)) && !apart(side(c, d, a), side(c, d, b))
 }
 
 fn without_collinear(vertices: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {

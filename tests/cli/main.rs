@@ -3,6 +3,7 @@
 mod analyse;
 mod barrier;
 mod calibrate;
+mod dynamics;
 mod energy;
 mod mistakes;
 mod shields;

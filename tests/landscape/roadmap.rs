@@ -37,7 +37,7 @@ fn double_well() -> Problem {
 
 fn costs(problem: &Problem, a: Configuration, b: Configuration) -> edge::EdgeCosts {
     let ends = [a, b].map(|q| Milestone::new(problem, q));
-    edge::costs(problem, &ends[0], &ends[1], &SETTINGS).expect("a free motion")
+    edge::costs(problem, [&ends[0], &ends[1]], &SETTINGS)
 }
 
 #[test]

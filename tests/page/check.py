@@ -72,6 +72,49 @@ def text(browser, name):
     return browser.run(f"document.getElementById('{name}').textContent")
 
 
+def check_playing(check):
+    browser = check.browser
+    browser.run(set_slider("step", 0))
+    before = browser.picture("tiles")
+    browser.run("document.getElementById('play').click()")
+    browser.wait("Number(document.getElementById('step').value) > 0.05")
+    browser.run("document.getElementById('play').click()")
+    check.that(browser.picture("tiles") != before, "playing moves the tiles")
+    at = browser.run("Number(document.getElementById('step').value)")
+    browser.settled()
+    check.that(at == browser.run("Number(document.getElementById('step').value)"), "pause stops it")
+
+
+def check_docking(check, file):
+    """The page of docking runs, which plays trajectories in time."""
+    browser = check.browser
+    check.that(file.stat().st_size < LARGEST, f"docking: {file.stat().st_size} bytes are under {LARGEST}")
+    browser.events.clear()
+    browser.open(file.as_uri(), LAPTOP)
+    check.keep("docking-laptop", whole=True)
+    check.that(not browser.run("document.getElementById('merging').offsetHeight"), "no empty disconnectivity graph is shown")
+    check.that(browser.run("world.pathways.length") >= 4, "several trajectories can be chosen")
+    check.changes(["around", "tiles", "profile"], set_slider("step", 0.9), "the place on the trajectory")
+    check.that(" s, U = " in text(browser, "here") and "kinetic" in text(browser, "here"), "time and kinetic energy are told")
+    last = "world.pathways[0].points.at(-1)"
+    browser.run(set_slider("step", 1))
+    check.that(browser.run(f"Math.abs(now.place.s - {last}[0]) < 1e-9"), "the slider's end is the trajectory's")
+    # Half the slider is half the time.
+    browser.run(set_slider("step", 0.5))
+    check.that(browser.run(f"Math.abs(now.place.s - 0.5 * {last}[0]) < 1e-6"), "a trajectory is played evenly in time")
+    check.changes(["around", "tiles", "profile"], "(() => { const p = document.getElementById('path'); p.value = 3;"
+                  " p.dispatchEvent(new Event('change')); })()", "another trajectory")
+    check_playing(check)
+    check.that(browser.run("document.querySelectorAll('#pictures img').length") == 2, "the chances and the trajectories are shown")
+    browser.open(file.as_uri(), LAPTOP, dark=True)
+    check.keep("docking-dark", whole=True)
+    browser.open(file.as_uri(), PHONE, touch=True)
+    check.keep("docking-phone", whole=True)
+    check.that(browser.run("document.documentElement.scrollWidth <= 390"), "docking: the page fits a phone's width")
+    for complaint in browser.complaints():
+        check.that(False, complaint)
+
+
 def check_page(check, name, file):
     browser = check.browser
     check.that(file.stat().st_size < LARGEST, f"{name}: {file.stat().st_size} bytes are under {LARGEST}")
@@ -88,15 +131,7 @@ def check_page(check, name, file):
     check.that("gap" not in text(browser, "in-front-readout") and "slide" in text(browser, "in-front-readout"),
                "the map in front of the face tells slide and tilt")
 
-    browser.run(set_slider("step", 0))
-    before = browser.picture("tiles")
-    browser.run("document.getElementById('play').click()")
-    browser.wait("Number(document.getElementById('step').value) > 0.05")
-    browser.run("document.getElementById('play').click()")
-    check.that(browser.picture("tiles") != before, "playing moves the tiles")
-    at = browser.run("Number(document.getElementById('step').value)")
-    browser.settled()
-    check.that(at == browser.run("Number(document.getElementById('step').value)"), "pause stops it")
+    check_playing(check)
 
     leaves = browser.run("document.querySelectorAll('#tree .leaf').length")
     check.that(leaves >= 2, "the disconnectivity graph has states")
@@ -261,6 +296,11 @@ def main():
             print("tests/page: compare, sweep")
             check_comparison(check, arguments.program, pathlib.Path(folder))
             check_sweep(check, arguments.program, pathlib.Path(folder))
+            print("tests/page: docking")
+            out = pathlib.Path(folder, "docking")
+            subprocess.run([arguments.program, "dock", SHAPES / "paper-tile.toml", "--engine", "--runs", "200",
+                            "--out", out, "--quiet"], check=True)
+            check_docking(check, out / "report.html")
         finally:
             browser.close()
     print(f"tests/page: {len(check.failures)} failures" if check.failures else "tests/page: all holds")

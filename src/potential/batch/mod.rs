@@ -13,7 +13,7 @@
 //! gradient zero. Poses beyond 1e18 m are not supported.
 
 mod bundle;
-mod curvature;
+mod derivative;
 mod field;
 pub mod lanes;
 mod level;
@@ -32,10 +32,12 @@ pub use operations::Operations;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
+use super::lever::Lever;
+use super::motion;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0;
-use curvature::Curvature;
+use derivative::DerivativeBound;
 use field::{Source, TOGETHER};
 use tasks::{Many, One};
 
@@ -48,8 +50,7 @@ pub struct DipolePotential {
     sources: Vec<Source>,
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
-    /// The largest distance of a moving dipole from its tile's reference point (m).
-    lever: f64,
+    lever: Lever,
 }
 
 /// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
@@ -87,7 +88,7 @@ impl DipolePotential {
                 moment_y: column(|d| d.moment.y),
                 magnitude: column(|d| d.moment.norm()),
             },
-            lever: moving.iter().map(|d| d.position.norm()).fold(0.0, f64::max),
+            lever: Lever::of(moving.iter().map(|d| d.position)),
         }
     }
 
@@ -140,29 +141,26 @@ impl Potential for DipolePotential {
         });
     }
 
-    /// By the formula of [`super::dipole::ScalarDipoles`].
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.level.run(Curvature {
+        self.level.run(DerivativeBound {
             potential: self,
             q,
             reach,
+            terms: motion::second_derivative(self.lever.turn()),
+        })
+    }
+
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        self.level.run(DerivativeBound {
+            potential: self,
+            q,
+            reach,
+            terms: motion::fourth_derivative(self.lever.turn()),
         })
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
-    }
-}
-
-/// Infinity in place of what is not a finite energy, and no gradient in place of what is not one.
-fn finite(energy: f64, gradient: Vector3<f64>) -> (f64, Vector3<f64>) {
-    if !energy.is_finite() {
-        return (f64::INFINITY, Vector3::zeros());
-    }
-    if gradient.iter().all(|slope| slope.is_finite()) {
-        (energy, gradient)
-    } else {
-        (energy, Vector3::zeros())
+        self.lever.displacement(step)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use nalgebra::Vector3;
 
+use super::DipolePotential;
 use super::field::{Frame, Shares, field, pair_of};
 use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
-use super::{DipolePotential, finite};
 use crate::configuration::Configuration;
+use crate::potential::finite;
 
 /// The same angle, in the range of the vectors' sine and cosine.
 #[inline(always)]

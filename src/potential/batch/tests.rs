@@ -122,7 +122,7 @@ fn one_or_many_give_the_same_bits() {
 }
 
 #[test]
-fn curvature_bounds_equal_the_scalar_formula() {
+fn bounds_of_derivatives_equal_the_scalar_formula() {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     for (n, m) in [(1, 1), (16, 16), (7, 19)] {
         let (fixed, moving) = (random_dipoles(&mut rng, n), random_dipoles(&mut rng, m));
@@ -131,12 +131,18 @@ fn curvature_bounds_equal_the_scalar_formula() {
             for level in Level::available() {
                 let kernel = DipolePotential::with_level(&fixed, &moving, level);
                 for reach in [0.0, 0.002, 0.02] {
-                    let expected = scalar.curvature_bound(&q, reach);
-                    let bound = kernel.curvature_bound(&q, reach);
-                    assert!(
-                        bound == expected || (bound / expected - 1.0).abs() < 1e-11,
-                        "{level}: {bound:e} and not {expected:e}"
-                    );
+                    let bounds = |potential: &dyn Potential| {
+                        [
+                            potential.curvature_bound(&q, reach),
+                            potential.fourth_derivative_bound(&q, reach),
+                        ]
+                    };
+                    for (bound, expected) in bounds(&kernel).iter().zip(bounds(&scalar)) {
+                        assert!(
+                            *bound == expected || (bound / expected - 1.0).abs() < 1e-11,
+                            "{level}: {bound:e} and not {expected:e}"
+                        );
+                    }
                 }
             }
         }

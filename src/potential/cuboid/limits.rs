@@ -36,6 +36,7 @@
 use nalgebra::Vector2;
 
 use super::block::{Block, BlockPair, exact};
+use crate::potential::motion;
 use crate::units::MU0;
 
 /// Room for the quadrature's and rounding errors in the energies of blocks with themselves.
@@ -101,14 +102,14 @@ impl Limits {
 
     /// Bound of the second derivative of U (J/m^2) along a motion in which no point of the second
     /// block is faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are
-    /// at least `distance` (m) apart: with shifts and turns of dipoles,
-    /// `K [24 / d^5 + 18 turn / d^4 + 2 turn^2 / d^3]`.
+    /// at least `distance` (m) apart, as [`motion`] derives it for dipoles.
     pub fn curvature(&self, turn: f64, distance: f64) -> f64 {
-        if distance <= 0.0 {
-            return f64::INFINITY;
-        }
-        let cube = self.dipole / distance.powi(3);
-        cube * (24.0 / (distance * distance) + 18.0 * turn / distance + 2.0 * turn * turn)
+        motion::bound(&motion::second_derivative(turn), self.dipole, distance)
+    }
+
+    /// The same of the fourth derivative (J/m^4).
+    pub fn fourth_derivative(&self, turn: f64, distance: f64) -> f64 {
+        motion::bound(&motion::fourth_derivative(turn), self.dipole, distance)
     }
 
     /// The same by the pole faces, given how far apart each pair of them is at least (m).
@@ -134,7 +135,7 @@ pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
     ]
 }
 
-type Segment = [Vector2<f64>; 2];
+pub(in crate::potential) type Segment = [Vector2<f64>; 2];
 
 fn pole_faces(block: &Block) -> [Segment; 2] {
     let across = Vector2::new(-block.axis.y, block.axis.x) * (block.size[1] / 2.0);
@@ -144,7 +145,7 @@ fn pole_faces(block: &Block) -> [Segment; 2] {
     })
 }
 
-fn segment_distance(a: Segment, b: Segment) -> f64 {
+pub(in crate::potential) fn segment_distance(a: Segment, b: Segment) -> f64 {
     let to_segment = |p: Vector2<f64>, s: Segment| {
         let along = s[1] - s[0];
         let t = ((p - s[0]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);

@@ -27,19 +27,21 @@
 pub mod block;
 #[cfg(test)]
 mod cloud;
+pub(in crate::potential) mod correction;
 mod elementary;
 mod far;
 pub mod limits;
 mod multipole;
 mod panel;
-mod quadrature;
-mod sheet;
+pub(in crate::potential) mod quadrature;
+pub(in crate::potential) mod sheet;
 
 mod sum;
 
 use nalgebra::{Complex, Vector3};
 
 use super::batch::Level;
+use super::lever::Lever;
 use super::{DipolePotential, Potential};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
@@ -63,7 +65,7 @@ pub struct CuboidPotential {
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
     far: Vec<Vec<Far>>,
-    lever: f64,
+    lever: Lever,
 }
 
 /// A block and the number of its size.
@@ -152,11 +154,7 @@ impl CuboidPotential {
 
     /// Of two tiles' magnets, for the given instruction set.
     pub fn with_level(fixed: &[Magnet], moving: &[Magnet], level: Level) -> Self {
-        let lever = moving
-            .iter()
-            .flat_map(|magnet| magnet.corners())
-            .map(|corner| corner.norm())
-            .fold(0.0, f64::max);
+        let lever = Lever::of(moving.iter().flat_map(|magnet| magnet.corners()));
         let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
         let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
         for group in &mut fixed_groups {
@@ -184,6 +182,13 @@ impl CuboidPotential {
 }
 
 impl CuboidPotential {
+    /// The distance (m) of their centres from which on the multipole series stands for every pair
+    /// of blocks.
+    pub(in crate::potential) fn hand_over(&self) -> f64 {
+        let all = self.far.iter().flatten();
+        all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
+    }
+
     /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
     /// moving tile's block j is number `j * fixed blocks + i`.
     pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
@@ -212,11 +217,7 @@ impl Potential for CuboidPotential {
     /// average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let (sin, cos) = q.theta.sin_cos();
-        let turn = if self.lever > 0.0 {
-            1.0 / self.lever
-        } else {
-            0.0
-        };
+        let turn = self.lever.turn();
         let mut bound = 0.0;
         for second in &self.moving {
             let moved = second.block.moved(cos, sin, q.position());
@@ -240,8 +241,31 @@ impl Potential for CuboidPotential {
         bound
     }
 
+    /// Known only where all blocks are farther apart than their own size: closer, the second
+    /// derivative's bound tells more.
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let (sin, cos) = q.theta.sin_cos();
+        let turn = self.lever.turn();
+        let mut bound = 0.0;
+        for second in &self.moving {
+            let moved = second.block.moved(cos, sin, q.position());
+            for first in &self.fixed {
+                let r = (moved.position - first.block.position).norm();
+                let radii = first.block.radius() + moved.radius();
+                let distance = r - radii - reach;
+                if distance < radii {
+                    return f64::INFINITY;
+                }
+                let limits = &self.far[first.size][second.size].limits;
+                let strength = (first.block.moment * moved.moment).abs();
+                bound += strength * limits.fourth_derivative(turn, distance);
+            }
+        }
+        bound
+    }
+
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
+        self.lever.displacement(step)
     }
 
     /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the

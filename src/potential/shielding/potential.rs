@@ -7,7 +7,8 @@ use crate::configuration::Configuration;
 use crate::potential::cuboid::block::{Block, PairEnergy};
 use crate::potential::cuboid::limits::{Limits, face_distances};
 use crate::potential::dipole::{self, Dipole, dipoles};
-use crate::potential::{CuboidPotential, MagnetModel, Potential};
+use crate::potential::lever::Lever;
+use crate::potential::{CuboidPotential, MagnetModel, Potential, finite};
 use crate::tile::{Magnet, Tile};
 
 /// Energies of single pairs.
@@ -39,7 +40,7 @@ pub struct ShieldedPotential {
     moving_middles: Vec<Vector2<f64>>,
     /// For each pair, second magnet by second magnet.
     limits: Vec<Limits>,
-    lever: f64,
+    lever: Lever,
 }
 
 fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<Shielded> {
@@ -86,7 +87,7 @@ impl ShieldedPotential {
             moving: second,
             fixed_middles: middles(fixed),
             moving_middles: middles(moving),
-            lever: corners.map(|corner| corner.norm()).fold(0.0, f64::max),
+            lever: Lever::of(corners),
         }
     }
 
@@ -179,22 +180,14 @@ impl Potential for ShieldedPotential {
                 gradient += Vector3::new(place.x, place.y, turn + arm.perp(&place));
             }
         }
-        if energy.is_finite() {
-            (energy, gradient)
-        } else {
-            (f64::INFINITY, Vector3::zeros())
-        }
+        finite(energy, gradient)
     }
 
     /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, with the bounds of
     /// [`Limits`] for u and of [`super::Shield::limits`] for w. With the nearest-face rule it holds
     /// between the jumps only.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let turn = if self.lever > 0.0 {
-            1.0 / self.lever
-        } else {
-            0.0
-        };
+        let turn = self.lever.turn();
         let (sin, cos) = q.theta.sin_cos();
         let blocks = matches!(self.pairs, Pairs::Cuboid(_));
         let mut bound = 0.0;
@@ -240,7 +233,7 @@ impl Potential for ShieldedPotential {
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
-        step.xy().norm() + self.lever * step.z.abs()
+        self.lever.displacement(step)
     }
 
     /// That of the bare pairs.

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::packed::Packed;
-use super::pathways::{Played, played};
+use super::pathways::Played;
 use super::tree::{Node, nodes};
 use super::{fixed, rounded};
 use crate::configuration::Configuration;
@@ -90,7 +90,8 @@ struct DrawnState {
 }
 
 impl Landscape {
-    pub fn new(design: &Design, scene: &Scene) -> Self {
+    /// The landscape of a scene and the ways through it that are played.
+    pub fn new(design: &Design, scene: &Scene, pathways: Vec<Played>) -> Self {
         let around = whole(scene);
         let in_front = in_front(scene);
         let volumes = [&around, &in_front.volume];
@@ -117,8 +118,12 @@ impl Landscape {
                 .map(|distance| distance.map(|d| fixed(d, 5)))
                 .collect(),
             states: scene.states.iter().map(DrawnState::new).collect(),
-            pathways: played(scene),
-            tree: nodes(scene, &scale),
+            pathways,
+            tree: if scene.barriers.is_empty() {
+                Vec::new()
+            } else {
+                nodes(scene, &scale)
+            },
         }
     }
 }

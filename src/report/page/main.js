@@ -3,8 +3,9 @@
 /** The path that is shown, how far along it one is (0 to 1) and where that is; the pose under the
     pointer; the chosen state. */
 const now = { route: null, progress: 0, place: null, probe: null, chosen: null, playing: false };
-/** Seconds that a path takes to play. */
-const DURATION = 9;
+/** Seconds that a path takes to play, and a second of a trajectory. */
+const DURATION = 9, SECOND = 2;
+const durationOf = ({ points, timed }) => timed ? SECOND * (points.at(-1)[0] - points[0][0]) : DURATION;
 
 function showPage() {
   document.title = page.title;
@@ -48,8 +49,9 @@ function draw() {
   element("gap").value = views.inFront.plane;
   element("gap-value").textContent = views.inFront.label();
   element("step").value = now.progress;
-  element("here").textContent = now.place
-    ? `${si(now.place.s, "m", 3)} along, U = ${energyText(now.place.energy)}` : "";
+  element("here").textContent = !now.place ? "" : now.route.timed
+    ? `${now.place.s.toFixed(2)} s, U = ${energyText(now.place.energy, 3)}, kinetic ${energyText(now.place.kinetic, 3)}`
+    : `${si(now.place.s, "m", 3)} along, U = ${energyText(now.place.energy)}`;
   element("play").textContent = now.playing ? "Pause" : "Play";
 }
 
@@ -86,7 +88,7 @@ function play() {
     if (!now.playing) return;
     const passed = before === null ? 0 : Math.min(0.1, (time - before) / 1000);
     before = time;
-    goTo(now.progress + passed / DURATION);
+    goTo(now.progress + passed / durationOf(now.route));
     if (now.progress >= 1) now.playing = false;
     else requestAnimationFrame(advance);
   };
@@ -138,7 +140,8 @@ async function showLandscape() {
   element("profile").addEventListener("pointerdown", drag);
   element("profile").addEventListener("pointermove", drag);
   element("player").hidden = world.pathways.length === 0;
-  buildTree(choose);
+  element("merging").hidden = world.tree.length === 0;
+  if (world.tree.length) buildTree(choose);
   if (world.pathways.length) {
     takePath(0);
     // Where the way in is steepest says more than its far end.

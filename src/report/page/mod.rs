@@ -7,6 +7,7 @@
 
 mod charts;
 mod comparison;
+mod docking;
 pub(super) mod landscape;
 mod packed;
 mod pathways;
@@ -110,7 +111,7 @@ impl Page {
             title: design.name.clone(),
             subtitle: design.description.clone(),
             facts: tables::facts(design, analysis, scene),
-            landscape: Some(Landscape::new(design, scene)),
+            landscape: Some(Landscape::new(design, scene, pathways::played(scene))),
             charts: None,
             pictures: Vec::new(),
             tables: vec![

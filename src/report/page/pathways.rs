@@ -1,8 +1,10 @@
-//! The pathways that a page plays.
+//! The pathways and trajectories that a page plays.
 
 use serde::Serialize;
 
 use super::{finite, fixed, rounded};
+use crate::contact::Contact;
+use crate::dynamics::Sample;
 use crate::landscape::{Pathway, Place};
 use crate::report::csv;
 use crate::report::plots::Scene;
@@ -10,16 +12,40 @@ use crate::report::plots::Scene;
 /// Most pathways of a page.
 const MOST: usize = 24;
 
-/// A pathway to play.
+/// A pathway or a trajectory to play.
 #[derive(Clone, Debug, Serialize)]
 pub struct Played {
     name: String,
+    /// Whether its points are told apart by the time (s), not by the length along it, and have a
+    /// kinetic energy.
+    timed: bool,
     /// Ids of the states at its ends; null for tiles far apart.
     ends: [Option<usize>; 2],
     /// Certified bounds of its highest energy (J).
     bounds: Option<[f64; 2]>,
-    /// s (m), x (m), y (m), theta (rad), U (J), clearance (m).
-    points: Vec<[f64; 6]>,
+    /// s (m) or t (s), x (m), y (m), theta (rad), U (J), clearance (m), kinetic energy (J).
+    points: Vec<[f64; 7]>,
+}
+
+impl Played {
+    /// A trajectory of moving tiles.
+    pub fn of_trajectory(name: String, samples: &[Sample], contact: &Contact) -> Self {
+        let points = samples.iter().map(|sample| {
+            let q = sample.motion.configuration;
+            let clearance = contact.clearance(&q).max(0.0);
+            let [t, x, y, theta, clearance] =
+                [sample.time, q.x, q.y, q.theta, clearance].map(|v| fixed(v, 5));
+            let [potential, kinetic] = [sample.potential, sample.kinetic].map(|e| rounded(e, 4));
+            [t, x, y, theta, potential, clearance, kinetic]
+        });
+        Self {
+            name,
+            timed: true,
+            ends: [None; 2],
+            bounds: None,
+            points: points.collect(),
+        }
+    }
 }
 
 /// The way into the bond, the lowest way out of each class of states, and other barriers, as many
@@ -27,6 +53,7 @@ pub struct Played {
 pub fn played(scene: &Scene) -> Vec<Played> {
     let docking = scene.docked().map(|(bound, pathway)| Played {
         name: "docking: free to bound".to_owned(),
+        timed: false,
         ends: [None, Some(bound.id)],
         bounds: None,
         points: points(&pathway),
@@ -42,6 +69,7 @@ pub fn played(scene: &Scene) -> Vec<Played> {
         let [from, to] = [barrier.from, barrier.to];
         Some(Played {
             name: format!("{} to {}", scene.name_of(from), scene.name_of(to)),
+            timed: false,
             ends: [from, to].map(|place| match place {
                 Place::State(id) => Some(id),
                 Place::Free => None,
@@ -56,14 +84,14 @@ pub fn played(scene: &Scene) -> Vec<Played> {
     docking.into_iter().chain(others).take(MOST).collect()
 }
 
-fn points(pathway: &Pathway) -> Vec<[f64; 6]> {
+fn points(pathway: &Pathway) -> Vec<[f64; 7]> {
     csv::thinned(pathway)
         .iter()
         .map(|point| {
             let q = point.configuration;
             let [s, x, y, theta, clearance] =
                 [point.s, q.x, q.y, q.theta, point.clearance.max(0.0)].map(|v| fixed(v, 6));
-            [s, x, y, theta, rounded(point.energy, 6), clearance]
+            [s, x, y, theta, rounded(point.energy, 6), clearance, 0.0]
         })
         .collect()
 }

@@ -1,7 +1,7 @@
 // The energy along a path, and the steps of playing it.
 
-/** A path with the progress of its points: length and energy, on the scale, count together, so that
-    playing dwells where something happens. */
+/** A path with the progress of its points: the time of a trajectory; otherwise length and energy, on
+    the scale, count together, so that playing dwells where something happens. */
 function prepared(path) {
   const { points } = path;
   const length = Math.max(points.at(-1)[0] - points[0][0], 1e-12);
@@ -9,10 +9,11 @@ function prepared(path) {
   for (let k = 1; k < points.length; k++) {
     const [a, b] = [points[k - 1], points[k]];
     const along = (b[0] - a[0]) / length;
-    progress.push(progress[k - 1] + along + Math.abs(positionOf(b[4]) - positionOf(a[4])));
+    const climbed = path.timed ? 0 : Math.abs(positionOf(b[4]) - positionOf(a[4]));
+    progress.push(progress[k - 1] + along + climbed);
   }
   const total = progress.at(-1);
-  return { ...path, progress: progress.map((p) => p / total), extent: pathExtent(points) };
+  return { ...path, progress: progress.map((p) => p / total), extent: pathExtent(path) };
 }
 
 /** Where one is at a progress from 0 to 1. */
@@ -25,7 +26,8 @@ function placeAt(route, progress) {
   const t = span > 0 ? (progress - route.progress[k - 1]) / span : 1;
   const between = (i) => a[i] + t * (b[i] - a[i]);
   const theta = wrap(a[3] + t * wrap(b[3] - a[3]));
-  return { s: between(0), pose: [between(1), between(2), theta], energy: between(4), clearance: between(5) };
+  return { s: between(0), pose: [between(1), between(2), theta], energy: between(4), clearance: between(5),
+    kinetic: between(6) };
 }
 
 /** The progress at a length along the path. */
@@ -46,12 +48,13 @@ function drawProfile() {
   const { points } = route;
   const energies = points.map((p) => p[4]);
   const highest = points.reduce((best, p) => p[4] > best[4] ? p : best);
-  const positions = [...energies, ...(route.bounds ?? []), 0].map(positionOf);
+  const totals = route.timed ? points.map((p) => p[4] + p[6]) : [];
+  const positions = [...energies, ...totals, ...(route.bounds ?? []), 0].map(positionOf);
   const [low, high] = [Math.min(...positions), Math.max(...positions)];
   const margin = 0.08 * Math.max(high - low, 0.1);
   const plot = profilePlot = new Plot([78, 8, width - 12, height - 44], [points[0][0], points.at(-1)[0]],
     [low - margin, high + 1.6 * margin]);
-  const sAxis = quantityTicks(plot.x, "m", width > 420 ? 7 : 4);
+  const sAxis = quantityTicks(plot.x, route.timed ? "s" : "m", width > 420 ? 7 : 4);
   const ticks = energyTicks(...plot.y).map((u) => [positionOf(u), u ? si(u, "J", 1) : "0"]);
   pen.save();
   plot.clip(pen);
@@ -68,7 +71,8 @@ function drawProfile() {
   }
   pen.strokeStyle = theme.ink;
   pen.setLineDash([4, 4]);
-  line(pen, [plot.at(plot.x[0], positionOf(highest[4])), plot.at(plot.x[1], positionOf(highest[4]))]);
+  if (route.timed) line(pen, points.map((p, k) => plot.at(p[0], positionOf(totals[k]))));
+  else line(pen, [plot.at(plot.x[0], positionOf(highest[4])), plot.at(plot.x[1], positionOf(highest[4]))]);
   pen.setLineDash([]);
   pen.strokeStyle = theme.accent;
   pen.lineWidth = 2.2;
@@ -79,8 +83,14 @@ function drawProfile() {
   line(pen, [[here[0], plot.box[1]], [here[0], plot.box[3]]]);
   marker(pen, "here", here, 6);
   pen.restore();
-  axes(pen, plot, { ticks: sAxis.ticks, name: `length along the path (${sAxis.unit})` },
+  axes(pen, plot, { ticks: sAxis.ticks, name: `${route.timed ? "time" : "length along the path"} (${sAxis.unit})` },
     { ticks: thinned(ticks, plot), name: "energy U", room: 68 });
+  element("profile-title").textContent = route.timed ? "Energy over time" : "Energy along the path";
+  if (route.timed) {
+    element("profile-readout").textContent =
+      `with the kinetic energy (dashed): ${energyText(totals[0])} at first, ${energyText(totals.at(-1))} at the end`;
+    return;
+  }
   const bounds = route.bounds ? `; certified (green) ${energyText(route.bounds[0])} to ${energyText(route.bounds[1])}` : "";
   element("profile-readout").textContent =
     `highest ${energyText(highest[4])} (dashed), ${energyText(highest[4] - points[0][4])} above the start${bounds}`;

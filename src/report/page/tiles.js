@@ -26,8 +26,8 @@ function scaleBar(pen, scale, width, height) {
 }
 
 /** The rectangle in which a path is seen: where the tiles are near each other. */
-function pathExtent(points) {
-  const far = 0.25 * Math.max(...world.moving.outline.map(([x, y]) => Math.hypot(x, y)));
+function pathExtent({ points, timed }) {
+  const far = (timed ? 0.8 : 0.25) * Math.max(...world.moving.outline.map(([x, y]) => Math.hypot(x, y)));
   const near = points.filter((p) => p[5] <= far);
   return extent((near.length ? near : points).map((p) => p.slice(1, 4)));
 }

@@ -1,4 +1,4 @@
-//! The bound of the energy's curvature, the moving dipoles in the lanes.
+//! Bounds of the energy's derivatives along motions, the moving dipoles in the lanes.
 
 use super::DipolePotential;
 use super::bundle::Bundle;
@@ -7,16 +7,17 @@ use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
 use super::tasks::frame_of_one;
 use crate::configuration::Configuration;
 
-/// The sum over all pairs of `K [24 / r^5 + 18 w / r^4 + 2 w^2 / r^3]`, with r the pair's distance
-/// less `reach` and w the reciprocal of the moving dipoles' largest lever; infinite where an r is
-/// not positive.
-pub struct Curvature<'a> {
+/// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
+/// less `reach`; infinite where an r is not positive.
+pub struct DerivativeBound<'a, const TERMS: usize> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
     pub reach: f64,
+    /// The polynomial's coefficients, that of the highest power first.
+    pub terms: [f64; TERMS],
 }
 
-impl Task for Curvature<'_> {
+impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
     type Output = f64;
 
     #[inline(always)]
@@ -54,7 +55,7 @@ struct Sums<F> {
     nearest: F,
 }
 
-impl Curvature<'_> {
+impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
     /// The pairs of `N` vectors of moving dipoles from the dipole `first` on.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(
@@ -65,8 +66,7 @@ impl Curvature<'_> {
         sums: &mut Sums<L::F>,
     ) {
         let b = Bundle::<L, N, TOGETHER>(l);
-        let DipolePotential { moving, lever, .. } = self.potential;
-        let turn = if *lever > 0.0 { 1.0 / lever } else { 0.0 };
+        let moving = &self.potential.moving;
         let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
         for (k, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
             let i = first + k * L::WIDTH;
@@ -80,8 +80,10 @@ impl Curvature<'_> {
             let distance = b.mul(r2, b.reciprocal_sqrt(r2));
             let r = b.sub(distance, b.splat(self.reach));
             let w1 = b.reciprocal(r);
-            let p = b.mul_add(b.splat(24.0), w1, b.splat(18.0 * turn));
-            let p = b.mul_add(p, w1, b.splat(2.0 * turn * turn));
+            let mut p = b.splat(self.terms[0]);
+            for term in &self.terms[1..] {
+                p = b.mul_add(p, w1, b.splat(*term));
+            }
             let p = b.mul(b.mul(w1, b.mul(w1, w1)), p);
             for j in 0..TOGETHER {
                 let magnitude = l.splat(pair[j].magnitude);

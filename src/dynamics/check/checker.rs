@@ -1,0 +1,426 @@
+//! The trajectories that check one barrier.
+
+use nalgebra::Vector3;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::{BarrierCheck, Below, CheckSettings, Side, SideVerdict};
+use crate::configuration::Configuration;
+use crate::dynamics::docking::{minimum_below, stream};
+use crate::dynamics::trajectory::normal;
+use crate::dynamics::{Body, Motion, MotionSettings, Sample, Simulation};
+use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, pathway};
+use crate::problem::Problem;
+
+/// A tile this close (m, metric of the space) to a state may be in it.
+const ARRIVED: f64 = 2e-3;
+/// How far (m) a trajectory gets at the speed of a tile with the barrier's energy, and how long (s)
+/// it lasts at most.
+const TRAVEL: f64 = 0.15;
+const LONGEST: f64 = 10.0;
+/// Share of the approach velocity that their knocks give back.
+const RESTITUTION: f64 = 0.9;
+/// Drag (1/s) of the trajectories from either side of the saddle, and how long (s) they last.
+const LIGHT_DRAG: f64 = 0.5;
+const SETTLING: f64 = 60.0;
+/// Longest way (m) of a point of the tile in one step in contact.
+const STEP: f64 = 5e-4;
+/// How far below the barrier trajectories start, in barriers.
+const BELOW: [f64; 2] = [0.001, 0.05];
+/// How far above it those start that ought to cross.
+const ABOVE: [f64; 2] = [0.1, 2.0];
+/// Starts tried in place of spoilt ones.
+const TRIES: usize = 10;
+/// How far below the saddle the tile is released on either side, in barriers.
+const BESIDE: f64 = 0.01;
+/// Energies of kicks that are tried, in barriers.
+const KICKS: [f64; 16] = [
+    0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 8.0,
+];
+/// Kicked tiles are followed this many times longer than others.
+const PATIENCE: f64 = 2.0;
+/// Directions tried for each energy, and how far apart they are, as a share of the pathway's.
+const AIMS: usize = 4;
+const ASIDE: f64 = 0.1;
+/// Kicks lead along the pathway up to this share of the barrier.
+const AHEAD: f64 = 0.05;
+
+pub(super) struct Checker<'a> {
+    problem: &'a Problem,
+    body: Body,
+    states: &'a [State],
+    barrier: &'a Barrier,
+    settings: &'a CheckSettings,
+    /// Energy (J) that trajectories stay below, and that of the barrier, by which energies are
+    /// measured.
+    ceiling: f64,
+    climb: f64,
+    /// How long (s) a trajectory lasts.
+    duration: f64,
+    lossless: MotionSettings,
+    settling: MotionSettings,
+}
+
+/// What became of a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fate {
+    Stayed,
+    Crossed,
+    /// The integration's error lifted it over the ceiling.
+    Spoilt,
+}
+
+/// A trajectory's fate and how many steps it took.
+type Fated = (Fate, usize);
+
+impl<'a> Checker<'a> {
+    pub fn new(
+        problem: &'a Problem,
+        body: Body,
+        states: &'a [State],
+        barrier: &'a Barrier,
+        settings: &'a CheckSettings,
+    ) -> Self {
+        let ceiling = match barrier.lower {
+            _ if barrier.caged => f64::INFINITY,
+            Some(lower) => lower,
+            None => barrier.saddle_energy - settings.settled * barrier.forward(),
+        };
+        let climb = if barrier.caged {
+            barrier.from_energy.abs()
+        } else {
+            ceiling - barrier.from_energy
+        };
+        let speed = (2.0 * climb.max(f64::MIN_POSITIVE) / body.mass).sqrt();
+        let duration = (TRAVEL / speed).min(LONGEST);
+        let lossless = MotionSettings {
+            drag: 0.0,
+            friction: 0.0,
+            restitution: RESTITUTION,
+            walls: true,
+            contact_travel: STEP,
+            // Slow tiles need not be watched more closely than fast ones.
+            contact_step: (STEP / speed).max(1e-3),
+            ..MotionSettings::default()
+        };
+        let settling = MotionSettings {
+            drag: LIGHT_DRAG,
+            restitution: 0.01,
+            ..lossless.clone()
+        };
+        Self {
+            problem,
+            body,
+            states,
+            barrier,
+            settings,
+            ceiling,
+            climb,
+            duration,
+            lossless,
+            settling,
+        }
+    }
+
+    pub fn check(&self, seed: u64) -> BarrierCheck {
+        let lossless = Simulation::of_sound_settings(self.problem, self.body, &self.lossless);
+        let settling = Simulation::of_sound_settings(self.problem, self.body, &self.settling);
+        let mut result = BarrierCheck {
+            from: self.barrier.from,
+            to: self.barrier.to,
+            ceiling: self.ceiling,
+            certified: self.barrier.caged || self.barrier.lower.is_some(),
+            below: Below::default(),
+            above: (0, 0),
+            sides: [None; 2],
+            kick: None,
+            climb: self.climb,
+            steps: 0,
+        };
+        // A lower bound below the state itself says nothing that a trajectory could contradict.
+        if self.climb > 0.0 {
+            self.run_below(&lossless, seed, &mut result);
+        }
+        if !self.barrier.caged {
+            self.run_above(&lossless, seed, &mut result);
+            result.sides = self.sides(&settling, &mut result.steps);
+            result.kick = self.kick(&lossless, &mut result.steps);
+        }
+        result
+    }
+
+    fn run_below(&self, lossless: &Simulation, seed: u64, result: &mut BarrierCheck) {
+        let one = |index| {
+            let mut rng = stream(seed, index);
+            let mut steps = 0;
+            for spoilt in 0..TRIES {
+                let share = between(BELOW, &mut rng);
+                let top = self.ceiling.min(self.barrier.from_energy + self.climb);
+                let start = self.start(lossless, top - share * self.climb, &mut rng);
+                let (fate, more) =
+                    self.fate(lossless, &start, self.duration, self.ceiling, &mut rng);
+                steps += more;
+                if fate != Fate::Spoilt {
+                    return (Some((fate, start)), spoilt, steps);
+                }
+            }
+            (None, TRIES, steps)
+        };
+        let runs: Vec<_> = (0..self.settings.runs).into_par_iter().map(one).collect();
+        for (ended, spoilt, steps) in runs {
+            result.steps += steps;
+            result.below.spoilt += spoilt;
+            let Some((fate, start)) = ended else {
+                continue;
+            };
+            result.below.runs += 1;
+            if fate == Fate::Crossed {
+                result.below.crossed += 1;
+                result.below.example.get_or_insert(start);
+            }
+        }
+    }
+
+    fn run_above(&self, lossless: &Simulation, seed: u64, result: &mut BarrierCheck) {
+        let one = |index| {
+            let mut rng = stream(seed, self.settings.runs + index);
+            let more = between(ABOVE, &mut rng) * self.barrier.forward();
+            let start = self.start(lossless, self.barrier.saddle_energy + more, &mut rng);
+            self.fate(lossless, &start, self.duration, f64::INFINITY, &mut rng)
+        };
+        let runs: Vec<Fated> = (0..self.settings.controls)
+            .into_par_iter()
+            .map(one)
+            .collect();
+        let crossed = runs.iter().filter(|run| run.0 == Fate::Crossed).count();
+        result.above = (crossed, runs.len());
+        result.steps += runs.iter().map(|run| run.1).sum::<usize>();
+    }
+
+    /// A start with a total energy, before the pathway first reaches it, with a velocity in a
+    /// random direction.
+    fn start(&self, simulation: &Simulation, total: f64, rng: &mut ChaCha8Rng) -> Motion {
+        let path = &self.barrier.pathway;
+        let reach = path.iter().take_while(|p| p.energy < total).count();
+        let before_the_end = reach.min(path.len() / 2).max(1);
+        let (q, energy) = match path.get(rng.random_range(0..before_the_end)) {
+            Some(point) => (point.configuration, point.energy),
+            None => (self.first(), self.barrier.from_energy),
+        };
+        let direction = self.direction(simulation, &q, rng);
+        moving(simulation, q, direction, total - energy)
+    }
+
+    /// Where the barrier's first state is.
+    fn first(&self) -> Configuration {
+        let Place::State(id) = self.barrier.from else {
+            return self.barrier.saddle;
+        };
+        self.configuration(id).unwrap_or(self.barrier.saddle)
+    }
+
+    fn configuration(&self, id: usize) -> Option<Configuration> {
+        let state = self.states.iter().find(|state| state.id == id)?;
+        Some(state.configuration)
+    }
+
+    /// A direction that is uniform over kinetic energies and, if one is found, leads into no
+    /// contact.
+    fn direction(
+        &self,
+        simulation: &Simulation,
+        q: &Configuration,
+        rng: &mut ChaCha8Rng,
+    ) -> Vector3<f64> {
+        let masses = simulation.body().masses();
+        let mut direction = Vector3::zeros();
+        for _ in 0..20 {
+            direction = Vector3::from_fn(|i, _| normal(rng) / masses[i].sqrt());
+            let step = direction * (1e-5 / self.problem.space.length(direction).max(1e-300));
+            if self.problem.is_clear(&q.moved(step)) {
+                break;
+            }
+        }
+        direction
+    }
+
+    fn fate(
+        &self,
+        simulation: &Simulation,
+        start: &Motion,
+        duration: f64,
+        ceiling: f64,
+        rng: &mut ChaCha8Rng,
+    ) -> Fated {
+        let target = match self.barrier.to {
+            Place::State(id) => self.configuration(id),
+            Place::Free => None,
+        };
+        let space = &self.problem.space;
+        let mut spoilt = false;
+        let run = simulation.run(start, duration, rng, &mut |sample| {
+            let q = &sample.motion.configuration;
+            spoilt |= sample.total() >= ceiling;
+            spoilt
+                || match &target {
+                    Some(target) => space.distance(target, q) < ARRIVED,
+                    None => space.is_far(q),
+                }
+        });
+        let fate = if spoilt {
+            Fate::Spoilt
+        } else if self.place_below(&run.last) == Some(self.barrier.to) {
+            Fate::Crossed
+        } else {
+            Fate::Stayed
+        };
+        (fate, run.free_steps + run.contact_steps)
+    }
+
+    /// The place that slow motion leads to.
+    fn place_below(&self, sample: &Sample) -> Option<Place> {
+        let space = &self.problem.space;
+        let q = &sample.motion.configuration;
+        if space.is_far(q) {
+            return Some(Place::Free);
+        }
+        let minimum = minimum_below(self.problem, q)?;
+        let here = |state: &&State| space.distance(&state.configuration, &minimum) < ARRIVED;
+        Some(Place::State(self.states.iter().find(here)?.id))
+    }
+
+    /// Released at rest a little before the saddle and a little behind it.
+    fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
+        let path = &self.barrier.pathway;
+        let Some(highest) = pathway::highest_point(path) else {
+            return [None; 2];
+        };
+        let top = path.iter().position(|p| p == highest).unwrap_or(0);
+        let (before, behind) = (&path[..top], &path[top + 1..]);
+        let Barrier { from, to, .. } = self.barrier;
+        let on = [
+            self.places_on(before, *from, *to),
+            self.places_on(behind, *to, *from),
+        ];
+        [0, 1].map(|side| {
+            if side == 1 && *to == Place::Free {
+                return None;
+            }
+            let drop = match to {
+                Place::Free => self.barrier.forward(),
+                Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
+            };
+            let low = highest.energy - BESIDE * drop;
+            let released = match side {
+                0 => before.iter().rev().find(|p| p.energy <= low),
+                _ => behind.iter().find(|p| p.energy <= low),
+            };
+            let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
+            let ended = self.settled_place(settling, &start, steps);
+            let is_on = |side: usize| ended.is_some_and(|place| on[side].contains(&place));
+            let verdict = match (is_on(side), is_on(1 - side)) {
+                (true, _) => SideVerdict::OnThePathway,
+                (false, true) => SideVerdict::Opposite,
+                (false, false) => SideVerdict::Elsewhere,
+            };
+            Some(Side { ended, verdict })
+        })
+    }
+
+    /// The places that one half of the pathway passes: its own end and what lies on the way there.
+    fn places_on(&self, path: &[PathwayPoint], own: Place, other: Place) -> Vec<Place> {
+        let near = |state: &&State| {
+            let distance = |q: &Configuration| self.problem.space.distance(&state.configuration, q);
+            path.iter().any(|p| distance(&p.configuration) < ARRIVED)
+        };
+        let passed = self.states.iter().filter(near);
+        let passed = passed.map(|state| Place::State(state.id));
+        let passed = passed.filter(|place| *place != other);
+        std::iter::once(own).chain(passed).collect()
+    }
+
+    /// Where a trajectory with light drag comes to rest.
+    fn settled_place(
+        &self,
+        settling: &Simulation,
+        start: &Motion,
+        steps: &mut usize,
+    ) -> Option<Place> {
+        let space = &self.problem.space;
+        let slow = 1e-3 * self.barrier.forward();
+        let mut rng = stream(self.settings.seed, 0);
+        let run = settling.run(start, SETTLING, &mut rng, &mut |sample| {
+            let q = &sample.motion.configuration;
+            let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
+            space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
+        });
+        *steps += run.free_steps + run.contact_steps;
+        self.place_below(&run.last)
+    }
+
+    /// The least kick along the pathway's beginning that leads to its end.
+    fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
+        if self.climb <= 0.0 {
+            return None;
+        }
+        let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
+        let kicked: Vec<Fated> = (0..KICKS.len() * AIMS)
+            .into_par_iter()
+            .map(|k| {
+                let mut rng = stream(self.settings.seed, k % AIMS);
+                let aside = self.direction(lossless, &first, &mut rng);
+                let energy = |v| lossless.body().kinetic_energy(v);
+                let aside = aside * (energy(&direction) / energy(&aside)).sqrt();
+                // The first aim is the pathway's own direction.
+                let aim = direction + aside * (ASIDE * (k % AIMS) as f64);
+                let start = moving(lossless, first, aim, KICKS[k / AIMS] * self.climb);
+                let duration = PATIENCE * self.duration;
+                self.fate(lossless, &start, duration, f64::INFINITY, &mut rng)
+            })
+            .collect();
+        *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
+        let least = kicked.iter().position(|kick| kick.0 == Fate::Crossed)?;
+        Some(KICKS[least / AIMS] * self.climb)
+    }
+
+    /// Where the pathway begins, and the direction of the body's motion along it.
+    fn way_out(
+        &self,
+        simulation: &Simulation,
+        path: &Pathway,
+    ) -> Option<(Configuration, Vector3<f64>)> {
+        let first = path.first()?;
+        let enough = first.energy + AHEAD * self.barrier.forward();
+        let ahead = path.iter().find(|p| p.energy > enough)?;
+        let step = first.configuration.step_to(&ahead.configuration);
+        // The centre of mass moves along with the turn.
+        let lever = simulation.body().lever(first.configuration.theta);
+        let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
+        Some((first.configuration, direction))
+    }
+}
+
+/// A motion with a kinetic energy (J) in a direction.
+fn moving(
+    simulation: &Simulation,
+    configuration: Configuration,
+    direction: Vector3<f64>,
+    kinetic: f64,
+) -> Motion {
+    let unit = simulation.body().kinetic_energy(&direction);
+    let factor = if unit > 0.0 {
+        (kinetic.max(0.0) / unit).sqrt()
+    } else {
+        0.0
+    };
+    Motion {
+        configuration,
+        velocity: direction * factor,
+    }
+}
+
+/// A number drawn uniformly from a range.
+fn between([low, high]: [f64; 2], rng: &mut ChaCha8Rng) -> f64 {
+    low + (high - low) * rng.random::<f64>()
+}

@@ -1,0 +1,115 @@
+use super::*;
+use crate::analysis::Settings;
+use crate::design::Design;
+use crate::dynamics::tests::paper_tile;
+use crate::pipeline;
+
+fn few() -> CheckSettings {
+    CheckSettings {
+        runs: 60,
+        controls: 60,
+        ..CheckSettings::default()
+    }
+}
+
+/// What moving tiles say of an analysed design's barriers, or of those that `change` makes of them.
+fn checked(
+    design: &Design,
+    settings: &Settings,
+    change: impl Fn(&mut Vec<Barrier>),
+) -> Vec<BarrierCheck> {
+    let problem = pipeline::problem(design);
+    let mut analysis = pipeline::analyse(design, settings, &pipeline::Silent);
+    change(&mut analysis.barriers);
+    let body = Body::of_tile(&design.moving);
+    let (states, barriers) = (&analysis.states, &analysis.barriers);
+    check(&problem, body, states, barriers, &few(), &|_, _| ())
+}
+
+fn is_out_of_the_slid_bond(barrier: &Barrier) -> bool {
+    (barrier.from_energy + 16.026e-3).abs() < 1e-5
+}
+
+#[test]
+fn no_barrier_of_the_papers_tile_is_contradicted() {
+    let checks = checked(&paper_tile(), &Settings::default(), |_| ());
+    assert!(checks.len() > 20);
+    let mut crossed = 0;
+    for check in &checks {
+        assert!(!check.is_contradicted(), "{check:?}");
+        assert_eq!(check.below.runs, 60, "{check:?}");
+        assert!(check.certified);
+        crossed += check.above.0;
+    }
+    // With more energy than the barriers many do cross.
+    assert!(crossed > 10 * checks.len(), "{crossed}");
+    let from_slid: Vec<_> = checks
+        .iter()
+        .filter(|check| matches!(check.to, Place::State(_)) && check.climb > 10e-3)
+        .collect();
+    assert!(!from_slid.is_empty());
+    for check in from_slid {
+        for side in check.sides {
+            assert_eq!(side.unwrap().verdict, SideVerdict::OnThePathway);
+        }
+        assert!(check.kick.is_none_or(|kick| kick < 2.0 * check.climb));
+    }
+}
+
+#[test]
+fn a_barrier_said_to_be_higher_than_it_is_does_not_stand() {
+    for certified in [true, false] {
+        let checks = checked(&paper_tile(), &Settings::default(), |barriers| {
+            barriers.retain(|b| is_out_of_the_slid_bond(b) && matches!(b.to, Place::State(_)));
+            barriers.truncate(1);
+            barriers[0].saddle_energy += 10e-3;
+            barriers[0].lower = certified.then_some(barriers[0].saddle_energy);
+        });
+        assert!(checks[0].is_crossed(), "{checks:?}");
+        assert!(checks[0].is_kicked_over(), "{checks:?}");
+        assert!(checks[0].is_contradicted());
+        assert!(checks[0].below.example.is_some());
+    }
+}
+
+#[test]
+fn a_pathway_between_other_states_does_not_stand() {
+    let checks = checked(&paper_tile(), &Settings::default(), |barriers| {
+        barriers.retain(|b| is_out_of_the_slid_bond(b) && matches!(b.to, Place::State(_)));
+        barriers.truncate(1);
+        let Barrier { from, to, .. } = &mut barriers[0];
+        std::mem::swap(from, to);
+    });
+    assert!(checks[0].is_swapped(), "{checks:?}");
+}
+
+#[test]
+fn a_caged_tile_stays_whatever_its_energy() {
+    let design = Design::load("shapes/dovetail.toml".as_ref()).unwrap();
+    let settings = Settings {
+        milestones: 2000,
+        ..Settings::default()
+    };
+    let checks = checked(&design, &settings, |barriers| {
+        barriers.retain(|b| b.caged);
+    });
+    assert_eq!(checks.len(), 1);
+    assert!(checks[0].ceiling.is_infinite() && checks[0].below.runs == 60);
+    assert!(!checks[0].is_contradicted(), "{checks:?}");
+}
+
+#[test]
+fn the_check_is_the_same_on_any_number_of_threads() {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            checked(&paper_tile(), &Settings::default(), |barriers| {
+                barriers.truncate(3);
+            })
+        })
+    };
+    assert_eq!(on(1), on(3));
+}

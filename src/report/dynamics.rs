@@ -1,0 +1,246 @@
+//! What moving tiles say of the barriers, as JSON, CSV and a few lines.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::json::{place, place_name};
+use crate::analysis::Analysis;
+use crate::dynamics::Motion;
+use crate::dynamics::check::{BarrierCheck, Side, SideVerdict};
+use crate::units::si;
+
+/// The file with a line for each barrier.
+pub const TABLE: &str = "dynamics.csv";
+
+/// The check in `report.json`.
+#[derive(Debug, Serialize)]
+pub struct DynamicsEntry {
+    /// Trajectories below each barrier that were asked for.
+    pub runs: usize,
+    /// Barriers contradicted; 0 where all is well.
+    pub contradicted: usize,
+    pub barriers: Vec<BarrierCheckEntry>,
+}
+
+/// The check of one barrier.
+#[derive(Debug, Serialize)]
+#[allow(non_snake_case)]
+pub struct BarrierCheckEntry {
+    pub from: Value,
+    pub to: Value,
+    pub contradicted: bool,
+    /// Whether the ceiling is a certified bound, not an estimate.
+    pub certified: bool,
+    /// Trajectories stayed below this total energy; null where the state is proved caged.
+    pub ceiling_J: f64,
+    pub below: BelowEntry,
+    /// The same with more energy than the pathway needs.
+    pub above: CrossingsEntry,
+    /// From before and from behind the saddle; null where not asked.
+    pub sides: [Option<SideEntry>; 2],
+    /// Least energy of a kick that threw the tile out; null where none did.
+    pub kick_J: Option<f64>,
+    /// What the kick may not be less than.
+    pub climb_J: f64,
+}
+
+/// Trajectories and how many of them crossed.
+#[derive(Debug, Serialize)]
+pub struct CrossingsEntry {
+    pub runs: usize,
+    pub crossed: usize,
+}
+
+/// Trajectories below a barrier.
+#[derive(Debug, Serialize)]
+pub struct BelowEntry {
+    pub runs: usize,
+    pub crossed: usize,
+    /// More of them that proved nothing, lifted over the ceiling by the integration's error.
+    pub spoilt: usize,
+    /// The start of one that crossed.
+    pub example: Option<MotionEntry>,
+}
+
+/// A place and a velocity.
+#[derive(Debug, Serialize)]
+#[allow(non_snake_case)]
+pub struct MotionEntry {
+    pub pose: [f64; 3],
+    /// Of the centre of mass (m/s, m/s), and the turning rate (rad/s).
+    pub velocity: [f64; 3],
+}
+
+/// Where a trajectory from beside the saddle ended.
+#[derive(Debug, Serialize)]
+pub struct SideEntry {
+    /// Null for no reported state.
+    pub ended: Option<Value>,
+    /// `on the pathway`, `elsewhere` or `opposite`.
+    pub verdict: &'static str,
+}
+
+impl DynamicsEntry {
+    /// `None` where the barriers were not checked.
+    pub fn new(analysis: &Analysis) -> Option<Self> {
+        let checks = analysis.dynamics.as_ref()?;
+        Some(Self {
+            runs: analysis.settings.dynamics_runs,
+            contradicted: analysis.contradicted().count(),
+            barriers: checks.iter().map(BarrierCheckEntry::new).collect(),
+        })
+    }
+}
+
+impl BarrierCheckEntry {
+    fn new(check: &BarrierCheck) -> Self {
+        Self {
+            from: place(check.from),
+            to: place(check.to),
+            contradicted: check.is_contradicted(),
+            certified: check.certified,
+            ceiling_J: check.ceiling,
+            below: BelowEntry {
+                runs: check.below.runs,
+                crossed: check.below.crossed,
+                spoilt: check.below.spoilt,
+                example: check.below.example.as_ref().map(MotionEntry::new),
+            },
+            above: CrossingsEntry {
+                crossed: check.above.0,
+                runs: check.above.1,
+            },
+            sides: check.sides.map(|side| {
+                side.map(|side| SideEntry {
+                    ended: side.ended.map(place),
+                    verdict: verdict(&side),
+                })
+            }),
+            kick_J: check.kick,
+            climb_J: check.climb,
+        }
+    }
+}
+
+impl MotionEntry {
+    fn new(motion: &Motion) -> Self {
+        Self {
+            pose: motion.configuration.to_array(),
+            velocity: motion.velocity.into(),
+        }
+    }
+}
+
+fn verdict(side: &Side) -> &'static str {
+    match side.verdict {
+        SideVerdict::OnThePathway => "on the pathway",
+        SideVerdict::Elsewhere => "elsewhere",
+        SideVerdict::Opposite => "opposite",
+    }
+}
+
+/// The table of the checks, a barrier a line.
+pub fn csv(checks: &[BarrierCheck]) -> String {
+    let mut table = "from,to,contradicted,certified,ceiling_J,below_runs,below_crossed,\
+                     below_spoilt,above_runs,above_crossed,before_saddle_ended,\
+                     before_saddle_verdict,behind_saddle_ended,behind_saddle_verdict,kick_J,\
+                     climb_J\n"
+        .to_owned();
+    for check in checks {
+        let finite = |value: Option<f64>| {
+            let value = value.filter(|value| value.is_finite());
+            value.map_or_else(String::new, |value| format!("{value:.9e}"))
+        };
+        let side = |side: Option<Side>| {
+            side.map_or_else(
+                || ",".to_owned(),
+                |side| {
+                    let ended = side.ended.map_or_else(String::new, place_name);
+                    format!("{ended},{}", verdict(&side))
+                },
+            )
+        };
+        let _ = writeln!(
+            table,
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            place_name(check.from),
+            place_name(check.to),
+            check.is_contradicted(),
+            check.certified,
+            finite(Some(check.ceiling)),
+            check.below.runs,
+            check.below.crossed,
+            check.below.spoilt,
+            check.above.1,
+            check.above.0,
+            side(check.sides[0]),
+            side(check.sides[1]),
+            finite(check.kick),
+            finite(Some(check.climb)),
+        );
+    }
+    table
+}
+
+/// What the check found in a line, and another line for each contradiction.
+pub fn summary(analysis: &Analysis) -> String {
+    let Some(checks) = &analysis.dynamics else {
+        return String::new();
+    };
+    let sum = |count: fn(&BarrierCheck) -> usize| checks.iter().map(count).sum::<usize>();
+    let sides: Vec<&Side> = checks
+        .iter()
+        .flat_map(|check| check.sides.iter().flatten())
+        .collect();
+    let on_the_pathway = sides
+        .iter()
+        .filter(|side| side.verdict == SideVerdict::OnThePathway);
+    let mut text = format!(
+        "moving tiles: {} of {} trajectories below {} barriers crossed them ({} of {} above); from \
+         beside the saddle {} of {} ended on the pathway\n",
+        sum(|check| check.below.crossed),
+        sum(|check| check.below.runs),
+        checks.len(),
+        sum(|check| check.above.0),
+        sum(|check| check.above.1),
+        on_the_pathway.count(),
+        sides.len(),
+    );
+    for check in analysis.contradicted() {
+        let _ = writeln!(text, "{}", contradiction(check));
+    }
+    text
+}
+
+/// A contradiction, told loudly.
+pub fn contradiction(check: &BarrierCheck) -> String {
+    let (from, to) = (place_name(check.from), place_name(check.to));
+    let claim = match (check.certified, check.ceiling.is_infinite()) {
+        (_, true) => "proved to have no way over it".to_owned(),
+        (true, _) => format!("certified to be above {}", si(check.ceiling, "J", 4)),
+        (false, _) => format!("estimated above {}", si(check.ceiling, "J", 4)),
+    };
+    let mut found = Vec::new();
+    if check.is_crossed() {
+        let below = &check.below;
+        found.push(format!(
+            "{} of {} trajectories below it crossed",
+            below.crossed, below.runs
+        ));
+    }
+    if let Some(kick) = check.kick.filter(|_| check.is_kicked_over()) {
+        let (kick, climb) = (si(kick, "J", 4), si(check.climb, "J", 4));
+        found.push(format!(
+            "a kick of {kick} threw the tile over, less than {climb}"
+        ));
+    }
+    if check.is_swapped() {
+        found.push("from beside the saddle a tile ended on the other side".to_owned());
+    }
+    format!(
+        "CONTRADICTION: the barrier from {from} to {to}, {claim}: {}",
+        found.join("; ")
+    )
+}

@@ -1,0 +1,209 @@
+//! The page of a docking experiment.
+
+use serde_json::{Value, json};
+
+use super::pathways::Played;
+use super::{Column, Fact, Illustration, Landscape, Page, Table, finite};
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::dynamics::Sample;
+use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
+use crate::landscape::map::Pair;
+use crate::landscape::{Proportion, State, StateKind};
+use crate::pipeline;
+use crate::report::plots::Scene;
+use crate::units::si;
+
+/// Traps that are marked and listed.
+const LISTED: usize = 12;
+
+impl Page {
+    /// The page of a docking experiment, with the trajectories that it plays.
+    pub fn of_docking(
+        design: &Design,
+        docking: &Docking,
+        trajectories: &[(DockingRun, Vec<Sample>)],
+        pictures: Vec<Illustration>,
+    ) -> Self {
+        let problem = pipeline::problem(design);
+        let states = states(design, docking, problem.energy(&design.bound));
+        let landscape = problem.contact.as_ref().map(|contact| {
+            let scene = Scene {
+                name: &design.name,
+                pair: Pair {
+                    fixed: &design.fixed,
+                    moving: &design.moving,
+                    potential: problem.potential(),
+                    contact,
+                },
+                space: &problem.space,
+                bound: design.bound,
+                target: design.target,
+                states: &states,
+                escapes: &[],
+                barriers: &[],
+            };
+            let played = trajectories
+                .iter()
+                .map(|(run, samples)| Played::of_trajectory(name(docking, run), samples, contact));
+            Landscape::new(design, &scene, played.collect())
+        });
+        Self {
+            title: format!("{}: docking", design.name),
+            subtitle: design.description.clone(),
+            facts: facts(docking),
+            landscape,
+            pictures,
+            tables: vec![traps(docking), settings(design, docking)],
+            origin: format!(
+                "tilebind {}, seed {}, design sha256 {}",
+                env!("CARGO_PKG_VERSION"),
+                docking.settings.seed,
+                design.sha256
+            ),
+        }
+    }
+}
+
+/// The bond and the traps, to be marked.
+fn states(design: &Design, docking: &Docking, bond: f64) -> Vec<State> {
+    let rule = MatchRule::new(design, docking.settings.threshold);
+    let is_bond = |q: &Configuration| rule.as_ref().is_ok_and(|rule| rule.holds(q));
+    let traps = docking.traps.iter().take(LISTED);
+    let traps = traps.filter(|trap| !is_bond(&trap.configuration));
+    let traps = traps.map(|trap| (StateKind::Misbound, trap.configuration, trap.energy));
+    let all = std::iter::once((StateKind::Bound, design.bound, bond)).chain(traps);
+    all.enumerate()
+        .map(|(id, (kind, configuration, energy))| State {
+            id,
+            kind,
+            configuration,
+            energy,
+            class: id,
+            faces: Vec::new(),
+            attracting: 0,
+            repelling: 0,
+            block_energy: None,
+            capture: None,
+        })
+        .collect()
+}
+
+fn name(docking: &Docking, run: &DockingRun) -> String {
+    let end = match run.end {
+        End::Bound { since } => format!("bound after {since:.2} s"),
+        End::Free => "free".to_owned(),
+        End::Misbound { trap } => trap.and_then(|trap| docking.traps.get(trap)).map_or_else(
+            || "caught".to_owned(),
+            |trap| format!("caught above {}", si(trap.energy, "J", 3)),
+        ),
+    };
+    format!("trajectory {}: {end}", run.index)
+}
+
+fn percent(share: &Proportion) -> (String, String) {
+    (
+        format!("{:.1} %", 100.0 * share.share()),
+        format!(
+            "{} of {}; 95 %: {:.1} to {:.1} %",
+            share.count,
+            share.of,
+            100.0 * share.low,
+            100.0 * share.high
+        ),
+    )
+}
+
+fn facts(docking: &Docking) -> Vec<Fact> {
+    let shares = [
+        ("bound", &docking.bound),
+        ("caught elsewhere", &docking.misbound),
+        ("free", &docking.free),
+    ];
+    let mut facts: Vec<Fact> = shares
+        .into_iter()
+        .map(|(name, share)| {
+            let (value, note) = percent(share);
+            let name = name.to_owned();
+            Fact { name, value, note }
+        })
+        .collect();
+    let rate = OnRate::new(docking);
+    facts.push(Fact {
+        name: "on-rate".to_owned(),
+        value: format!("{:.4} per s", rate.rate),
+        note: format!("95 %: {:.4} to {:.4}", rate.interval[0], rate.interval[1]),
+    });
+    facts
+}
+
+fn number(value: f64) -> Value {
+    json!(finite(value, 6))
+}
+
+fn traps(docking: &Docking) -> Table {
+    let rows = docking.traps.iter().take(LISTED).map(|trap| {
+        let [x, y, theta] = trap.configuration.to_array().map(number);
+        let share = number(trap.caught.share());
+        vec![
+            json!(trap.caught.count),
+            share,
+            number(trap.energy),
+            x,
+            y,
+            theta,
+        ]
+    });
+    Table {
+        title: "Where tiles are caught without a match".to_owned(),
+        note: "The minimum below where they ended, symmetric copies taken together; the bond is \
+               among them where friction or lack of time held tiles short of it."
+            .to_owned(),
+        columns: vec![
+            Column::new("tiles", ""),
+            Column::new("share", "%"),
+            Column::new("energy", "J"),
+            Column::new("x", "m"),
+            Column::new("y", "m"),
+            Column::new("\u{3b8}", "rad"),
+        ],
+        rows: rows.collect(),
+        states: Vec::new(),
+    }
+}
+
+fn settings(design: &Design, docking: &Docking) -> Table {
+    let settings = &docking.settings;
+    let (motion, starts) = (&settings.motion, &settings.starts);
+    let range = |[low, high]: [f64; 2], unit: &str| json!(format!("{low} to {high} {unit}"));
+    let most = |value: f64, unit: &str| json!(format!("up to {value:.4} {unit} either way"));
+    let rows = [
+        ("magnets", json!(design.model.name())),
+        ("trajectories", json!(settings.runs)),
+        ("each lasts", json!(si(settings.duration, "s", 3))),
+        ("distance", range(starts.distance, "m")),
+        ("direction about the face", most(starts.direction, "rad")),
+        (
+            "orientation about the bond",
+            most(starts.orientation, "rad"),
+        ),
+        ("speed", range(starts.speed, "m/s")),
+        ("aim about the fixed tile", most(starts.aim, "rad")),
+        ("drag", json!(format!("{} per s", motion.drag))),
+        ("restitution", json!(motion.restitution)),
+        ("friction", json!(motion.friction)),
+        ("rim", json!(if motion.walls { "yes" } else { "no" })),
+        ("fans", json!(motion.fans.len())),
+        ("match within", json!(si(docking.threshold, "m", 3))),
+    ];
+    Table {
+        title: "How it was computed".to_owned(),
+        note: String::new(),
+        columns: vec![Column::new("quantity", ""), Column::new("value", "")],
+        rows: rows
+            .into_iter()
+            .map(|(name, value)| vec![json!(name), value])
+            .collect(),
+        states: Vec::new(),
+    }
+}
