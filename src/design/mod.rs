@@ -54,7 +54,7 @@ pub use schema::{SCHEMA, STARTER};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
@@ -109,7 +109,7 @@ pub struct Design {
 }
 
 /// A drawing that a design refers to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Drawing {
     /// Its file, as the design names it.
     pub file: String,

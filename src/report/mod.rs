@@ -5,6 +5,7 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
@@ -18,6 +19,7 @@ pub mod comparison;
 pub mod csv;
 pub mod docking;
 pub mod dynamics;
+pub mod figures;
 pub mod json;
 pub mod page;
 pub mod plots;

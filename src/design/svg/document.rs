@@ -4,33 +4,21 @@ use std::str::FromStr;
 
 use kurbo::Affine;
 use roxmltree::{Document, Node, ParsingOptions};
-use svgtypes::{AspectRatio, Length, LengthUnit, Transform, ViewBox};
+use svgtypes::Transform;
 
-use super::super::error::{DesignError, Source, Span};
+use super::super::error::{Source, Span};
 use super::super::reader::Result;
-use super::path::{INCH, SHAPES, draw, metres};
+use super::path::{SHAPES, draw};
 use super::pen::{Pen, points};
+use super::scale::scale;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 
 /// Most elements of a drawing.
 const MOST_NODES: u32 = 200_000;
 
-/// How much the scales along x and y, or two statements of the same scale, may differ.
-const SAME_SCALE: f64 = 1e-4;
-
 /// Cubics that stand for an arc leave it by this share of the chord error at most.
 const ARC_SHARE: f64 = 1e-3;
-
-/// The units that a design may give a drawing.
-pub(in crate::design) const UNITS: [(&str, f64); 6] = [
-    ("mm", 1e-3),
-    ("cm", 1e-2),
-    ("m", 1.0),
-    ("in", INCH),
-    ("pt", INCH / 72.0),
-    ("px", INCH / 96.0),
-];
 
 /// A shape of a drawing.
 #[derive(Clone, Debug)]
@@ -91,7 +79,7 @@ pub(super) fn read(
         skipped: Vec::new(),
     };
     reader.refuse_unread_transforms(root, true)?;
-    let map = reader.scale(root, unit)?;
+    let map = scale(source, root, unit)?;
     reader.children(root, map)?;
     Ok((reader.shapes, reader.skipped))
 }
@@ -214,7 +202,8 @@ impl Reader<'_> {
             Transform::from_str(attribute.value()).map_err(|error| {
                 let message = format!("`transform` cannot be read: {error}");
                 let help = "apply the transform in the drawing program";
-                self.error_at(attribute.range_value().into(), message, help)
+                self.source
+                    .error(attribute.range_value().into(), message, help)
             })?;
         Ok(Affine::new([a, b, c, d, e, f]))
     }
@@ -226,111 +215,14 @@ impl Reader<'_> {
             || node.has_attribute("transform-origin")
         {
             let message = "transforms in styles and about other origins are not read";
-            return Err(self.error_at(span(node), message, help));
+            return Err(self.source.error(span(node), message, help));
         }
         if root && node.has_attribute("transform") {
             let message = "a transform of the whole drawing is not read";
-            return Err(self.error_at(span(node), message, help));
+            return Err(self.source.error(span(node), message, help));
         }
         Ok(())
     }
-
-    /// From user units, y down, to metres, y up.
-    fn scale(&self, root: Node, unit: Option<f64>) -> Result<Affine> {
-        let view_box = root
-            .attribute_node("viewBox")
-            .map(|attribute| {
-                ViewBox::from_str(attribute.value()).map_err(|error| {
-                    let help = "give four numbers: viewBox=\"0 0 430 430\"";
-                    self.error_at(attribute.range_value().into(), error.to_string(), help)
-                })
-            })
-            .transpose()?;
-        let size = view_box.map(|view_box| [view_box.w, view_box.h]);
-        let stated = self.stated(root, size)?;
-        let [x, y] = match (unit, stated) {
-            (Some(unit), Some(stated)) if !agree(unit, stated[0]) || !agree(unit, stated[1]) => {
-                let message = format!(
-                    "the drawing says that a user unit is {} mm, the design {} mm",
-                    1e3 * stated[0],
-                    1e3 * unit
-                );
-                let help = "take `unit` away: the drawing knows its size";
-                return Err(self.error_at(span(root), message, help));
-            }
-            (_, Some(stated)) => stated,
-            (Some(unit), None) => [unit, unit],
-            (None, None) => {
-                let message = "the drawing does not say how large it is: its width and height are \
-                               not in mm, cm, in, pt or pc";
-                let help = "write width and height with units, such as width=\"430mm\", or give \
-                            the length of a user unit in the design: unit = \"mm\"";
-                return Err(self.error_at(span(root), message, help));
-            }
-        };
-        Ok(Affine::scale_non_uniform(x, -y))
-    }
-
-    /// The length (m) of a user unit along x and y where the drawing states it.
-    fn stated(&self, root: Node, view_box: Option<[f64; 2]>) -> Result<Option<[f64; 2]>> {
-        let mut stated = [None, None];
-        for (k, name) in ["width", "height"].into_iter().enumerate() {
-            let length = root.attribute(name).map(Length::from_str);
-            let Some(Ok(Length { number, unit })) = length else {
-                continue;
-            };
-            let Some(metres) = metres(unit) else {
-                continue;
-            };
-            if number <= 0.0 || !number.is_finite() {
-                let help = "give the drawing a width and a height";
-                return Err(self.error_at(span(root), format!("a {name} of {number}"), help));
-            }
-            // Without a view box, user units are CSS px.
-            let user_units = view_box.map_or(number * metres / (INCH / 96.0), |size| size[k]);
-            stated[k] = Some(number * metres / user_units);
-        }
-        let px = |name| {
-            let length = root.attribute(name).map(Length::from_str);
-            matches!(length, Some(Ok(length)) if matches!(length.unit, LengthUnit::None | LengthUnit::Px))
-        };
-        let scales = match stated {
-            [Some(x), Some(y)] => [x, y],
-            [Some(one), None] if !px("height") => [one, one],
-            [None, Some(one)] if !px("width") => [one, one],
-            _ => return Ok(None),
-        };
-        if agree(scales[0], scales[1]) {
-            // As far as a viewer goes: the whole drawing fits.
-            let fit = scales[0].min(scales[1]);
-            return Ok(Some([fit, fit]));
-        }
-        let aspect = root.attribute("preserveAspectRatio");
-        let aspect = aspect.and_then(|text| AspectRatio::from_str(text).ok());
-        if aspect.is_some_and(|aspect| aspect.align == svgtypes::Align::None) {
-            return Ok(Some(scales));
-        }
-        let message = format!(
-            "width and height do not fit the view box: a user unit is {} mm along x, {} mm along y",
-            1e3 * scales[0],
-            1e3 * scales[1]
-        );
-        let help = "give the drawing a size of the proportions of its view box";
-        Err(self.error_at(span(root), message, help))
-    }
-
-    fn error_at(
-        &self,
-        span: Span,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> DesignError {
-        self.source.error(span, message, help)
-    }
-}
-
-fn agree(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME_SCALE * a.max(b)
 }
 
 /// Whether an element is SVG's; a drawing without any namespace is taken for one.
@@ -341,7 +233,7 @@ fn is_svg(node: Node) -> bool {
 }
 
 /// The name in an element's tag.
-fn span(node: Node) -> Span {
+pub(super) fn span(node: Node) -> Span {
     let start = node.range().start + 1;
     let name = node.tag_name().name().len();
     (start..start + name).into()

@@ -1,10 +1,13 @@
 //! A profile drawn as a line.
 
+use nalgebra::Vector2;
+
 use super::super::error::Source;
 use super::super::quantity;
 use super::super::reader::{Result, Section};
 use super::document::{Line, Shape};
 use super::{SAME_POINT, only_line, with_shape};
+use crate::tile::outline::{Outline, OutlineError};
 use crate::tile::profile::Polyline;
 
 /// How far the ends may lie from one base line (m): what six digits of a tile in mm resolve.
@@ -90,5 +93,35 @@ fn on_base_line(source: &Source, shape: &Shape, mut points: Vec<[f64; 2]>) -> Re
     points[0][1] = 0.0;
     points[last][1] = 0.0;
     points.dedup_by(|a, b| apart(*a, *b) <= SAME_POINT);
+    if let Some([s, h]) = crossing(&points) {
+        let message = format!(
+            "the line crosses or touches itself, or the base line beyond its ends, near s = {} mm, \
+             h = {} mm",
+            quantity::four_digits(1e3 * s),
+            quantity::four_digits(1e3 * h)
+        );
+        return fault(
+            message,
+            "draw the profile as one line, from its left end to its right end",
+        );
+    }
     Ok(points)
+}
+
+/// Near where a line from left to right crosses or touches itself, or the base line to either side
+/// of it.
+fn crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
+    // Far beyond the line: its outline with the base line and a tile below is closed.
+    let reach = points
+        .iter()
+        .flatten()
+        .fold(1.0, |most: f64, x| most.max(x.abs()));
+    let far = 3.0 * reach;
+    let below = [[far, 0.0], [far, -far], [-far, -far], [-far, 0.0]];
+    let ring = points.iter().chain(&below).rev().copied();
+    let ring: Vec<Vector2<f64>> = ring.map(Vector2::from).collect();
+    match Outline::new(ring.clone()) {
+        Err(OutlineError::SelfCrossing(i, _)) => Some(ring[i].into()),
+        _ => None,
+    }
 }

@@ -29,13 +29,14 @@ mod line;
 mod outline;
 mod path;
 mod pen;
+mod scale;
 
-pub(super) use document::UNITS;
 pub(super) use files::{Drawings, read_text};
 pub(super) use line::read_line;
 #[cfg(test)]
 pub(super) use outline::OUTLINE_KEYS;
 pub(super) use outline::read_outline;
+pub(super) use scale::UNITS;
 
 use super::error::Source;
 use super::reader::{Result, Section, nearest_help};
