@@ -11,7 +11,7 @@ use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
 use crate::potential::MagnetModel;
-use crate::potential::bounds::{CellBounds, DipoleBounds};
+use crate::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
 use crate::problem::Problem;
 
 /// Cells spent on narrowing the bounds of a small barrier further.
@@ -29,8 +29,6 @@ const BEND: f64 = 1e-3;
 pub enum Uncertified {
     #[error("no time was given to the certificate")]
     NoTime,
-    #[error("bounds over cells are known for point dipoles, not for blocks")]
-    Blocks,
     #[error("bounds over cells are not known for magnets with shields")]
     Shields,
 }
@@ -43,7 +41,7 @@ pub fn bounds(design: &Design) -> Result<Box<dyn CellBounds>, Uncertified> {
     match design.model {
         _ if !design.shields.is_none() => Err(Uncertified::Shields),
         MagnetModel::Dipole => Ok(Box::new(DipoleBounds::new(&design.fixed, &design.moving))),
-        MagnetModel::Cuboid => Err(Uncertified::Blocks),
+        MagnetModel::Cuboid => Ok(Box::new(CuboidBounds::new(&design.fixed, &design.moving))),
     }
 }
 

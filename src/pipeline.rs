@@ -184,21 +184,7 @@ pub(crate) fn survey(
     let depth = energy_scale(design, problem);
     let edge_settings = edge_settings(settings, depth);
     clock.start("milestones", 0.0);
-    let acceptance = match settings.boltzmann {
-        Some(energy) => Acceptance::Boltzmann { energy },
-        None => Acceptance::Linear {
-            lowest: -depth,
-            highest: 0.1 * depth,
-        },
-    };
-    let milestones = milestone::milestones(
-        problem,
-        &MilestoneSettings {
-            count: settings.milestones,
-            acceptance,
-            seed,
-        },
-    );
+    let milestones = milestone::milestones(problem, &milestone_settings(settings, seed, depth));
     clock.start("neighbours", 0.05);
     let k = settings
         .neighbours
@@ -206,6 +192,7 @@ pub(crate) fn survey(
     let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
     clock.start("edges", 0.06);
     let edges = edge::edges(problem, &milestones, &pairs, &edge_settings);
+    drop(pairs);
     let mut counts = Counts {
         milestones: milestones.len(),
         edges: edges.len(),
@@ -214,7 +201,7 @@ pub(crate) fn survey(
     clock.start("states and transition states", 0.4);
     let survey = Survey::new(
         problem,
-        &Roadmap { milestones, edges },
+        Roadmap { milestones, edges },
         &[&flush_meetings(design, problem), guesses].concat(),
         &|q| symmetries.iter().map(|s| s.apply(q)).collect(),
         &SurveySettings {
@@ -227,6 +214,32 @@ pub(crate) fn survey(
     );
     counts.transition_states = survey.transition_states.len();
     Surveyed { survey, counts }
+}
+
+/// The roadmap of an analysis with these settings, built anew.
+pub fn roadmap(design: &Design, problem: &Problem, settings: &Settings) -> Roadmap {
+    let depth = energy_scale(design, problem);
+    Roadmap::build(
+        problem,
+        &milestone_settings(settings, settings.seed, depth),
+        settings.neighbours,
+        &edge_settings(settings, depth),
+    )
+}
+
+fn milestone_settings(settings: &Settings, seed: u64, depth: f64) -> MilestoneSettings {
+    let acceptance = match settings.boltzmann {
+        Some(energy) => Acceptance::Boltzmann { energy },
+        None => Acceptance::Linear {
+            lowest: -depth,
+            highest: 0.1 * depth,
+        },
+    };
+    MilestoneSettings {
+        count: settings.milestones,
+        acceptance,
+        seed,
+    }
 }
 
 /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest

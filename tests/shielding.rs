@@ -152,6 +152,41 @@ fn a_closed_way_costs_nothing() {
     assert!(work.abs() < 1e-10 * travelled, "{work} of {travelled}");
 }
 
+/// Seen from the other tile the energy is the same, and so are the forces, turned: in a frame held
+/// by the moving tile the fixed one stands at the inverse configuration.
+#[test]
+fn action_equals_reaction() {
+    let (fixed, moving) = tiles();
+    let shields = shields(ShieldRule::Smooth, Some(SHIELD));
+    let exchanged = Shields {
+        fixed: shields.moving.clone(),
+        moving: shields.fixed.clone(),
+        ..shields
+    };
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+        let here = ShieldedPotential::new(model, &fixed, &moving, &shields);
+        let there = ShieldedPotential::new(model, &moving, &fixed, &exchanged);
+        for q in poses() {
+            let (energy, gradient) = here.energy_and_gradient(&q);
+            let (other, reaction) = there.energy_and_gradient(&q.inverse());
+            assert!((energy - other).abs() < 1e-6 * energy.abs(), "{q:?}");
+            // The reaction on the fixed tile, in the fixed tile's frame.
+            let back = q.rotation() * Vector2::new(reaction.x, reaction.y);
+            assert!(
+                (back + gradient.xy()).norm() < 1e-5 * gradient.norm(),
+                "{q:?}"
+            );
+            // The torques about the two reference points and the force's lever add up to nothing.
+            let arm = q.position();
+            let total = gradient.z + reaction.z + arm.perp(&gradient.xy());
+            assert!(
+                total.abs() < 1e-5 * gradient.norm(),
+                "{model:?} {q:?} {total}"
+            );
+        }
+    }
+}
+
 #[test]
 fn the_nearest_face_rule_counts_one_pair_of_faces_and_jumps() {
     let (fixed, moving) = tiles();

@@ -8,7 +8,7 @@ use tilebind::analysis::{Analysis, Settings};
 use tilebind::design::MagnetModel;
 use tilebind::pipeline::{self, Observer};
 use tilebind::report::writer::{self, Extent, WriteError};
-use tilebind::report::{dynamics, summary};
+use tilebind::report::{arrays, dynamics, summary};
 
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
@@ -25,6 +25,7 @@ Examples:
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
   tilebind analyse my.toml --out my-results --dynamics
+  tilebind analyse my.toml --out my-results --arrays
   tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'"
 )]
 pub struct Analyse {
@@ -96,6 +97,10 @@ pub struct Analyse {
     #[arg(long)]
     compact: bool,
 
+    /// Write maps, roadmap, states and barriers as NPY files too, for NumPy: folder arrays/
+    #[arg(long)]
+    arrays: bool,
+
     /// Print report.json instead of the summary
     #[arg(long)]
     json: bool,
@@ -121,7 +126,11 @@ impl Analyse {
         } else {
             Extent::Full
         };
-        let files = writer::files(&design, &analysis, extent, start).map_err(WriteError::from)?;
+        let mut files =
+            writer::files(&design, &analysis, extent, start).map_err(WriteError::from)?;
+        if self.arrays {
+            files.extend(arrays::files(&design, &analysis));
+        }
         interrupt::without(|| writer::write(&self.out, &files))?;
         progress.finish();
 

@@ -8,6 +8,7 @@ use tilebind::comparison::{self, Assessment, Quantity};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::pipeline::Observer;
 use tilebind::report::comparison::Comparison;
+use tilebind::report::page::Page;
 use tilebind::report::plots::ranking;
 use tilebind::report::writer::{self, WriteError};
 
@@ -20,7 +21,8 @@ use super::{Failure, input, interrupt, print};
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Writes compare.csv, compare.json, compare.md, ranking.svg and ranking.png.
+Writes report.html to look at, compare.csv, compare.json, compare.md, ranking.svg and
+ranking.png.
 
 Example:
   tilebind compare shapes/tab-10mm.toml shapes/tab-20mm.toml shapes/paper-tile.toml \\
@@ -87,7 +89,9 @@ impl Compare {
         let comparison = Comparison::new(&assessments, self.by, settings);
         let picture = ranking::draw(&comparison).map_err(WriteError::from)?;
         let json = comparison.json();
+        let page = Page::of_comparison(&comparison, picture.svg.clone());
         let files = [
+            (writer::PAGE, page.to_html().into_bytes()),
             ("compare.csv", comparison.csv().into_bytes()),
             ("compare.md", comparison.markdown().into_bytes()),
             ("ranking.svg", picture.svg.into_bytes()),
@@ -106,7 +110,8 @@ impl Compare {
             Ok(())
         } else {
             let folder = self.out.display();
-            let names = "compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
+            let names =
+                "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
             print(&format!(
                 "{}results in {folder}: {names}\n",
                 comparison.summary()

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 use tilebind::report::json;
+use tilebind::report::page::Page;
 use tilebind::report::plots::curve_data;
 use tilebind::report::sweep::{Sweep as Report, counts};
 use tilebind::report::writer::{self, WriteError};
@@ -22,8 +23,8 @@ const PLAN: &str = "plan.json";
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Writes sweep.csv, sweep.json and pictures: curves over one varied number, maps over two. A point's
-results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
+Writes report.html to look at, sweep.csv, sweep.json and pictures: curves over one varied number,
+maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
 command goes on with what is missing and ends in the same bytes.
 
 Examples:
@@ -216,6 +217,10 @@ impl Sweep {
         let mut files = vec![
             ("sweep.csv".to_owned(), report.csv().into_bytes()),
             (PLAN.to_owned(), plan.to_text().into_bytes()),
+            (
+                writer::PAGE.to_owned(),
+                Page::of_sweep(&report).to_html().into_bytes(),
+            ),
         ];
         for (name, picture) in curve_data::pictures(&report).map_err(WriteError::from)? {
             files.push((format!("pictures/{name}.svg"), picture.svg.into_bytes()));
@@ -232,7 +237,7 @@ impl Sweep {
             print(&json)?;
         } else if !self.quiet {
             let folder = folder.display();
-            let files = "sweep.csv, sweep.json, pictures/";
+            let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
             print(&format!(
                 "{}results in {folder}: {files}\n",
                 report.summary()

@@ -18,7 +18,7 @@ pub mod ranking;
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::{Analysis, Certified, Settings};
-use crate::design::Design;
+use crate::design::{Design, Drawing};
 use crate::landscape::{Barrier, Place, State, StateKind};
 use crate::pipeline::{self, Observer};
 
@@ -87,6 +87,9 @@ pub struct Assessment {
     pub name: String,
     /// SHA-256 of the design file's bytes.
     pub sha256: String,
+    /// The drawings that the design refers to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drawings: Vec<Drawing>,
     /// The magnet model, as design files call it.
     pub model: String,
     pub seed: u64,
@@ -189,6 +192,7 @@ impl Assessment {
         Self {
             name: design.name.clone(),
             sha256: design.sha256.clone(),
+            drawings: design.drawings.clone(),
             model: design.model.name().to_owned(),
             seed: analysis.settings.seed,
             target_energy: analysis.bound.1,

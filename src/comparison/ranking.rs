@@ -42,6 +42,7 @@ mod tests {
         Assessment {
             name: String::new(),
             sha256: String::new(),
+            drawings: Vec::new(),
             model: model.into(),
             seed: 1,
             target_energy: energy,

@@ -5,13 +5,15 @@
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
 //! [`TOUCH`] counts as touching.
 
+mod admissible;
 pub mod cells;
 mod constraint;
 mod lift;
 mod motion;
 mod tree;
 
-pub use constraint::{Constraint, EdgeOf, Touch, closest_admissible};
+pub use admissible::closest_admissible;
+pub use constraint::{Constraint, EdgeOf, Touch};
 
 use nalgebra::{Rotation2, Vector2};
 use parry2d_f64::math::{Pose, Vector};

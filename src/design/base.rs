@@ -1,4 +1,4 @@
-//! The base polygon of a tile, `side`, `sides` or `vertices`, and the names of its faces.
+//! The base polygon of a tile, `side`, `sides`, `vertices` or `outline`, and the names of its faces.
 
 use std::f64::consts::TAU;
 
@@ -6,8 +6,10 @@ use nalgebra::Vector2;
 
 use super::quantity;
 use super::reader::{Entry, Result, Section};
+use super::svg;
 use crate::tile::Face;
 use crate::tile::outline::{Outline, OutlineError};
+use crate::tile::profile::Polyline;
 
 /// Most faces of a tile.
 const MOST_FACES: u32 = 64;
@@ -15,30 +17,44 @@ const MOST_FACES: u32 = 64;
 /// The straight faces of a tile, and all names of each; the first is what messages use.
 pub(super) struct Base {
     pub faces: Vec<Face>,
+    /// The line of each face that has no profile of its own; empty for the base line.
+    pub lines: Vec<Polyline>,
     pub names: Vec<Vec<String>>,
 }
 
 /// Reads the base polygon of a tile.
 pub(super) fn read(section: &Section) -> Result<Base> {
-    let Some(entry) = section.get("vertices") else {
+    let listed = ["vertices", "outline"].map(|key| section.get(key));
+    let Some(entry) = listed.into_iter().flatten().next() else {
         return regular(section);
     };
-    if let Some(other) = section.get("side").or_else(|| section.get("sides")) {
+    let others = ["side", "sides", "outline"].into_iter();
+    let mut others = others.filter(|key| *key != entry.key);
+    if let Some(other) = others.find_map(|key| section.get(key)) {
         return Err(other.key_error(
-            format!("`vertices` and `{}` both describe the outline", other.key),
+            format!(
+                "`{}` and `{}` both describe the outline",
+                entry.key, other.key
+            ),
             "keep one of the two",
         ));
     }
+    let numbered = |count: usize| (0..count).map(|i| vec![i.to_string()]).collect();
+    if entry.key == "outline" {
+        let (corners, lines) = svg::read_outline(&entry)?;
+        return Ok(Base {
+            lines,
+            ..base(&corners, numbered(corners.len()))
+        });
+    }
     let vertices = vertices(&entry)?;
-    Ok(base(
-        &vertices,
-        (0..vertices.len()).map(|i| vec![i.to_string()]).collect(),
-    ))
+    Ok(base(&vertices, numbered(vertices.len())))
 }
 
 /// A regular polygon about its centre; face 0 has its outward normal along +x.
 fn regular(section: &Section) -> Result<Base> {
-    let help = "say how long its sides are, side = 0.43 (m), or list its corners: vertices = [...]";
+    let help = "say how long its sides are, side = 0.43 (m), list its corners, vertices = [...], \
+                or name a drawing: outline = { file = \"tile.svg\" }";
     let side = section.require("side", help)?.number(quantity::TILE_SIDE)?;
     let sides = match section.get("sides") {
         Some(entry) => entry.count(MOST_FACES)?,
@@ -83,7 +99,11 @@ fn base(corners: &[Vector2<f64>], names: Vec<Vec<String>>) -> Base {
             end: corners[(i + 1) % n],
         })
         .collect();
-    Base { faces, names }
+    Base {
+        faces,
+        lines: vec![Polyline::new(); n],
+        names,
+    }
 }
 
 fn vertices(entry: &Entry) -> Result<Vec<Vector2<f64>>> {

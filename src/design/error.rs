@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use super::svg::Drawings;
+
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
@@ -57,6 +59,21 @@ impl Place {
     }
 }
 
+impl Place {
+    /// The line as it is shown, and the column in it: of a long line (a drawing can be one line) a
+    /// part about the place.
+    fn window(&self) -> (String, usize) {
+        const MOST: usize = 160;
+        let source = self.source.replace('\t', " ");
+        if source.chars().count() <= MOST {
+            return (source, self.column);
+        }
+        let start = (self.column - 1).saturating_sub(MOST / 2);
+        let shown: String = source.chars().skip(start).take(MOST).collect();
+        (shown, self.column - start)
+    }
+}
+
 fn floor_char_boundary(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at)
@@ -73,9 +90,9 @@ impl fmt::Display for DesignError {
         };
         let number = place.line.to_string();
         let gutter = " ".repeat(number.len());
-        let source = place.source.replace('\t', " ");
-        let indent = " ".repeat(place.column - 1);
-        let carets = "^".repeat(place.width);
+        let (source, column) = place.window();
+        let indent = " ".repeat(column - 1);
+        let carets = "^".repeat(place.width.min(source.chars().count() + 1 - column).max(1));
         writeln!(
             f,
             "{}:{number}:{}: {}",
@@ -111,6 +128,8 @@ impl From<Range<usize>> for Span {
 pub(super) struct Source<'a> {
     pub file: &'a str,
     pub text: &'a str,
+    /// The drawings that the design refers to.
+    pub drawings: &'a Drawings<'a>,
 }
 
 impl Source<'_> {
@@ -137,6 +156,7 @@ mod tests {
     fn a_fault_shows_its_place_and_its_mend() {
         let source = Source {
             file: "a.toml",
+            drawings: &Drawings::default(),
             text: "name = \"ä\"\nside = 430 # m\n",
         };
         let at = source.text.find("430").unwrap();
@@ -151,6 +171,7 @@ mod tests {
     fn columns_count_characters_and_places_never_leave_the_text() {
         let source = Source {
             file: "a.toml",
+            drawings: &Drawings::default(),
             text: "ä = ü",
         };
         let place = |span: Range<usize>| *source.error(span.into(), "", "").place.unwrap();

@@ -122,8 +122,14 @@ impl<'a> FaceEntry<'a> {
             .find_map(|section| keys.iter().find_map(|key| section.get(key)))
     }
 
-    /// The content of a face that mates with none; `length` is the face's (m).
-    pub fn content(&self, length: f64, keys: MagnetKeys, span: Span) -> Result<FaceContent> {
+    /// The content of a face that mates with none; `length` is the face's (m), `drawn` its line in
+    /// the tile's own outline.
+    pub fn content(
+        &self,
+        (length, drawn): (f64, &Polyline),
+        keys: MagnetKeys,
+        span: Span,
+    ) -> Result<FaceContent> {
         if let Some(fit) = self.own.and_then(|own| own.get("fit")) {
             return Err(fit.key_error(
                 "`fit` draws a mate back, and this face has no `mates`",
@@ -135,7 +141,7 @@ impl<'a> FaceEntry<'a> {
         Ok(FaceContent {
             polyline: match &profile {
                 Some(entry) => read_profile(entry, length)?,
-                None => Polyline::new(),
+                None => drawn.clone(),
             },
             fit: 0.0,
             pattern: match &pattern {

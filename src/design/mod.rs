@@ -22,6 +22,10 @@
 //!   entry, overrides them key by key; `shield = false` takes the shield away. A mate does not
 //!   take over its partner's shield, which is iron of the other tile. `[shield] rule =
 //!   "nearest-face"` takes no constants.
+//! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
+//!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
+//!   physical units or with a `unit`, curves to within [`crate::tile::profile::CHORD_ERROR`]. A face
+//!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
 
@@ -47,8 +51,10 @@ pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
 pub use schema::{SCHEMA, STARTER};
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
@@ -58,6 +64,7 @@ use crate::tile::Tile;
 use error::Source;
 use magnet::{MAGNET_KEYS, MagnetKeys};
 use reader::{Result, Section};
+use svg::Drawings;
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
@@ -94,9 +101,28 @@ pub struct Design {
     pub shields: Shields,
     /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
     pub pitch: Option<f64>,
+    /// The drawings that the design refers to.
+    pub drawings: Vec<Drawing>,
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
     /// through a curved surface.
     pub warnings: Vec<DesignError>,
+}
+
+/// A drawing that a design refers to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Drawing {
+    /// Its file, as the design names it.
+    pub file: String,
+    /// SHA-256 of the file's bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+/// The text of a drawing that a design file calls `name`.
+///
+/// # Errors
+/// Where it cannot be read.
+pub(crate) fn drawing_text(design: &str, name: &str) -> std::io::Result<String> {
+    svg::read_text(design, name)
 }
 
 const ROOT_KEYS: [&str; 9] = [
@@ -132,6 +158,7 @@ impl Design {
                 let source = Source {
                     file: &file,
                     text: &text,
+                    drawings: &Drawings::default(),
                 };
                 Err(source.error(
                     (at..at + 1).into(),
@@ -148,7 +175,27 @@ impl Design {
     /// # Errors
     /// Where the text is no sound design.
     pub fn parse(text: &str, file: &str) -> Result<Self> {
-        let source = Source { file, text };
+        Self::read(text, file, Drawings::default())
+    }
+
+    /// Reads a design whose drawings are held: the text of each by its name in the design.
+    ///
+    /// # Errors
+    /// Where the text is no sound design.
+    pub(crate) fn parse_with(
+        text: &str,
+        file: &str,
+        drawings: &BTreeMap<String, String>,
+    ) -> Result<Self> {
+        Self::read(text, file, Drawings::new(Some(drawings)))
+    }
+
+    fn read(text: &str, file: &str, drawings: Drawings) -> Result<Self> {
+        let source = Source {
+            file,
+            text,
+            drawings: &drawings,
+        };
         let root = DeTable::parse(text).map_err(|error| {
             source.error(
                 error.span().unwrap_or_default().into(),
@@ -172,7 +219,7 @@ impl Design {
         warnings.extend(doubt);
         let (fixed, moving) = (fixed.tile, moving.tile);
         let bound = target.configuration(&fixed, &moving)?;
-        let design = Self {
+        let mut design = Self {
             name: root
                 .string("name")?
                 .map_or_else(|| stem(file), str::to_owned),
@@ -186,9 +233,13 @@ impl Design {
             model,
             shields,
             pitch: keys.pitch,
+            drawings: Vec::new(),
             warnings,
         };
         design.check_table(&root)?;
+        let (used, skipped) = drawings.finish();
+        design.drawings = used;
+        design.warnings.extend(skipped);
         Ok(design)
     }
 

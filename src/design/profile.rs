@@ -3,6 +3,7 @@
 use super::DesignError;
 use super::quantity;
 use super::reader::{Entry, Result, Section};
+use super::svg;
 use crate::tile::profile::{Polyline, Profile, ProfileError, Waveform};
 
 #[derive(Clone, Copy)]
@@ -33,7 +34,7 @@ impl Shape {
             Self::Teeth => &["shape", "form", "count", "depth", "span"],
             Self::Arc => &["shape", "width", "depth", "offset"],
             Self::Points => &["shape", "points"],
-            Self::Svg => &["shape", "file"],
+            Self::Svg => &["shape", "file", "unit", "id", "offset"],
         }
     }
 }
@@ -41,10 +42,7 @@ impl Shape {
 /// The shapes that can be read, and the keys of each.
 #[cfg(test)]
 pub(super) fn shapes() -> impl Iterator<Item = (&'static str, &'static [&'static str])> {
-    SHAPES
-        .into_iter()
-        .filter(|(_, shape)| !matches!(shape, Shape::Svg))
-        .map(|(name, shape)| (name, shape.keys()))
+    SHAPES.into_iter().map(|(name, shape)| (name, shape.keys()))
 }
 
 /// Most points of a face's line, curves drawn as chords: contact with more takes too long.
@@ -65,7 +63,7 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
         Shape::Teeth => teeth(&section, length),
         Shape::Arc => arc(&section),
         Shape::Points => points(&section),
-        Shape::Svg => return Err(super::svg::refused(&section)),
+        Shape::Svg => svg::read_line(&section).map(Profile::Points),
     }?;
     let line = profile.polyline().map_err(|error| mend(&section, error))?;
     within_face(&section, &line, length)?;
@@ -203,7 +201,11 @@ fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> 
     let point = section
         .get("points")
         .and_then(|entry| entry.array().ok()?.get(index).copied());
-    let culprit = point.or_else(|| ["width", "span"].iter().find_map(|key| section.get(key)));
+    let culprit = point.or_else(|| {
+        ["width", "span", "file"]
+            .iter()
+            .find_map(|key| section.get(key))
+    });
     Err(match culprit {
         Some(entry) => entry.error(message, help),
         None => section.error(message, help),

@@ -105,6 +105,10 @@ impl<'a> Section<'a> {
         self.span
     }
 
+    pub fn source(&self) -> Source<'a> {
+        self.source
+    }
+
     /// A fault of the table as a whole.
     pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
         self.source.error(self.span(), message, help)
@@ -128,6 +132,10 @@ impl<'a> Entry<'a> {
 
     pub fn key_span(&self) -> Span {
         self.key_span
+    }
+
+    pub fn source(&self) -> Source<'a> {
+        self.source
     }
 
     /// A fault of the value.

@@ -17,6 +17,7 @@ mod tests {
     use super::super::magnet::{ListedMagnet, MAGNET_KEYS};
     use super::super::quantity::{self, Quantity};
     use super::super::shield::CONSTANTS;
+    use super::super::svg::{OUTLINE_KEYS, UNITS};
     use super::super::tile::{TILE_KEYS, TILES};
     use super::super::{Design, MagnetModel, ROOT_KEYS, TABLE_KEYS, profile};
     use super::*;
@@ -53,6 +54,7 @@ mod tests {
         assert_keys(of("face"), &FACE_KEYS);
         assert_keys(of("faces"), &["all", "east", "north", "west", "south"]);
         assert_keys(of("target"), &TILES);
+        assert_keys(of("outline"), &OUTLINE_KEYS);
         assert_keys(of("potential"), &["model"]);
         let mut constants = CONSTANTS.map(|(name, _)| name).to_vec();
         assert_keys(of("shield_constants"), &constants);
@@ -72,6 +74,16 @@ mod tests {
         }
         let offered = schema["$defs"]["profile"]["oneOf"].as_array().unwrap();
         assert_eq!(offered.len(), read);
+    }
+
+    #[test]
+    fn it_has_every_unit_of_a_drawing() {
+        let units = UNITS.map(|(name, _)| name);
+        let schema = schema();
+        assert_eq!(
+            schema["$defs"]["drawing_unit"]["enum"],
+            serde_json::json!(units)
+        );
     }
 
     #[test]

@@ -12,10 +12,11 @@ use crate::potential::shielding::Shield;
 pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
 
 /// The keys of `[fixed]` and `[moving]`.
-pub(super) const TILE_KEYS: [&str; 7] = [
+pub(super) const TILE_KEYS: [&str; 8] = [
     "side",
     "sides",
     "vertices",
+    "outline",
     "thickness",
     "mass",
     "faces",
@@ -116,7 +117,8 @@ fn resolve_face(
     let entry = &tiles[tile].faces[face];
     let base = &tiles[tile].base.faces[face];
     let Some(mates) = entry.mates() else {
-        return entry.content(base.length(), keys, tiles[tile].section.span());
+        let line = &tiles[tile].base.lines[face];
+        return entry.content((base.length(), line), keys, tiles[tile].section.span());
     };
     let other = 1 - tile;
     let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;

@@ -4,17 +4,17 @@
 
 use std::collections::{HashMap, HashSet};
 
-use petgraph::algo::{astar, min_spanning_tree};
-use petgraph::data::Element;
+use petgraph::algo::astar;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::unionfind::UnionFind;
 use petgraph::visit::{EdgeFiltered, EdgeRef};
+use rayon::prelude::*;
 
 use super::slide::Point;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
-use crate::roadmap::{EdgeSettings, Roadmap};
+use crate::roadmap::{Edge, EdgeSettings, Roadmap};
 
 /// A way between two nodes.
 #[derive(Clone, Debug)]
@@ -27,25 +27,21 @@ pub enum Way {
     Same,
 }
 
-/// What joins two nodes.
-#[derive(Clone, Debug)]
-pub struct Link {
-    pub from: usize,
-    pub to: usize,
-    pub costs: EdgeCosts,
-    pub way: Way,
-}
-
-/// Weight of a link in the graph: its peak (J), and its number, which breaks ties.
-type Weight = (f64, u32);
-
-/// Nodes and links.
+/// Nodes and links. A link takes 80 bytes, its part in the graph included; few have a way that is
+/// not straight.
 #[derive(Clone, Debug, Default)]
 pub struct Network {
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
-    pub links: Vec<Link>,
-    graph: UnGraph<(), Weight, u32>,
+    /// What joins two nodes, with the costs of going from the one to the other.
+    pub links: Vec<Edge>,
+    /// The ways of those links that are no straight motions.
+    ways: HashMap<usize, Way>,
+    /// Its edges have the numbers of the links.
+    graph: UnGraph<(), (), u32>,
+    /// The links that minimax paths among the first `spanned` links use, ascending.
+    tree: Vec<u32>,
+    spanned: usize,
 }
 
 /// Two basins that meet, in ascending order of the energy at which they do.
@@ -74,19 +70,18 @@ pub enum Cost {
 }
 
 impl Network {
-    pub fn new(roadmap: &Roadmap) -> Self {
+    pub fn new(roadmap: Roadmap) -> Self {
         let mut network = Self::default();
+        let (nodes, links) = (roadmap.milestones.len(), roadmap.edges.len());
+        network.graph = UnGraph::with_capacity(nodes, links);
         for milestone in &roadmap.milestones {
             network.add_node(Some((milestone.configuration, milestone.energy)));
         }
         for edge in &roadmap.edges {
-            network.add_link(Link {
-                from: edge.from as usize,
-                to: edge.to as usize,
-                costs: edge.costs,
-                way: Way::Straight,
-            });
+            network.join(edge);
         }
+        network.links = roadmap.edges;
+        network.span();
         network
     }
 
@@ -95,15 +90,37 @@ impl Network {
         self.graph.add_node(()).index()
     }
 
-    pub fn add_link(&mut self, link: Link) -> usize {
-        let number = self.links.len();
-        self.graph.add_edge(
-            NodeIndex::new(link.from),
-            NodeIndex::new(link.to),
-            (link.costs.peak, number as u32),
-        );
-        self.links.push(link);
+    /// Adds a straight motion.
+    pub fn add_motion(&mut self, from: usize, to: usize, costs: EdgeCosts) -> usize {
+        let edge = Edge {
+            from: from as u32,
+            to: to as u32,
+            costs,
+        };
+        self.join(&edge);
+        self.links.push(edge);
+        self.links.len() - 1
+    }
+
+    fn join(&mut self, edge: &Edge) {
+        let [from, to] = [edge.from, edge.to].map(|node| NodeIndex::new(node as usize));
+        self.graph.add_edge(from, to, ());
+    }
+
+    /// Adds a link that takes a far configuration, with its energy (J), and `free` for one.
+    pub fn add_same(&mut self, node: usize, free: usize, energy: f64) -> usize {
+        let costs = EdgeCosts {
+            peak: energy,
+            ..EdgeCosts::default()
+        };
+        let number = self.add_motion(node, free, costs);
+        self.ways.insert(number, Way::Same);
         number
+    }
+
+    /// How a link goes from its first node to its second.
+    pub fn way(&self, link: usize) -> &Way {
+        self.ways.get(&link).unwrap_or(&Way::Straight)
     }
 
     /// Whether no link leads to a node.
@@ -126,19 +143,17 @@ impl Network {
             .map(|pair| problem.space.distance(&pair[0].q, &pair[1].q))
             .collect();
         let costs = costs_of_energies(&energies, &lengths, settings);
-        self.add_link(Link {
-            from,
-            to,
-            costs,
-            way: Way::Points(points),
-        })
+        let number = self.add_motion(from, to, costs);
+        self.ways.insert(number, Way::Points(points));
+        number
     }
 
     /// Nodes from which no link leads down all the way: where a descent is worth following.
     pub fn local_minima(&self) -> Vec<usize> {
         let mut lowest = vec![true; self.nodes.len()];
         for link in &self.links {
-            for (here, there) in [(link.from, link.to), (link.to, link.from)] {
+            let (from, to) = (link.from as usize, link.to as usize);
+            for (here, there) in [(from, to), (to, from)] {
                 let (Some((_, high)), Some((_, low))) = (self.nodes[here], self.nodes[there])
                 else {
                     continue;
@@ -155,13 +170,11 @@ impl Network {
 
     /// Where the highest energy of a link is reached; `None` for a link without motion.
     pub fn peak_configuration(&self, link: usize) -> Option<Configuration> {
-        let link = &self.links[link];
-        match &link.way {
-            Way::Same => self.nodes[link.from].or(self.nodes[link.to]).map(|n| n.0),
-            Way::Straight => {
-                let (a, b) = (self.nodes[link.from]?.0, self.nodes[link.to]?.0);
-                Some(a.interpolate(&b, link.costs.peak_at))
-            }
+        let Edge { from, to, costs } = &self.links[link];
+        let [from, to] = [*from, *to].map(|node| self.nodes[node as usize].map(|n| n.0));
+        match self.way(link) {
+            Way::Same => from.or(to),
+            Way::Straight => Some(from?.interpolate(&to?, costs.peak_at)),
             Way::Points(points) => points
                 .iter()
                 .max_by(|a, b| a.energy.total_cmp(&b.energy))
@@ -169,40 +182,72 @@ impl Network {
         }
     }
 
-    /// The tree of the links that minimax paths use (a minimum spanning tree by peak).
-    pub fn minimax_tree(&self) -> MinimaxTree {
-        let mut tree = UnGraph::default();
-        let mut ascending = Vec::new();
-        for element in min_spanning_tree(&self.graph) {
-            match element {
-                Element::Node { .. } => {
-                    tree.add_node(());
-                }
-                Element::Edge {
-                    source,
-                    target,
-                    weight,
-                } => {
-                    tree.add_edge(NodeIndex::new(source), NodeIndex::new(target), weight);
-                    ascending.push(weight);
-                }
-            }
+    /// Works out which links minimax paths use, so that merges need to look at later links only.
+    pub fn span(&mut self) {
+        self.tree = self.spanning_links();
+        self.spanned = self.links.len();
+    }
+
+    /// The minimum spanning forest by peak, ascending (Kruskal's algorithm): between any two nodes,
+    /// the path in it has the lowest possible highest peak. Links of equal peak are taken by their
+    /// numbers, so that there is one such forest only, and links that were not in it before are not
+    /// in it later.
+    fn spanning_links(&self) -> Vec<u32> {
+        let later = self.spanned as u32..self.links.len() as u32;
+        let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
+        let peak = |number: &u32| self.links[*number as usize].costs.peak;
+        ascending.par_sort_unstable_by(|a, b| peak(a).total_cmp(&peak(b)).then(a.cmp(b)));
+        let mut joined = UnionFind::<u32>::new(self.nodes.len());
+        ascending.retain(|number| {
+            let link = &self.links[*number as usize];
+            joined.union(link.from, link.to)
+        });
+        ascending
+    }
+
+    /// The merges of the basins of `labelled` nodes (with their energies, J), ascending: the merge
+    /// tree. Links join basins in the order of their peaks; each basin is known by its lowest
+    /// labelled node.
+    pub fn merges(&self, labelled: &[(usize, f64)]) -> Vec<Merge> {
+        let mut basins = UnionFind::<usize>::new(self.nodes.len());
+        let mut lowest: Vec<Option<(f64, usize)>> = vec![None; self.nodes.len()];
+        for &(node, energy) in labelled {
+            lowest[node] = Some((energy, node));
         }
-        ascending.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        MinimaxTree { tree, ascending }
+        let mut merges = Vec::new();
+        for number in self.spanning_links() {
+            let link = &self.links[number as usize];
+            let [a, b] = [link.from, link.to].map(|node| basins.find(node as usize));
+            let (first, second) = (lowest[a], lowest[b]);
+            basins.union(a, b);
+            let joined = basins.find(a);
+            lowest[joined] = match (first, second) {
+                (Some(x), Some(y)) => {
+                    let (low, high) = if x <= y { (x, y) } else { (y, x) };
+                    merges.push(Merge {
+                        link: number as usize,
+                        lower: low.1,
+                        upper: high.1,
+                    });
+                    Some(low)
+                }
+                (x, y) => x.or(y),
+            };
+        }
+        merges
     }
 
     /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
     /// algorithm, paths added up by their maximum.
     pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            self.is_motion(edge.weight().1, from, goals)
+            self.is_motion(edge.id().index(), from, goals)
         });
         let (peak, _) = astar(
             &allowed,
             NodeIndex::new(from),
             |node| goals.contains(&node.index()),
-            |edge| Highest(edge.weight().0),
+            |edge| Highest(self.links[edge.id().index()].costs.peak),
             |_| Highest::default(),
         )?;
         Some(peak.0)
@@ -221,16 +266,14 @@ impl Network {
             _ => f64::INFINITY,
         };
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            edge.weight().0 <= highest && self.is_motion(edge.weight().1, from, goals)
+            let number = edge.id().index();
+            self.links[number].costs.peak <= highest && self.is_motion(number, from, goals)
         });
         let (total, nodes) = astar(
             &allowed,
             NodeIndex::new(from),
             |node| goals.contains(&node.index()),
-            |edge| {
-                let number = edge.weight().1 as usize;
-                self.cost(number, edge.source().index(), cost)
-            },
+            |edge| self.cost(edge.id().index(), edge.source().index(), cost),
             |_| 0.0,
         )?;
         let route = nodes
@@ -243,10 +286,10 @@ impl Network {
     /// Whether a route between these ends may use a link: one without motion only where it starts
     /// or ends at the node that stands for `free`. Far configurations are one place to come from
     /// and to go to, but to pass from one to another takes a motion.
-    fn is_motion(&self, number: u32, from: usize, goals: &HashSet<usize>) -> bool {
-        let link = &self.links[number as usize];
-        !matches!(link.way, Way::Same)
-            || [link.from, link.to]
+    fn is_motion(&self, number: usize, from: usize, goals: &HashSet<usize>) -> bool {
+        let link = &self.links[number];
+        !matches!(self.way(number), Way::Same)
+            || [link.from as usize, link.to as usize]
                 .iter()
                 .filter(|&&node| self.nodes[node].is_none())
                 .any(|free| *free == from || goals.contains(free))
@@ -259,23 +302,19 @@ impl Network {
         highest: f64,
         cost: Cost,
     ) -> Option<(usize, bool)> {
-        self.graph
+        let price = |number: usize| self.cost(number, from.index(), cost);
+        let number = self
+            .graph
             .edges_connecting(from, to)
-            .map(|edge| *edge.weight())
-            .filter(|weight| weight.0 <= highest)
-            .min_by(|a, b| {
-                let price = |w: &Weight| self.cost(w.1 as usize, from.index(), cost);
-                price(a).total_cmp(&price(b)).then(a.1.cmp(&b.1))
-            })
-            .map(|weight| {
-                let number = weight.1 as usize;
-                (number, self.links[number].from == from.index())
-            })
+            .map(|edge| edge.id().index())
+            .filter(|number| self.links[*number].costs.peak <= highest)
+            .min_by(|a, b| price(*a).total_cmp(&price(*b)).then(a.cmp(b)))?;
+        Some((number, self.links[number].from as usize == from.index()))
     }
 
     fn cost(&self, number: usize, from: usize, cost: Cost) -> f64 {
         let link = &self.links[number];
-        let direction = usize::from(link.from != from);
+        let direction = usize::from(link.from as usize != from);
         match cost {
             Cost::Work => link.costs.work[direction],
             Cost::Improbability => link.costs.improbability[direction],
@@ -302,51 +341,5 @@ impl std::ops::Add for Highest {
 
     fn add(self, other: Self) -> Self {
         Self(self.0.max(other.0))
-    }
-}
-
-/// The minimum spanning tree by peak: between any two nodes, the path in it has the lowest
-/// possible highest peak.
-pub struct MinimaxTree {
-    tree: UnGraph<(), Weight, u32>,
-    ascending: Vec<Weight>,
-}
-
-impl MinimaxTree {
-    /// The merges of the basins of `labelled` nodes (with their energies, J), ascending: the merge
-    /// tree. Links join basins in the order of their peaks; each basin is known by its lowest
-    /// labelled node.
-    pub fn merges(&self, labelled: &[(usize, f64)]) -> Vec<Merge> {
-        let mut basins = UnionFind::<usize>::new(self.tree.node_count());
-        let mut lowest: Vec<Option<(f64, usize)>> = vec![None; self.tree.node_count()];
-        for &(node, energy) in labelled {
-            lowest[node] = Some((energy, node));
-        }
-        let ends: HashMap<u32, (usize, usize)> = self
-            .tree
-            .edge_references()
-            .map(|e| (e.weight().1, (e.source().index(), e.target().index())))
-            .collect();
-        let mut merges = Vec::new();
-        for &(_, number) in &self.ascending {
-            let (a, b) = ends[&number];
-            let (a, b) = (basins.find(a), basins.find(b));
-            let (first, second) = (lowest[a], lowest[b]);
-            basins.union(a, b);
-            let joined = basins.find(a);
-            lowest[joined] = match (first, second) {
-                (Some(x), Some(y)) => {
-                    let (low, high) = if x <= y { (x, y) } else { (y, x) };
-                    merges.push(Merge {
-                        link: number as usize,
-                        lower: low.1,
-                        upper: high.1,
-                    });
-                    Some(low)
-                }
-                (x, y) => x.or(y),
-            };
-        }
-        merges
     }
 }

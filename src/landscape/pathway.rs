@@ -153,12 +153,11 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
     for &(number, forwards) in route {
         let link = &network.links[number];
-        let (from, to) = if forwards {
-            (link.from, link.to)
-        } else {
-            (link.to, link.from)
-        };
-        match &link.way {
+        let mut ends = [link.from, link.to];
+        if !forwards {
+            ends.reverse();
+        }
+        match network.way(number) {
             Way::Same => {}
             Way::Points(points) => {
                 let mut way: Vec<Configuration> = points.iter().map(|p| p.q).collect();
@@ -168,7 +167,7 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
                 all.push(Stretch::Way(way));
             }
             Way::Straight => {
-                let ends = [from, to].map(|node| network.nodes[node].map(|n| n.0));
+                let ends = ends.map(|node| network.nodes[node as usize].map(|n| n.0));
                 let [Some(a), Some(b)] = ends else { continue };
                 match all.last_mut() {
                     Some(Stretch::Straight(points)) => points.push(b),

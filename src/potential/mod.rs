@@ -122,6 +122,12 @@ pub trait Potential: Sync {
     /// matters to the potential and moves farthest, at most.
     fn displacement(&self, step: Vector3<f64>) -> f64;
 
+    /// The length (m) of a motion over which the energy is smooth enough that a cubic which is
+    /// right in its middle may be taken to be right all along; 0 where only bounds count.
+    fn feature_length(&self) -> f64 {
+        0.0
+    }
+
     /// How much lower, as a fraction of |U|, an energy must be than that of a configuration close
     /// by to be so for certain: what is lost to rounding and, where there is any, to approximation.
     fn noise(&self) -> f64 {

@@ -9,9 +9,8 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::certificate::End;
 use crate::landscape::minimum::descend;
-use crate::landscape::network::{Link, Way};
 use crate::landscape::slide::Point;
-use crate::landscape::survey::{Survey, same_link};
+use crate::landscape::survey::Survey;
 use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Pathway, pathway};
 use crate::pipeline::{self, Clock, Observer};
@@ -93,14 +92,13 @@ impl<'a> Search<'a> {
             return proved;
         };
         let peaks = peaks(self.problem, &points);
-        let mut survey = Survey::of_roadmap(self.problem, &Roadmap::default());
+        let mut survey = Survey::of_roadmap(self.problem, Roadmap::default());
         let from = self.attach(&mut survey, &self.query.from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),
             End::Free => {
                 let node = survey.network.add_node(Some((last.q, last.energy)));
-                let link = same_link(node, survey.free, last.energy);
-                survey.network.add_link(link);
+                survey.network.add_same(node, survey.free, last.energy);
                 node
             }
         };
@@ -140,16 +138,13 @@ impl<'a> Search<'a> {
         );
         let pairs: Vec<(u32, u32)> = (1..milestones.len() as u32).map(|k| (0, k)).collect();
         for found in edge::edges(problem, &milestones, &pairs, &self.edge) {
-            survey.network.add_link(Link {
-                from: node,
-                to: near[found.to as usize - 1].0,
-                costs: found.costs,
-                way: Way::Straight,
-            });
+            let other = near[found.to as usize - 1].0;
+            survey.network.add_motion(node, other, found.costs);
         }
         if problem.space.is_far(q) {
-            let link = same_link(node, survey.free, problem.energy(q));
-            survey.network.add_link(link);
+            survey
+                .network
+                .add_same(node, survey.free, problem.energy(q));
             return node;
         }
         let descent = descend(problem, q);

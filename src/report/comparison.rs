@@ -5,17 +5,11 @@ use std::fmt::Write;
 use serde_json::{Map, Value, json};
 
 use super::csv::{number, text};
+use super::figures::{NOT_HEAD_ON, WHY_NOT_HEAD_ON, cell, misses_head_on, to_either_side};
 use super::json;
-use super::summary::{percent, write_table};
-use crate::comparison::{
-    Assessment, AssessmentSettings, Bounds, Estimate, Quantity, capture_range, ranking,
-};
-use crate::landscape::Proportion;
+use super::summary::write_table;
+use crate::comparison::{Assessment, AssessmentSettings, Bounds, Quantity, capture_range, ranking};
 use crate::landscape::certificate::Ordering;
-use crate::units::{si, si_range};
-
-/// Significant digits of energies.
-const DIGITS: usize = 4;
 
 /// Figures whose order may be proved.
 const ORDERED: [Quantity; 3] = [Quantity::Unbinding, Quantity::Binding, Quantity::TrapEscape];
@@ -54,6 +48,9 @@ impl Comparison {
         for line in self.orders() {
             let _ = writeln!(out, "{line}");
         }
+        if self.designs.iter().any(misses_head_on) {
+            let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
+        }
         out
     }
 
@@ -68,16 +65,24 @@ impl Comparison {
         for line in self.orders() {
             let _ = writeln!(out, "- {line}");
         }
-        let _ = write!(
-            out,
-            "\nBrackets hold certified bounds; percentages are of {} far starts, with 95 % \
+        let _ = writeln!(out, "\n{}", self.note());
+        out
+    }
+
+    /// What the tables' figures mean.
+    pub fn note(&self) -> String {
+        let mut note = format!(
+            "Brackets hold certified bounds; percentages are of {} far starts, with 95 % \
              intervals. The capture range is how far off a tile that touches head-on may be slid, \
              drawn back or tilted and still run downhill into the bond, to within {} % of its \
-             depth.\n",
+             depth.",
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
         );
-        out
+        if self.designs.iter().any(misses_head_on) {
+            let _ = write!(note, " \u{201c}{NOT_HEAD_ON}\u{201d}: {WHY_NOT_HEAD_ON}.");
+        }
+        note
     }
 
     fn tables(&self) -> [Vec<Vec<String>>; 2] {
@@ -124,7 +129,7 @@ impl Comparison {
     }
 
     /// A design's name, with the model where models differ.
-    fn name(&self, design: &Assessment) -> String {
+    pub fn name(&self, design: &Assessment) -> String {
         let models = |d: &Assessment| d.model != self.designs[0].model;
         if self.designs.iter().any(models) {
             format!("{} ({})", design.name, design.model)
@@ -135,7 +140,20 @@ impl Comparison {
 
     /// A line for each figure whose order may be proved, from the highest to the lowest.
     fn orders(&self) -> Vec<String> {
-        let mut lines = Vec::new();
+        let mut lines: Vec<String> = self
+            .certified_orders()
+            .into_iter()
+            .map(|(figure, order)| format!("certified order of the {figure}: {order}"))
+            .collect();
+        if !lines.is_empty() {
+            lines.push("(> proved for the stated model, ~ undecided: bounds overlap)".to_owned());
+        }
+        lines
+    }
+
+    /// Figures with bounds, and the designs from the highest to the lowest: `a > b ~ c`.
+    pub fn certified_orders(&self) -> Vec<(&'static str, String)> {
+        let mut orders = Vec::new();
         for quantity in ORDERED {
             let order = ranking::ranked(&self.designs, quantity);
             let known: Vec<&Assessment> = order
@@ -146,8 +164,7 @@ impl Comparison {
             if known.len() < 2 {
                 continue;
             }
-            let mut line = format!("certified order of the {}: ", named(quantity));
-            line += &self.name(known[0]);
+            let mut line = self.name(known[0]);
             for pair in known.windows(2) {
                 let sign = match ranking::order(pair[0], pair[1], quantity) {
                     Ordering::Higher => ">",
@@ -155,12 +172,9 @@ impl Comparison {
                 };
                 let _ = write!(line, " {sign} {}", self.name(pair[1]));
             }
-            lines.push(line);
+            orders.push((named(quantity), line));
         }
-        if !lines.is_empty() {
-            lines.push("(> proved for the stated model, ~ undecided: bounds overlap)".to_owned());
-        }
-        lines
+        orders
     }
 
     /// One line a design, best first.
@@ -308,68 +322,6 @@ pub fn cells(design: &Assessment) -> Vec<String> {
         design.sha256.clone(),
     ]);
     cells
-}
-
-/// A figure for people, with its bounds; `-` where there is none.
-pub fn cell(quantity: Quantity, design: &Assessment) -> String {
-    let Some(estimate) = quantity.of(design) else {
-        return match quantity {
-            Quantity::TrapDepth | Quantity::TrapEscape if design.trap_kinds == 0 => "no traps",
-            Quantity::BondDepth => "does not hold",
-            _ => "-",
-        }
-        .to_owned();
-    };
-    let value = estimate.value;
-    match (quantity, quantity.unit()) {
-        (Quantity::Captured, _) => percent(&Proportion::new(design.captured, design.far_starts)),
-        (Quantity::TrapKinds, _) => format!("{value}"),
-        (_, "J") => energy(&estimate),
-        (_, "m") => at_least(quantity, design, &format!("{:.1}", 1e3 * value)),
-        (_, "rad") => at_least(quantity, design, &format!("{:.1}", value.to_degrees())),
-        _ => format!("{value:.3}"),
-    }
-}
-
-/// A capture range, marked where it reaches the limit of what was looked at.
-fn at_least(quantity: Quantity, design: &Assessment, text: &str) -> String {
-    let range = design.bond.as_ref().and_then(|bond| bond.capture_range);
-    let at_limit = range.is_some_and(|range| match quantity {
-        Quantity::OffsetLow => range.offset[0] <= -range.limits[0],
-        Quantity::OffsetHigh => range.offset[1] >= range.limits[0],
-        Quantity::Gap => range.gap >= range.limits[1],
-        Quantity::TiltLow => range.tilt[0] <= -range.limits[2],
-        _ => range.tilt[1] >= range.limits[2],
-    });
-    match (at_limit, quantity) {
-        (false, _) => text.to_owned(),
-        (true, Quantity::OffsetLow | Quantity::TiltLow) => format!("\u{2264} {text}"),
-        (true, _) => format!("\u{2265} {text}"),
-    }
-}
-
-/// An energy with its bounds: `65.46 mJ [64.84 to 65.46 mJ]`.
-fn energy(estimate: &Estimate) -> String {
-    if estimate.value.is_infinite() {
-        return "no way, proved".to_owned();
-    }
-    let value = si(estimate.value, "J", DIGITS);
-    match (estimate.low, estimate.high) {
-        (Some(low), Some(high)) if high > 0.0 => {
-            format!("{value} [{}]", si_range(low, high, "J", DIGITS))
-        }
-        (Some(_), Some(_)) => "none, proved".to_owned(),
-        _ => value,
-    }
-}
-
-/// `-18.2 to 18.1`.
-fn to_either_side(design: &Assessment, quantities: [Quantity; 2]) -> String {
-    let sides = quantities.map(|quantity| cell(quantity, design));
-    if sides[0] == "-" {
-        return "-".to_owned();
-    }
-    sides.join(" to ")
 }
 
 /// Rows as a Markdown table, the first one its head.

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::dynamics::DynamicsEntry;
 use crate::analysis::{Alternative, Analysis, Counts, PathwayCost, Settings, Stage};
 use crate::configuration::Configuration;
-use crate::design::Design;
+use crate::design::{Design, Drawing};
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
 use crate::pipeline;
 use crate::roadmap::neighbour;
@@ -46,6 +46,9 @@ pub struct DesignEntry {
     pub description: String,
     /// Of the design file's bytes.
     pub sha256: String,
+    /// The drawings that the design refers to.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drawings: Vec<Drawing>,
 }
 
 /// All that decides the result, besides the design and the seed.
@@ -200,6 +203,7 @@ impl Report {
                 name: design.name.clone(),
                 description: design.description.clone(),
                 sha256: design.sha256.clone(),
+                drawings: design.drawings.clone(),
             },
             seed: analysis.settings.seed,
             settings: SettingsEntry::new(design, &analysis.settings, &analysis.counts),

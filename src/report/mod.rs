@@ -5,19 +5,25 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
+//! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
+//!   for programs that draw disconnectivity graphs;
 //! - [`writer`] - all of it as files of one folder.
 
+pub mod arrays;
 pub mod calibration;
 pub mod comparison;
 pub mod csv;
 pub mod docking;
 pub mod dynamics;
+pub mod figures;
 pub mod json;
 pub mod page;
 pub mod plots;
 pub mod summary;
 pub mod sweep;
+pub mod topsearch;
 pub mod writer;

@@ -53,6 +53,11 @@ impl<'a> Sweep<'a> {
         }
     }
 
+    /// Why a point has no assessment.
+    pub fn reason(&self, index: usize) -> Option<&str> {
+        reason(&self.outcomes[index])
+    }
+
     /// One line a point: the varied keys (as the design file has them, in SI units), the figures
     /// with their bounds, and for impossible designs the reason.
     pub fn csv(&self) -> String {
@@ -147,7 +152,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// A point by its values: `depth = 0.05, model = dipole`.
-    fn called(&self, point: &Point) -> String {
+    pub fn called(&self, point: &Point) -> String {
         let axes = self.plan.axes.iter().zip(&point.values);
         let mut parts: Vec<String> = axes
             .map(|(axis, value)| format!("{} = {value}", short(&axis.key)))

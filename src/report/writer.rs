@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::json::Report;
 use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
-use super::{csv, dynamics, json};
+use super::{arrays, csv, dynamics, json, topsearch};
 use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::landscape::Barrier;
@@ -36,8 +36,8 @@ pub enum WriteError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     Full,
-    /// Without the pathways of copies and the page, and pictures as SVG only: for results that are
-    /// kept.
+    /// Without the pathways of copies, the page and the files for TopSearch, and pictures as SVG
+    /// only: for results that are kept.
     Compact,
 }
 
@@ -92,7 +92,7 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     files
 }
 
-/// The pictures and the page.
+/// The pictures, the page, and the graph for TopSearch.
 fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<Files, PictureError> {
     let problem = pipeline::problem(design);
     let passable: Vec<Barrier> = analysis
@@ -118,13 +118,14 @@ fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<File
     if extent == Extent::Full {
         let page = Page::of_analysis(design, analysis, &scene);
         files.insert(PAGE.to_owned(), page.to_html().into_bytes());
+        files.extend(topsearch::files(&scene, analysis.ring[1]));
     }
     Ok(files)
 }
 
 /// Writes files into a folder, which is made if need be. Each is written under a temporary name;
-/// only when all are there do they take their places, the report last. Pathways and pictures that
-/// an earlier analysis left in the folder are taken away.
+/// only when all are there do they take their places, the report last. Pathways, pictures and arrays
+/// that an earlier analysis left in the folder are taken away.
 ///
 /// # Errors
 /// Where the file system refuses; then no file has been changed unless it refused a renaming.
@@ -158,6 +159,8 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
     }
     let of_an_analysis = |part: &str, name: &str| match part {
         "pathways" => name.ends_with(".csv"),
+        arrays::FOLDER => name.ends_with(".npy"),
+        topsearch::FOLDER => topsearch::NAMES.contains(&name),
         _ => name.ends_with(".svg") || name.ends_with(".png"),
     };
     let single = [PAGE, dynamics::TABLE]
@@ -165,7 +168,7 @@ fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
         .filter(|name| !files.contains_key(*name))
         .map(|name| folder.join(name))
         .filter(|path| path.is_file());
-    ["pathways", "pictures"]
+    ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER]
         .into_iter()
         .flat_map(|part| {
             let entries = std::fs::read_dir(folder.join(part)).into_iter().flatten();

@@ -39,6 +39,9 @@ pub struct EdgeSettings {
     pub probability_step: f64,
 }
 
+/// Pairs whose edges are collected together.
+const TOGETHER: usize = 1 << 20;
+
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
     problem: &Problem,
@@ -51,22 +54,24 @@ pub fn edges(
         .par_iter()
         .map(|milestone| problem.clearance_bound(&milestone.configuration))
         .collect();
-    pairs
-        .par_iter()
-        .with_min_len(64)
-        .filter_map(|&(from, to)| {
-            let ends = [from, to].map(|end| &milestones[end as usize]);
-            let clearances = [from, to].map(|end| clearances[end as usize]);
-            let [a, b] = ends.map(|end| &end.configuration);
-            problem
-                .known_motion_is_free([a, b], clearances)
-                .then(|| Edge {
-                    from,
-                    to,
-                    costs: costs(problem, ends, settings),
-                })
+    let edge = |&(from, to): &(u32, u32)| {
+        let ends = [from, to].map(|end| &milestones[end as usize]);
+        let clearances = [from, to].map(|end| clearances[end as usize]);
+        let [a, b] = ends.map(|end| &end.configuration);
+        let free = problem.known_motion_is_free([a, b], clearances);
+        free.then(|| Edge {
+            from,
+            to,
+            costs: costs(problem, ends, settings),
         })
-        .collect()
+    };
+    let mut edges = Vec::with_capacity(pairs.len());
+    // In parts, as collecting in parallel takes twice the memory.
+    for part in pairs.chunks(TOGETHER) {
+        let found: Vec<Edge> = part.par_iter().with_min_len(64).filter_map(edge).collect();
+        edges.extend(found);
+    }
+    edges
 }
 
 /// The costs of the straight motion between two milestones.

@@ -48,6 +48,11 @@ impl Profile {
     ///   3.5.1), or
     /// * where no bound of that is known, `U(t) <= U_a + s_a t + B t^2 / 2` with B a bound of the
     ///   second derivative, and the same from the other end, exceed the larger end by no more.
+    ///
+    /// Blocks in contact have no bound of the one and only a very wide one of the other. There a
+    /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is also
+    /// accepted where the cubic foretells the energy in its middle. That is a check, no proof;
+    /// proved bounds of barriers come from the certificate.
     pub fn new(
         problem: &Problem,
         a: &Milestone,
@@ -79,13 +84,22 @@ impl Profile {
     fn refine(&mut self, motion: &Motion, [a, b]: [Sample; 2], fourth: f64, depth: u32) {
         let mut fourth = fourth;
         if depth >= DEEPEST || motion.is_settled(&a, &b, &mut fourth) {
-            self.samples.extend(inner_extremes(&a, &b));
-            self.samples.push(b);
+            self.finish(&a, &b);
             return;
         }
         let middle = motion.sample((a.t + b.t) / 2.0);
+        if fourth == f64::INFINITY && motion.is_foreseen(&a, &middle, &b) {
+            self.finish(&a, &middle);
+            self.finish(&middle, &b);
+            return;
+        }
         self.refine(motion, [a, middle], fourth, depth + 1);
         self.refine(motion, [middle, b], fourth, depth + 1);
+    }
+
+    fn finish(&mut self, a: &Sample, b: &Sample) {
+        self.samples.extend(inner_extremes(a, b));
+        self.samples.push(*b);
     }
 
     /// The highest sample.
@@ -183,11 +197,24 @@ impl Motion<'_> {
         Sample { t, energy, slope }
     }
 
+    /// Error (J) allowed on a stretch.
+    fn allowed(&self, a: &Sample, b: &Sample) -> f64 {
+        let highest = a.energy.max(b.energy);
+        self.tolerance.absolute + self.tolerance.relative * highest.abs()
+    }
+
+    /// Whether a stretch shorter than the energy's own features has in its middle what the cubic
+    /// through its ends says.
+    fn is_foreseen(&self, a: &Sample, middle: &Sample, b: &Sample) -> bool {
+        let length = self.displacement * (b.t - a.t);
+        length <= self.problem.potential().feature_length()
+            && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
+    }
+
     /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
     /// where that is worth while.
     fn is_settled(&self, a: &Sample, b: &Sample, fourth: &mut f64) -> bool {
-        let highest = a.energy.max(b.energy);
-        let allowed = self.tolerance.absolute + self.tolerance.relative * highest.abs();
+        let allowed = self.allowed(a, b);
         let duration = b.t - a.t;
         let is_close =
             |fourth: f64| fourth * (self.displacement * duration).powi(4) <= 384.0 * allowed;
@@ -203,7 +230,7 @@ impl Motion<'_> {
         }
         let bound = potential.curvature_bound(&middle, reach);
         let curvature = bound * self.displacement * self.displacement;
-        upper_bound(a, b, duration, curvature) - highest <= allowed
+        upper_bound(a, b, duration, curvature) - a.energy.max(b.energy) <= allowed
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! A [`Plan`] holds all that decides a sweep: the text of the designs, the varied keys with their
 //! values, the settings and the seed. Each of its [`Point`]s is a design of its own and is named
-//! after it: the name is a hash of the design as it is assessed, of the settings and of the version
-//! of tilebind; the seed of its random numbers comes from the name. So a point's result depends
+//! after it: the name is a hash of the design as it is assessed, with its drawings, of the settings
+//! and of the version of tilebind; the seed of its random numbers comes from the name. So a point's result depends
 //! neither on the other points nor on when, where and beside which others it is worked on.
 //!
 //! A [`Store`] keeps one file a point. It is written under a temporary name, synced and renamed:
@@ -16,6 +16,7 @@
 //! A design that is impossible at some value is an [`Outcome`] like any other, with the reason.
 
 mod document;
+mod drawings;
 mod plan;
 mod run;
 mod store;

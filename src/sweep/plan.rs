@@ -1,5 +1,6 @@
 //! The manifest of a sweep: everything that decides it, and the points that come of it.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -7,8 +8,8 @@ use serde_json::json;
 use sha2::{Digest, Sha256};
 use toml::Table;
 
-use super::document;
 use super::vary::{Axis, Value};
+use super::{document, drawings};
 use crate::comparison::AssessmentSettings;
 use crate::design::{Design, DesignError};
 
@@ -36,11 +37,14 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     pub name: String,
-    /// Its file as it was named; files that the design refers to are looked for beside it.
+    /// Its file as it was named.
     pub file: String,
     /// SHA-256 of the file's bytes.
     pub sha256: String,
     pub text: String,
+    /// The text of each drawing that it refers to, by its name in the design.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub drawings: BTreeMap<String, String>,
 }
 
 /// One design of a sweep.
@@ -108,7 +112,7 @@ impl Plan {
     ) -> Result<Self, PlanError> {
         let mut designs: Vec<Source> = Vec::new();
         for file in files {
-            let source = Source::read(file.as_ref())?;
+            let source = Source::read(file.as_ref(), &axes)?;
             if designs.iter().any(|known| known.name == source.name) {
                 return Err(PlanError::SameName(source.name));
             }
@@ -190,7 +194,10 @@ impl Plan {
         let text = set
             .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value))
             .map(|()| document.to_string());
-        let name = self.name(text.as_ref().unwrap_or_else(|reason| reason));
+        let held = &self.designs[design].drawings;
+        let drawings = drawings::named(&document).into_iter();
+        let drawings = drawings.filter_map(|name| held.get_key_value(name));
+        let name = self.name(text.as_ref().unwrap_or_else(|reason| reason), drawings);
         Point {
             index,
             seed: u64::from_str_radix(&name[..SEED], 16).unwrap_or(0),
@@ -201,10 +208,16 @@ impl Plan {
         }
     }
 
-    fn name(&self, text: &str) -> String {
-        let settings = json!({"settings": self.settings, "seed": self.seed});
+    fn name<'a>(
+        &self,
+        text: &str,
+        drawings: impl Iterator<Item = (&'a String, &'a String)>,
+    ) -> String {
+        let settings = json!({"settings": self.settings, "seed": self.seed}).to_string();
+        let parts = [self.tilebind.as_str(), &settings, text].into_iter();
+        let drawings = drawings.flat_map(|(name, drawing)| [name.as_str(), drawing]);
         let mut hash = Sha256::new();
-        for part in [&self.tilebind, &settings.to_string(), text] {
+        for part in parts.chain(drawings) {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part);
         }
@@ -217,7 +230,8 @@ impl Plan {
     pub fn design(&self, point: &Point) -> Result<Design, String> {
         let source = &self.designs[point.design];
         let text = point.text.as_ref().map_err(Clone::clone)?;
-        Design::parse(text, &source.file)
+        source
+            .parse(text)
             .map_err(|error| format!("{}; {}", error.message, error.help))
     }
 
@@ -247,16 +261,24 @@ impl Plan {
 }
 
 impl Source {
-    fn read(file: &Path) -> Result<Self, PlanError> {
+    fn read(file: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
         let design = Design::load(file).map_err(Box::new)?;
         let text = std::fs::read_to_string(file)
             .map_err(|error| PlanError::Malformed(format!("{}: {error}", file.display())))?;
-        Ok(Self {
+        let mut source = Self {
             name: design.name,
             file: file.display().to_string(),
             sha256: design.sha256,
             text,
-        })
+            drawings: BTreeMap::new(),
+        };
+        source.drawings = drawings::held(&source.file, &source.document(), axes);
+        Ok(source)
+    }
+
+    /// A design made of this one, with the drawings that are held.
+    fn parse(&self, text: &str) -> Result<Design, DesignError> {
+        Design::parse_with(text, &self.file, &self.drawings)
     }
 
     /// The design as a document, always with its name.
@@ -274,7 +296,7 @@ impl Source {
         if let Err(reason) = document::set(&mut document, key, value) {
             return Some(reason);
         }
-        let error = Design::parse(&document.to_string(), &self.file).err()?;
+        let error = self.parse(&document.to_string()).err()?;
         Some(format!("{}; {}", error.message, error.help))
     }
 }

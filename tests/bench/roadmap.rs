@@ -1,7 +1,7 @@
 //! What a roadmap costs: time and energies of each stage, edges a second, memory.
 //!
 //! The paper's tile; edges are proved free, and their highest energy is known to 1 % (or 1e-5 of
-//! the bond's depth).
+//! the bond's depth). The share of contact tests is of the time of the edges.
 //!
 //! `cargo bench --bench roadmap`: the default roadmap on one thread and on all, medians of several
 //! rounds in which both take turns.
@@ -12,11 +12,13 @@
 use std::path::Path;
 use std::time::Instant;
 
+use rayon::prelude::*;
 use tilebind::design::Design;
 use tilebind::pipeline;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
-    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, edge, milestone, neighbour,
+    Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
+    neighbour,
 };
 
 const ROUNDS: usize = 7;
@@ -44,9 +46,10 @@ fn main() {
     }
 }
 
-/// One roadmap: wall times (s) of its three stages, its size and its energies.
+/// One roadmap: wall times (s) of its three stages and of the edges' contact tests alone, its size
+/// and its energies.
 struct Built {
-    seconds: [f64; 3],
+    seconds: [f64; 4],
     milestones: usize,
     edges: usize,
     /// Energies of the edges' profiles.
@@ -81,12 +84,29 @@ fn build(problem: &Problem, depth: f64, count: usize, neighbours: Option<usize>)
     };
     let edges = edge::edges(problem, &milestones, &pairs, &settings);
     times.push(Instant::now());
+    let free = free_motions(problem, &milestones, &pairs);
+    times.push(Instant::now());
+    assert_eq!(free, edges.len());
     Built {
-        seconds: [0, 1, 2].map(|i| (times[i + 1] - times[i]).as_secs_f64()),
+        seconds: [0, 1, 2, 3].map(|i| (times[i + 1] - times[i]).as_secs_f64()),
         milestones: milestones.len(),
         edges: edges.len(),
         energies: problem.evaluations() - before,
     }
+}
+
+/// How many pairs are joined by a free motion, tested as edges are.
+fn free_motions(problem: &Problem, milestones: &[Milestone], pairs: &[(u32, u32)]) -> usize {
+    let clearances: Vec<f64> = milestones
+        .par_iter()
+        .map(|milestone| problem.clearance_bound(&milestone.configuration))
+        .collect();
+    let is_free = |(from, to): &(u32, u32)| {
+        let (from, to) = (*from as usize, *to as usize);
+        let ends = [from, to].map(|end| &milestones[end].configuration);
+        problem.known_motion_is_free(ends, [clearances[from], clearances[to]])
+    };
+    pairs.par_iter().filter(|pair| is_free(pair)).count()
 }
 
 fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
@@ -109,19 +129,20 @@ fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
         first.energies as f64 / first.edges as f64
     );
     println!(
-        "{:8} {:>13} {:>13} {:>11} {:>11}",
-        "threads", "milestones/s", "neighbours/s", "edges/s", "energies/s"
+        "{:8} {:>13} {:>13} {:>11} {:>11} {:>14}",
+        "threads", "milestones/s", "neighbours/s", "edges/s", "energies/s", "contact tests"
     );
     let rate = |built: &[Built], stage: usize, amount: f64| {
         amount / median(built.iter().map(|b| b.seconds[stage]).collect())
     };
     for ((threads, _), built) in pools.iter().zip(&rounds) {
         println!(
-            "{threads:8} {:13.0} {:13.0} {:11.0} {:11.0}",
+            "{threads:8} {:13.0} {:13.0} {:11.0} {:11.0} {:12.0} %",
             rate(built, 0, first.milestones as f64),
             rate(built, 1, first.milestones as f64),
             rate(built, 2, first.edges as f64),
             rate(built, 2, first.energies as f64),
+            100.0 * median(built.iter().map(|b| b.seconds[3] / b.seconds[2]).collect()),
         );
     }
     let speedup = |stage: usize| {
@@ -149,7 +170,7 @@ fn scale(
     println!("milestones,edges,milestones_s,neighbours_s,edges_s,energies_per_edge,peak_memory_MB");
     for count in counts {
         let built = build(problem, depth, count, neighbours);
-        let [milestones, neighbours, edges] = built.seconds;
+        let [milestones, neighbours, edges, _] = built.seconds;
         println!(
             "{},{},{milestones:.3},{neighbours:.3},{edges:.3},{:.2},{}",
             built.milestones,

@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 use tilebind::configuration::Configuration;
 use tilebind::landscape::certificate::{CertifyError, End, Ordering};
+use tilebind::potential::MagnetModel;
 use tilebind::tile::{Magnet, Outline, Tile};
 
 use crate::scene::{Scene, effort};
@@ -49,7 +50,12 @@ fn tab_in_slot(undercut: f64, play: f64) -> Scene {
         [-side - depth + play, across - wide],
         [-side, -base],
     ];
-    Scene::new(tile(&slot, 0.19), tile(&tab, -0.19), [0.8, 0.8])
+    Scene::new(
+        tile(&slot, 0.19),
+        tile(&tab, -0.19),
+        [0.8, 0.8],
+        MagnetModel::Dipole,
+    )
 }
 
 const MATED: Configuration = Configuration::new(0.4, 0.0, 0.0);
@@ -71,7 +77,7 @@ fn a_dovetail_is_a_cage() {
 
 #[test]
 fn the_shipped_dovetail_is_a_cage() {
-    let (scene, design) = Scene::shipped("dovetail");
+    let (scene, design) = Scene::shipped("dovetail", MagnetModel::Dipole);
     let bracket = scene.bracket(&design.bound, &End::Free, &effort(1e-6, 500_000));
     assert!(bracket.caged, "{bracket:?}");
 }

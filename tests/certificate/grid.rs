@@ -7,7 +7,6 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 use tilebind::configuration::Configuration;
-use tilebind::potential::Potential;
 
 use crate::scene::Scene;
 

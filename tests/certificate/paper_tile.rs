@@ -2,12 +2,13 @@
 
 use tilebind::configuration::Configuration;
 use tilebind::landscape::certificate::{End, Ordering};
+use tilebind::potential::MagnetModel;
 
 use crate::scene::{Scene, effort};
 
 #[test]
 fn brackets_hold_the_reference_saddles() {
-    let (scene, design) = Scene::shipped("paper-tile");
+    let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Dipole);
     let depth = 65.47e-3;
     let bound = End::At(design.bound);
     let mut certifier = scene.certifier();
@@ -35,9 +36,24 @@ fn brackets_hold_the_reference_saddles() {
 }
 
 #[test]
+fn brackets_of_blocks_are_as_narrow_as_asked_and_nest() {
+    let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Cuboid);
+    let depth = -scene.potential.energy(&design.bound);
+    for (to, saddle) in [(End::At(design.bound), -0.8996e-3), (End::Free, -0.0046e-3)] {
+        let from = Configuration::new(0.43, 0.04, 0.0);
+        for share in [1e-2, 1e-3] {
+            let bracket = scene.bracket(&from, &to, &effort(share * depth, 100_000));
+            assert!(bracket.width() <= share * depth, "{bracket:?}");
+            // What the roadmap finds is a saddle to within some 1e-6 J.
+            assert!(bracket.lower <= saddle, "{bracket:?}");
+            assert!(bracket.upper.unwrap() >= saddle - 2e-6, "{bracket:?}");
+        }
+    }
+}
+
+#[test]
 fn the_certified_pathway_is_free_and_below_the_bound_wherever_it_is_looked_at() {
-    use tilebind::potential::Potential;
-    let (scene, _) = Scene::shipped("paper-tile");
+    let (scene, _) = Scene::shipped("paper-tile", MagnetModel::Dipole);
     let from = Configuration::new(0.43, 0.04, 0.0);
     for to in [End::Free, End::At(Configuration::new(0.43, 0.0, 0.0))] {
         let bracket = scene.bracket(&from, &to, &effort(1e-4, 100_000));
@@ -64,7 +80,7 @@ fn the_certified_pathway_is_free_and_below_the_bound_wherever_it_is_looked_at() 
 
 #[test]
 fn the_bracket_does_not_depend_on_the_number_of_threads() {
-    let (scene, design) = Scene::shipped("paper-tile");
+    let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Dipole);
     let from = Configuration::new(0.43, -0.04, 0.0);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()

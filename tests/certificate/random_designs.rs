@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use tilebind::configuration::Configuration;
 use tilebind::landscape::certificate::{Bracket, End};
-use tilebind::potential::Potential;
+use tilebind::potential::MagnetModel;
 use tilebind::tile::{Magnet, Outline, Tile};
 
 use crate::grid::Grid;
@@ -22,9 +22,9 @@ struct Case {
 }
 
 impl Case {
-    fn new(seed: u64) -> Self {
+    fn new(seed: u64, model: MagnetModel) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let scene = Scene::random(&mut rng);
+        let scene = Scene::random(&mut rng, model);
         let mut free: Vec<Configuration> = (0..400)
             .map(|_| scene.random_configuration(&mut rng))
             .filter(|q| scene.contact.is_free(q))
@@ -56,11 +56,11 @@ impl Case {
 }
 
 /// Checks designs against the grid; returns on how many both sides said something.
-fn against_the_grid(seeds: std::ops::Range<u64>, counts: [usize; 3]) -> usize {
+fn against_the_grid(model: MagnetModel, seeds: std::ops::Range<u64>, counts: [usize; 3]) -> usize {
     seeds
         .into_par_iter()
         .map(|seed| {
-            let case = Case::new(seed);
+            let case = Case::new(seed, model);
             let bracket = case.bracket();
             let grid = Grid::new(&case.scene, counts);
             let (lower, upper) = grid.bracket(&case.from, &case.to);
@@ -79,15 +79,28 @@ fn against_the_grid(seeds: std::ops::Range<u64>, counts: [usize; 3]) -> usize {
 
 #[test]
 fn no_bracket_contradicts_a_dense_grid() {
-    let informative = against_the_grid(0..24, [30, 30, 28]);
+    let informative = against_the_grid(MagnetModel::Dipole, 0..24, [30, 30, 28]);
     assert!(informative >= 18, "{informative}");
+}
+
+#[test]
+fn no_bracket_of_blocks_contradicts_a_dense_grid() {
+    let informative = against_the_grid(MagnetModel::Cuboid, 0..8, [24, 24, 22]);
+    assert!(informative >= 5, "{informative}");
+}
+
+/// The first of the hundreds below.
+#[test]
+fn no_bracket_contradicts_a_finer_grid() {
+    let informative = against_the_grid(MagnetModel::Dipole, 1000..1006, [40, 40, 36]);
+    assert!(informative >= 4, "{informative}");
 }
 
 /// As above with many more designs and a finer grid; takes minutes.
 #[test]
 #[ignore = "takes minutes"]
 fn no_bracket_of_hundreds_contradicts_a_dense_grid() {
-    let informative = against_the_grid(1000..1400, [40, 40, 36]);
+    let informative = against_the_grid(MagnetModel::Dipole, 1000..1400, [40, 40, 36]);
     assert!(informative >= 300, "{informative}");
 }
 
@@ -96,7 +109,7 @@ fn no_random_free_path_stays_below_the_lower_bound() {
     let tried: usize = (100..130)
         .into_par_iter()
         .map(|seed| {
-            let case = Case::new(seed);
+            let case = Case::new(seed, MagnetModel::Dipole);
             let bracket = case.bracket();
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let mut tried = 0;
@@ -170,11 +183,11 @@ fn relabelled_tiles_have_consistent_brackets() {
         (200..220)
             .into_par_iter()
             .map(|seed| {
-                let case = Case::new(seed);
+                let case = Case::new(seed, MagnetModel::Dipole);
                 // A round table would turn with the tiles; on a large square one the rim is far from
                 // every saddle.
                 let [fixed, moving] = &case.scene.tiles;
-                let scene = |a: Tile, b: Tile| Scene::new(a, b, [1.0, 1.0]);
+                let scene = |a: Tile, b: Tile| Scene::new(a, b, [1.0, 1.0], MagnetModel::Dipole);
                 let effort = effort(case.tolerance, 60_000);
                 let here =
                     scene(fixed.clone(), moving.clone()).bracket(&case.from, &End::Free, &effort);

@@ -9,8 +9,9 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Bracket, Certifier, Effort, End};
-use tilebind::potential::DipolePotential;
-use tilebind::potential::bounds::DipoleBounds;
+use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
+use tilebind::potential::shielding::Shields;
+use tilebind::potential::{MagnetModel, Potential, of_tiles};
 use tilebind::tile::{Magnet, Outline, Tile};
 
 /// A landscape of two tiles with all that is asked of it.
@@ -18,8 +19,8 @@ pub struct Scene {
     pub tiles: [Tile; 2],
     pub space: ConfigurationSpace,
     pub contact: Contact,
-    pub potential: DipolePotential,
-    pub bounds: DipoleBounds,
+    pub potential: Box<dyn Potential + Send>,
+    pub bounds: Box<dyn CellBounds>,
 }
 
 pub fn effort(tolerance: f64, cells: usize) -> Effort {
@@ -31,7 +32,7 @@ pub fn effort(tolerance: f64, cells: usize) -> Effort {
 }
 
 impl Scene {
-    pub fn new(fixed: Tile, moving: Tile, half_size: [f64; 2]) -> Self {
+    pub fn new(fixed: Tile, moving: Tile, half_size: [f64; 2], model: MagnetModel) -> Self {
         Self {
             space: ConfigurationSpace {
                 half_size,
@@ -39,26 +40,34 @@ impl Scene {
                 free_distance: fixed.outline.circumradius() + moving.outline.circumradius(),
             },
             contact: Contact::new(&fixed.outline, &moving.outline),
-            potential: DipolePotential::new(&fixed.magnets, &moving.magnets),
-            bounds: DipoleBounds::new(&fixed, &moving),
+            potential: of_tiles(model, &fixed, &moving, &Shields::default()),
+            bounds: match model {
+                MagnetModel::Dipole => Box::new(DipoleBounds::new(&fixed, &moving)),
+                MagnetModel::Cuboid => Box::new(CuboidBounds::new(&fixed, &moving)),
+            },
             tiles: [fixed, moving],
         }
     }
 
-    pub fn shipped(name: &str) -> (Self, Design) {
+    pub fn shipped(name: &str, model: MagnetModel) -> (Self, Design) {
         let file = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("shapes")
             .join(format!("{name}.toml"));
         let design = Design::load(&file).unwrap();
         let half_size = design.table.map(|size| size / 2.0);
         (
-            Self::new(design.fixed.clone(), design.moving.clone(), half_size),
+            Self::new(
+                design.fixed.clone(),
+                design.moving.clone(),
+                half_size,
+                model,
+            ),
             design,
         )
     }
 
     pub fn certifier(&self) -> Certifier<'_> {
-        Certifier::new(&self.bounds, Some(&self.contact), &self.space)
+        Certifier::new(self.bounds.as_ref(), Some(&self.contact), &self.space)
     }
 
     /// A bracket from a certifier of its own.
@@ -76,17 +85,22 @@ impl Scene {
     }
 
     /// Two tiles with a few magnets each, of random shapes, convex or not.
-    pub fn random(rng: &mut ChaCha8Rng) -> Self {
+    pub fn random(rng: &mut ChaCha8Rng, model: MagnetModel) -> Self {
         let mut tile = || loop {
-            if let Some(tile) = random_tile(rng) {
+            if let Some(tile) = random_tile(rng, model) {
                 return tile;
             }
         };
-        Self::new(tile(), tile(), [0.4, 0.4])
+        Self::new(tile(), tile(), [0.4, 0.4], model)
     }
 }
 
-fn random_tile(rng: &mut ChaCha8Rng) -> Option<Tile> {
+fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
+    // How deep magnets sit at least: blocks may all but touch.
+    let depth = match model {
+        MagnetModel::Dipole => 0.006,
+        MagnetModel::Cuboid => 0.003,
+    };
     let corners = rng.random_range(3..8);
     let vertices = (0..corners)
         .map(|k| {
@@ -100,7 +114,7 @@ fn random_tile(rng: &mut ChaCha8Rng) -> Option<Tile> {
     for _ in 0..rng.random_range(1..4) {
         let mut random = || rng.random_range(-0.1..0.1);
         let position = Vector2::new(random(), random());
-        if outline.signed_distance(position) > -0.006 {
+        if outline.signed_distance(position) > -depth {
             continue;
         }
         magnets.push(Magnet {

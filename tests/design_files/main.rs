@@ -1,5 +1,7 @@
 //! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
 
+mod drawing_faults;
+mod drawings;
 mod geometry;
 mod shields;
 

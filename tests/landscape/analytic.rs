@@ -71,7 +71,7 @@ fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
         most_rounds: 8,
         seed,
     };
-    Survey::new(problem, &roadmap, &[], &|q| vec![*q], &settings)
+    Survey::new(problem, roadmap, &[], &|q| vec![*q], &settings)
 }
 
 /// The saddle energy (J) between the states at two configurations.

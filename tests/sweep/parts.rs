@@ -102,3 +102,46 @@ fn points_are_shared_by_sweeps_and_not_by_other_settings() {
             .all(|name| !other.contains(name) && !finer.contains(name))
     );
 }
+
+/// The manifest holds the drawings; a changed one makes other points, and one that is missing a row.
+#[test]
+fn a_drawing_is_part_of_the_point() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("mine.toml");
+    let face = std::fs::read_to_string("shapes/drawn-wave.svg").unwrap();
+    std::fs::copy("shapes/drawn-wave.toml", &design).unwrap();
+    for name in ["drawn-wave.svg", "b.svg"] {
+        std::fs::write(folder.path().join(name), &face).unwrap();
+    }
+    let plan = folder.path().join("plan.json");
+    let files = "fixed.faces.east.profile.file=drawn-wave.svg,b.svg,c.svg";
+    let arguments = [text(&design), "--vary", files, "--plan", text(&plan)];
+    let names = || -> Vec<String> {
+        done(&[&arguments[..], &QUICK].concat());
+        let plan: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(&plan).unwrap()).unwrap();
+        let points = plan["points"].as_array().unwrap().iter();
+        points.map(|point| point["point"].to_string()).collect()
+    };
+    let before = names();
+    std::fs::write(folder.path().join("b.svg"), face.replace("-20", "-19")).unwrap();
+    let after = names();
+    assert_eq!(before[0], after[0]);
+    assert_ne!(before[1], after[1]);
+    assert_eq!(before[2], after[2]);
+    // The manifest is enough.
+    for name in ["mine.toml", "drawn-wave.svg", "b.svg"] {
+        std::fs::remove_file(folder.path().join(name)).unwrap();
+    }
+    done(&["--run", text(&plan)]);
+    let summary = done(&["--merge", text(&plan)]);
+    assert!(
+        summary.starts_with("3 points: 2 done, 1 impossible"),
+        "{summary}"
+    );
+    let table = std::fs::read_to_string(folder.path().join("sweep.csv")).unwrap();
+    assert!(
+        table.contains("the drawing \"\"c.svg\"\" could not be read"),
+        "{table}"
+    );
+}

@@ -43,6 +43,7 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
         level,
         label: vec![DRY; store.len()],
         parent: vec![NONE; store.len()],
+        queued: vec![0; store.len()],
         queue: BinaryHeap::new(),
         waiting: [0; 3],
         highest: f64::NEG_INFINITY,
@@ -61,6 +62,9 @@ struct Flood<'a> {
     level: f64,
     label: Vec<u8>,
     parent: Vec<u32>,
+    /// The sides of the floods that have a leaf in the queue as one to spread to: once is enough,
+    /// as its rank is the same from everywhere.
+    queued: Vec<u8>,
     queue: BinaryHeap<Reverse<(u64, u32, u8, u32)>>,
     /// Entries of each flood in the queue. When one has none left the floods cannot meet any more.
     waiting: [usize; 3],
@@ -120,7 +124,11 @@ impl Flood<'_> {
     fn spread(&mut self, id: u32, side: u8) {
         let store = self.store;
         for &n in &store.leaf(id).neighbours {
-            if self.label[n as usize] == DRY && store.lower(n) <= self.level {
+            if self.label[n as usize] == DRY
+                && self.queued[n as usize] & side == 0
+                && store.lower(n) <= self.level
+            {
+                self.queued[n as usize] |= side;
                 self.push(self.ranks[n as usize], n, side, id);
             }
         }

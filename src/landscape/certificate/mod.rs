@@ -27,9 +27,8 @@
 //!
 //! - `lower` holds for every path on which no point of a tile gets deeper than
 //!   [`RELAXED`](crate::contact::cells::RELAXED) (2e-9 m) into the other, more than every free one;
-//! - `upper` is that of the returned pathway, whose inner stretches have truly disjoint interiors
-//!   and whose first and last may overlap by [`TOUCH`](crate::contact::TOUCH), as states at
-//!   contact are given to rounding only;
+//! - `upper` is that of the returned pathway, on no stretch of which the tiles overlap by more than
+//!   [`TOUCH`](crate::contact::TOUCH) (1e-9 m), which counts as touching;
 //! - rounding errors are included, see [`crate::potential::bounds`], [`crate::cell`] and
 //!   [`crate::contact::cells`]. Assumed is that f64 arithmetic is IEEE 754's, and that the
 //!   platform's sine, cosine and arc functions are right to 8 units in the last place.

@@ -1,7 +1,10 @@
-//! Guaranteed bounds of the energy over cells of configurations.
+//! Guaranteed bounds of the energy over cells of configurations: of point dipoles
+//! ([`DipoleBounds`]) and of blocks ([`CuboidBounds`]).
 
+mod cuboid;
 mod dipole;
 
+pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
 
 use crate::cell::{Cell, Quadratic};

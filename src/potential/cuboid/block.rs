@@ -306,18 +306,18 @@ pub fn exact(first: &Block, second: &Block) -> PairEnergy {
 
         #[inline(always)]
         fn run<L: Lanes>(self, l: L) -> PairEnergy {
-            near(l, self.0, self.1)
+            near::<L, true>(l, self.0, self.1)
         }
     }
     Level::best().run(Exact(first, second))
 }
 
-/// [`exact`] in vectors.
+/// [`exact`] in vectors; the derivatives are zero where not asked for.
 #[inline(always)]
-pub(super) fn near<L: Lanes>(l: L, first: &Block, second: &Block) -> PairEnergy {
+pub(super) fn near<L: Lanes, const SLOPE: bool>(l: L, first: &Block, second: &Block) -> PairEnergy {
     let mut panels = Panels::default();
-    panels.append::<L, true>(l, &BlockPair::new(first, second, second.position));
-    let (energy, gradient) = panels.sum::<L, true>(l);
+    panels.append::<L, SLOPE>(l, &BlockPair::new(first, second, second.position));
+    let (energy, gradient) = panels.sum::<L, SLOPE>(l);
     PairEnergy {
         energy,
         gradient: gradient.xy(),

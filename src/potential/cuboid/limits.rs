@@ -135,7 +135,7 @@ pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
     ]
 }
 
-type Segment = [Vector2<f64>; 2];
+pub(in crate::potential) type Segment = [Vector2<f64>; 2];
 
 fn pole_faces(block: &Block) -> [Segment; 2] {
     let across = Vector2::new(-block.axis.y, block.axis.x) * (block.size[1] / 2.0);
@@ -145,7 +145,7 @@ fn pole_faces(block: &Block) -> [Segment; 2] {
     })
 }
 
-fn segment_distance(a: Segment, b: Segment) -> f64 {
+pub(in crate::potential) fn segment_distance(a: Segment, b: Segment) -> f64 {
     let to_segment = |p: Vector2<f64>, s: Segment| {
         let along = s[1] - s[0];
         let t = ((p - s[0]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);

@@ -27,13 +27,14 @@
 pub mod block;
 #[cfg(test)]
 mod cloud;
+pub(in crate::potential) mod correction;
 mod elementary;
 mod far;
 pub mod limits;
 mod multipole;
 mod panel;
-mod quadrature;
-mod sheet;
+pub(in crate::potential) mod quadrature;
+pub(in crate::potential) mod sheet;
 
 mod sum;
 
@@ -181,11 +182,19 @@ impl CuboidPotential {
 }
 
 impl CuboidPotential {
+    /// The distance (m) of their centres from which on the multipole series stands for every pair
+    /// of blocks.
+    pub(in crate::potential) fn hand_over(&self) -> f64 {
+        let all = self.far.iter().flatten();
+        all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
+    }
+
     /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
-    /// moving tile's block j is number `j * fixed blocks + i`.
-    pub fn pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
+    /// moving tile's block j is number `j * fixed blocks + i`. Derivatives are zero where not asked
+    /// for.
+    pub fn pairs<const SLOPE: bool>(&self, q: &Configuration) -> Vec<PairEnergy> {
         let mut out = vec![PairEnergy::default(); self.fixed.len() * self.moving.len()];
-        self.level.run(Each {
+        self.level.run(Each::<SLOPE> {
             potential: self,
             q,
             out: &mut out,
@@ -258,6 +267,13 @@ impl Potential for CuboidPotential {
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         self.lever.displacement(step)
+    }
+
+    /// Half the shortest side in the plane of any block.
+    fn feature_length(&self) -> f64 {
+        let blocks = self.fixed.iter().chain(&self.moving);
+        let sides = blocks.flat_map(|each| [each.block.size[0], each.block.size[1]]);
+        sides.fold(f64::INFINITY, f64::min) / 2.0
     }
 
     /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 /// Nodes in [-1, 1] and weights of the rules in use.
 #[derive(Debug)]
 pub struct Rules {
+    pub four: [[f64; 4]; 2],
     pub eight: [[f64; 8]; 2],
     pub sixteen: [[f64; 16]; 2],
     /// Nodes that crowd towards both ends.
@@ -25,6 +26,7 @@ impl Rules {
     /// The only instance.
     pub fn get() -> &'static Self {
         static RULES: LazyLock<Rules> = LazyLock::new(|| Rules {
+            four: gauss_legendre(),
             eight: gauss_legendre(),
             sixteen: gauss_legendre(),
             crowded_eight: crowded(gauss_legendre()),

@@ -57,15 +57,71 @@ const TINY: f64 = 1e-30;
 /// where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`): the sign is the opposite of that of h.
 #[inline(always)]
 pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L::F, L::F) {
+    let [upper, lower] = both_heights(l, s, h, heights);
+    (l.sub(upper.k, lower.k), l.sub(upper.slope, lower.slope))
+}
+
+/// Phi and its derivatives by x and h, all halved (m^2, m and 1).
+#[derive(Clone, Copy)]
+pub struct Expansion<F> {
+    pub value: F,
+    pub x: F,
+    pub h: F,
+    pub xx: F,
+    pub xh: F,
+    pub hh: F,
+}
+
+/// The halved derivatives of Phi up to the second. At h = 0 they are the limits from h > 0.
+///
+/// With p and r the distances of an end of the sheet at the heights 0 and z, and the differences
+/// between the two heights and the two ends taken,
+/// `Phi_x / 2 = [f(p, z)]`, `Phi_xx / 2 = -[s r / p^2]`, `Phi_xh / 2 = -[h r / p^2]`, and as
+/// `1 / r` is harmonic, `(Phi_xx + Phi_hh) / 2 = -[asinh(s / sqrt(h^2 + z^2))]`.
+#[inline(always)]
+pub fn expansion<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> Expansion<L::F> {
+    let [upper, lower] = both_heights(l, s, h, heights);
+    let zero = l.splat(0.0);
+    let slope = l.sub(upper.slope, lower.slope);
+    let hh = l.mul_add(h, h, l.splat(TINY));
+    let start = l.div(l.sub(upper.r[0], lower.r[0]), l.mul_add(s[0], s[0], hh));
+    let end = l.div(l.sub(upper.r[1], lower.r[1]), l.mul_add(s[1], s[1], hh));
+    let xx = l.neg_mul_add(s[1], end, l.mul(s[0], start));
+    Expansion {
+        value: l.sub(upper.k, lower.k),
+        x: l.sub(l.sub(upper.f[1], lower.f[1]), l.sub(upper.f[0], lower.f[0])),
+        h: l.select(h, l.sub(zero, slope), slope),
+        xx,
+        xh: l.mul(h, l.sub(start, end)),
+        hh: l.sub(l.sub(lower.log, upper.log), xx),
+    }
+}
+
+/// What the height z gives, between two ends of a sheet.
+#[derive(Clone, Copy)]
+struct AtHeight<F> {
+    /// K and -K_h, for h >= 0.
+    k: F,
+    slope: F,
+    /// `asinh(s / sqrt(h^2 + z^2))`.
+    log: F,
+    /// `f = K_s` and r at each end.
+    f: [F; 2],
+    r: [F; 2],
+}
+
+/// At the greater and at the smaller height.
+#[inline(always)]
+fn both_heights<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> [AtHeight<L::F>; 2] {
     let above = l.select(h, h, l.sub(l.splat(0.0), h));
     let hh = l.mul_add(h, h, l.splat(TINY));
-    let (k1, slope1) = at_height(l, s, above, hh, heights[0]);
-    let (k0, slope0) = if heights[1] > 0.0 {
+    let upper = at_height(l, s, above, hh, heights[0]);
+    let lower = if heights[1] > 0.0 {
         at_height(l, s, above, hh, heights[1])
     } else {
         in_plane(l, s, above, hh)
     };
-    (l.sub(k1, k0), l.sub(slope1, slope0))
+    [upper, lower]
 }
 
 /// `ln (s2 + r2) / (s1 + r1)`, with `s + r = edge / (r - s)` where s is negative.
@@ -83,9 +139,9 @@ fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
     ln_ratio(l, over, under)
 }
 
-/// K and -K_h between the two s at the height z > 0, for h >= 0.
+/// At the height z > 0, for h >= 0.
 #[inline(always)]
-fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> (L::F, L::F) {
+fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> AtHeight<L::F> {
     let (z, zz) = (l.splat(height), l.splat(height * height));
     let edge = l.add(hh, zz);
     let p = [
@@ -97,8 +153,11 @@ fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> (L
         sqrt(l, l.mul_add(s[1], s[1], edge)),
     ];
     let log = log(l, s, r, edge);
-    let rise = l.mul(s[1], ln_ratio(l, l.add(r[1], z), p[1]));
-    let rise = l.neg_mul_add(s[0], ln_ratio(l, l.add(r[0], z), p[0]), rise);
+    let rises = [
+        ln_ratio(l, l.add(r[0], z), p[0]),
+        ln_ratio(l, l.add(r[1], z), p[1]),
+    ];
+    let rise = l.neg_mul_add(s[0], rises[0], l.mul(s[1], rises[1]));
     // The difference of two angles, by the product of (h r2, s2 z) and (h r1, -s1 z).
     let (a1, a2) = (l.mul(h, r[0]), l.mul(h, r[1]));
     let (b1, b2) = (l.mul(s[0], z), l.mul(s[1], z));
@@ -111,12 +170,21 @@ fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> (L
     let half = l.mul_add(l.sub(zz, hh), log, l.mul(s[0], r[0]));
     let half = l.neg_mul_add(s[1], r[1], half);
     let k = l.mul_add(half, l.splat(0.5), l.mul(z, rise));
-    (l.neg_mul_add(h, turn, k), l.mul_add(h, log, turn))
+    AtHeight {
+        k: l.neg_mul_add(h, turn, k),
+        slope: l.mul_add(h, log, turn),
+        log,
+        f: [
+            l.sub(l.mul(z, rises[0]), r[0]),
+            l.sub(l.mul(z, rises[1]), r[1]),
+        ],
+        r,
+    }
 }
 
-/// K and -K_h between the two s at the height 0, for h >= 0.
+/// At the height 0, for h >= 0.
 #[inline(always)]
-fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> (L::F, L::F) {
+fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> AtHeight<L::F> {
     let p = [
         sqrt(l, l.mul_add(s[0], s[0], hh)),
         sqrt(l, l.mul_add(s[1], s[1], hh)),
@@ -124,7 +192,14 @@ fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> (L::F, L::F) {
     let log = log(l, s, p, hh);
     let twice = l.neg_mul_add(s[1], p[1], l.mul(s[0], p[0]));
     let twice = l.neg_mul_add(hh, log, twice);
-    (l.mul(twice, l.splat(0.5)), l.mul(h, log))
+    let zero = l.splat(0.0);
+    AtHeight {
+        k: l.mul(twice, l.splat(0.5)),
+        slope: l.mul(h, log),
+        log,
+        f: [l.sub(zero, p[0]), l.sub(zero, p[1])],
+        r: p,
+    }
 }
 
 /// Square root of a positive number.
@@ -152,4 +227,68 @@ pub fn first_moment<L: Lanes>(l: L, pp: L::F, heights: [f64; 2]) -> L::F {
         sum = l.mul_add(l.mul_add(pp, rise, cubic), l.splat(sign), sum);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::potential::batch::Level;
+    use crate::potential::batch::lanes::Task;
+
+    /// Value and derivatives of Phi / 2 at (x, h) for a sheet of half the width 1.
+    struct At([f64; 2], [f64; 2]);
+
+    impl Task for At {
+        type Output = [f64; 6];
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> [f64; 6] {
+            let Self([x, h], heights) = self;
+            let ends = [l.splat(x - 1.0), l.splat(x + 1.0)];
+            let phi = expansion(l, ends, l.splat(h), heights);
+            [
+                l.first(phi.value),
+                l.first(phi.x),
+                l.first(phi.h),
+                l.first(phi.xx),
+                l.first(phi.xh),
+                l.first(phi.hh),
+            ]
+        }
+    }
+
+    #[test]
+    fn the_derivatives_are_those_of_the_potential() {
+        for level in Level::available() {
+            for i in 0..200 {
+                let t = f64::from(i);
+                let (x, h) = (1.7 * (0.37 * t).sin(), 0.9 * (1.1 * t).cos());
+                let heights = [[0.4, 0.0], [0.5, 0.1]][i as usize % 2];
+                let step = 1e-4;
+                if h.abs() < 0.05 || (x.abs() - 1.0).abs() < 0.05 {
+                    continue;
+                }
+                let at = |dx: f64, dh: f64| level.run(At([x + dx, h + dh], heights));
+                let [_, _, _, xx, xh, hh] = at(0.0, 0.0);
+                let along_x: [f64; 6] =
+                    std::array::from_fn(|k| (at(step, 0.0)[k] - at(-step, 0.0)[k]) / (2.0 * step));
+                let along_h: [f64; 6] =
+                    std::array::from_fn(|k| (at(0.0, step)[k] - at(0.0, -step)[k]) / (2.0 * step));
+                let [_, gx, gh, ..] = at(0.0, 0.0);
+                for (got, expected) in [
+                    (gx, along_x[0]),
+                    (gh, along_h[0]),
+                    (xx, along_x[1]),
+                    (xh, along_h[1]),
+                    (xh, along_x[2]),
+                    (hh, along_h[2]),
+                ] {
+                    assert!(
+                        (got - expected).abs() < 3e-6,
+                        "{level} {x} {h}: {got} {expected}"
+                    );
+                }
+            }
+        }
+    }
 }

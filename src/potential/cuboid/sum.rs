@@ -147,13 +147,14 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
 }
 
 /// The energies of all pairs of blocks one by one, `out[second * fixed blocks + first]`.
-pub struct Each<'a> {
+/// Gradients and slopes are zero where not asked for.
+pub struct Each<'a, const SLOPE: bool> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
     pub out: &'a mut [PairEnergy],
 }
 
-impl Task for Each<'_> {
+impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
     type Output = ();
 
     #[inline(always)]
@@ -167,13 +168,17 @@ impl Task for Each<'_> {
                 let turn = moving.axis * Complex::new(cos, sin) * into;
                 let centre = Complex::new(self.q.x, self.q.y) * into;
                 far.series
-                    .evaluate::<L, true>(l, turn, TERMS, &mut coefficients);
+                    .evaluate::<L, SLOPE>(l, turn, TERMS, &mut coefficients);
                 for (j, &second) in moving.members.iter().enumerate() {
                     let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
                     for from in (0..fixed.x.len()).step_by(L::WIDTH) {
                         let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         let mut sums = Sums::zero(l);
-                        far::add::<L, TERMS, true>(l, &coefficients, &pairs, &mut sums);
+                        if l.least(pairs.rr) >= far.squares[FEW] {
+                            far::add::<L, FEW, SLOPE>(l, &coefficients, &pairs, &mut sums);
+                        } else {
+                            far::add::<L, TERMS, SLOPE>(l, &coefficients, &pairs, &mut sums);
+                        }
                         let lanes = fixed.members.len().min(from + L::WIDTH) - from;
                         let out = Lane::split(l, &sums, pairs.rr, fixed.axis);
                         for (&first, lane) in fixed.members[from..].iter().zip(&out[..lanes]) {
@@ -181,7 +186,11 @@ impl Task for Each<'_> {
                             self.out[at] = if lane.square < far.near() {
                                 let moving = &self.potential.moving[second].block;
                                 let moved = moving.moved(cos, sin, self.q.position());
-                                block::near(l, &self.potential.fixed[first].block, &moved)
+                                block::near::<L, SLOPE>(
+                                    l,
+                                    &self.potential.fixed[first].block,
+                                    &moved,
+                                )
                             } else {
                                 lane.pair
                             };

@@ -2,131 +2,149 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Front, PairFactor, ShieldRule, Shields, pair_factor};
+use super::kernel::{self, Columns, PairColumns};
+use super::{ShieldRule, Shields};
 use crate::configuration::Configuration;
-use crate::potential::cuboid::block::{Block, PairEnergy};
+use crate::potential::batch::Level;
+use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::{Limits, face_distances};
-use crate::potential::dipole::{self, Dipole, dipoles};
 use crate::potential::lever::Lever;
 use crate::potential::{CuboidPotential, MagnetModel, Potential, finite};
 use crate::tile::{Magnet, Tile};
 
-/// Energies of single pairs.
-#[derive(Clone, Debug)]
-enum Pairs {
-    Dipole(Vec<Dipole>, Vec<Dipole>),
-    Cuboid(CuboidPotential),
-}
-
-/// A magnet with what its shield needs.
-#[derive(Clone, Debug)]
-struct Shielded {
-    block: Block,
-    face: usize,
-    front: Front,
-}
-
 /// The interaction energy of two tiles with shields: each pair's energy times its factor.
-///
-/// It costs several times as much as the bare model, since every pair is weighted by itself.
 #[derive(Clone, Debug)]
 pub struct ShieldedPotential {
-    pairs: Pairs,
+    level: Level,
+    /// Magnets as blocks, if they are not dipoles.
+    blocks: Option<Blocks>,
     rule: ShieldRule,
-    fixed: Vec<Shielded>,
-    moving: Vec<Shielded>,
+    fixed: Vec<kernel::Magnet>,
+    moving: Vec<kernel::Magnet>,
+    columns: Columns,
     /// Middles of the faces (m), for the nearest-face rule.
     fixed_middles: Vec<Vector2<f64>>,
     moving_middles: Vec<Vector2<f64>>,
-    /// For each pair, second magnet by second magnet.
-    limits: Vec<Limits>,
     lever: Lever,
 }
 
-fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<Shielded> {
-    let front = |magnet: &Magnet| {
-        let shield = shields.get(magnet.face).copied().flatten();
-        (shield, tile.faces[magnet.face].normal())
-    };
-    tile.magnets
-        .iter()
-        .map(|magnet| Shielded {
-            block: Block::from(magnet),
-            face: magnet.face,
-            front: front(magnet),
-        })
-        .collect()
+/// What blocks need beyond their dipoles.
+#[derive(Clone, Debug)]
+struct Blocks {
+    potential: CuboidPotential,
+    fixed: Vec<Block>,
+    moving: Vec<Block>,
+    /// For each pair, second magnet by second magnet.
+    limits: Vec<Limits>,
 }
 
-impl ShieldedPotential {
-    /// Of two tiles with shields. Faces beyond the ends of the lists of shields have none.
-    pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
-        let middles = |tile: &Tile| tile.faces.iter().map(|face| face.middle()).collect();
-        let (first, second) = (
-            shielded(fixed, &shields.fixed),
-            shielded(moving, &shields.moving),
-        );
-        let limits = second.iter().flat_map(|second| {
-            first
-                .iter()
-                .map(|first| Limits::new(&first.block, &second.block))
-        });
-        let corners = moving.magnets.iter().flat_map(|magnet| magnet.corners());
+impl Blocks {
+    fn new(fixed: &Tile, moving: &Tile, level: Level) -> Self {
+        let blocks = |tile: &Tile| tile.magnets.iter().map(Block::from).collect::<Vec<_>>();
+        let (first, second) = (blocks(fixed), blocks(moving));
+        let limits = second
+            .iter()
+            .flat_map(|second| first.iter().map(|first| Limits::new(first, second)));
         Self {
-            pairs: match model {
-                MagnetModel::Dipole => {
-                    Pairs::Dipole(dipoles(&fixed.magnets), dipoles(&moving.magnets))
-                }
-                MagnetModel::Cuboid => {
-                    Pairs::Cuboid(CuboidPotential::new(&fixed.magnets, &moving.magnets))
-                }
-            },
-            rule: shields.rule,
+            potential: CuboidPotential::with_level(&fixed.magnets, &moving.magnets, level),
             limits: limits.collect(),
             fixed: first,
             moving: second,
+        }
+    }
+
+    /// Bounds of |u|, |u'| and |u''| of each pair (see [`Limits`]), in columns of the given stride.
+    fn limits(&self, q: &Configuration, turn: f64, reach: f64, stride: usize) -> [Vec<f64>; 3] {
+        let (sin, cos) = q.theta.sin_cos();
+        let mut columns = [(); 3].map(|()| vec![0.0; self.moving.len() * stride]);
+        let mut limits = self.limits.iter();
+        for (j, second) in self.moving.iter().enumerate() {
+            let moved = second.moved(cos, sin, q.position());
+            for (i, (first, limits)) in self.fixed.iter().zip(limits.by_ref()).enumerate() {
+                let r = (moved.position - first.position).norm() - reach;
+                let distance = r - first.radius() - moved.radius();
+                let faces = face_distances(first, &moved).map(|d| (d - reach).max(reach / 16.0));
+                let bend = limits.curvature(turn, distance);
+                let row = [
+                    limits.energy(distance),
+                    limits.gradient(turn, distance),
+                    bend.min(limits.curvature_of_faces(turn, faces)),
+                ];
+                for (column, entry) in columns.iter_mut().zip(row) {
+                    column[j * stride + i] = entry;
+                }
+            }
+        }
+        columns
+    }
+}
+
+fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<kernel::Magnet> {
+    let shielded = |magnet: &Magnet| kernel::Magnet {
+        position: magnet.position,
+        moment: magnet.moment_vector(),
+        face: magnet.face,
+        front: (
+            shields.get(magnet.face).copied().flatten(),
+            tile.faces[magnet.face].normal(),
+        ),
+    };
+    tile.magnets.iter().map(shielded).collect()
+}
+
+impl ShieldedPotential {
+    /// Of two tiles with shields, for the fastest instruction set of this machine. Faces beyond the
+    /// ends of the lists of shields have none.
+    pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
+        Self::with_level(model, fixed, moving, shields, Level::best())
+    }
+
+    /// The same for the given instruction set.
+    pub fn with_level(
+        model: MagnetModel,
+        fixed: &Tile,
+        moving: &Tile,
+        shields: &Shields,
+        level: Level,
+    ) -> Self {
+        let middles = |tile: &Tile| tile.faces.iter().map(|face| face.middle()).collect();
+        let corners = moving.magnets.iter().flat_map(|magnet| magnet.corners());
+        let blocks = match model {
+            MagnetModel::Dipole => None,
+            MagnetModel::Cuboid => Some(Blocks::new(fixed, moving, level)),
+        };
+        let first = shielded(fixed, &[]);
+        Self {
+            level,
+            blocks,
+            rule: ShieldRule::Smooth,
+            columns: Columns::new(&first, level.width()),
+            fixed: first,
+            moving: shielded(moving, &[]),
             fixed_middles: middles(fixed),
             moving_middles: middles(moving),
             lever: Lever::of(corners),
         }
+        .with_shields(shields)
     }
 
     /// The same with other shields. Faces beyond the ends of the lists have none.
     pub fn with_shields(&self, shields: &Shields) -> Self {
         let mut changed = self.clone();
         changed.rule = shields.rule;
+        // With the nearest-face rule magnets that act at all act in full.
+        let smooth = shields.rule == ShieldRule::Smooth;
         for (magnets, shields) in [
             (&mut changed.fixed, &shields.fixed),
             (&mut changed.moving, &shields.moving),
         ] {
             for magnet in magnets {
-                magnet.front.0 = shields.get(magnet.face).copied().flatten();
+                let shield = shields.get(magnet.face).copied().flatten();
+                magnet.front.0 = shield.filter(|_| smooth);
             }
         }
+        changed.columns = Columns::new(&changed.fixed, self.level.width());
         changed
-    }
-
-    /// The pairs' energies, second magnet by second magnet.
-    fn energies_of_pairs(&self, q: &Configuration) -> Vec<PairEnergy> {
-        let (fixed, moving) = match &self.pairs {
-            Pairs::Cuboid(potential) => return potential.pairs(q),
-            Pairs::Dipole(fixed, moving) => (fixed, moving),
-        };
-        let rotation = q.rotation();
-        let mut out = Vec::with_capacity(fixed.len() * moving.len());
-        for second in moving {
-            let (place, moment) = (q.transform(second.position), rotation * second.moment);
-            for first in fixed {
-                let (energy, force, slope) =
-                    dipole::pair(first.moment, moment, place - first.position);
-                out.push(PairEnergy {
-                    energy,
-                    gradient: -force,
-                    slope,
-                });
-            }
-        }
-        out
     }
 
     /// The pair of faces whose middles are nearest to each other; of equal ones the first.
@@ -142,94 +160,53 @@ impl ShieldedPotential {
         }
         nearest.1
     }
+
+    fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        let pairs = self.blocks.as_ref().map(|blocks| {
+            let pairs = blocks.potential.pairs::<SLOPE>(q);
+            PairColumns::new(&pairs, self.fixed.len(), self.columns.len())
+        });
+        let faces = match self.rule {
+            ShieldRule::Smooth => None,
+            ShieldRule::NearestFace => Some(self.nearest_faces(q)),
+        };
+        let (energy, gradient) = self.level.run(kernel::Sum::<SLOPE> {
+            fixed: &self.columns,
+            moving: &self.moving,
+            q,
+            pairs: pairs.as_ref(),
+            faces,
+        });
+        finite(energy, gradient)
+    }
 }
 
 impl Potential for ShieldedPotential {
     fn energy(&self, q: &Configuration) -> f64 {
-        self.energy_and_gradient(q).0
+        self.sum::<false>(q).0
     }
 
     fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let rotation = q.rotation();
-        let nearest = self.nearest_faces(q);
-        let mut energy = 0.0;
-        let mut gradient = Vector3::zeros();
-        let mut pairs = self.energies_of_pairs(q).into_iter();
-        for second in &self.moving {
-            let arm = rotation * second.block.position;
-            let front = (second.front.0, rotation * second.front.1);
-            for first in &self.fixed {
-                let pair = pairs.next().unwrap_or_default();
-                let factor = match self.rule {
-                    ShieldRule::Smooth => {
-                        let r = q.position() + arm - first.block.position;
-                        pair_factor(first.front, front, r)
-                    }
-                    ShieldRule::NearestFace => PairFactor {
-                        value: f64::from((first.face, second.face) == nearest),
-                        gradient: Vector2::zeros(),
-                        slope: 0.0,
-                    },
-                };
-                if factor.value == 0.0 && factor.gradient == Vector2::zeros() {
-                    continue;
-                }
-                let place = pair.gradient * factor.value + factor.gradient * pair.energy;
-                let turn = pair.slope * factor.value + factor.slope * pair.energy;
-                energy += factor.value * pair.energy;
-                gradient += Vector3::new(place.x, place.y, turn + arm.perp(&place));
-            }
-        }
-        finite(energy, gradient)
+        self.sum::<true>(q)
     }
 
     /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, with the bounds of
-    /// [`Limits`] for u and of [`super::Shield::limits`] for w. With the nearest-face rule it holds
+    /// [`Limits`] for u and those of the factors for w. With the nearest-face rule it holds
     /// between the jumps only.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let turn = self.lever.turn();
-        let (sin, cos) = q.theta.sin_cos();
-        let blocks = matches!(self.pairs, Pairs::Cuboid(_));
-        let mut bound = 0.0;
-        let mut limits = self.limits.iter();
-        for second in &self.moving {
-            let moved = second.block.moved(cos, sin, q.position());
-            for (first, limits) in self.fixed.iter().zip(limits.by_ref()) {
-                let r = (moved.position - first.block.position).norm() - reach;
-                if r <= 0.0 {
-                    return f64::INFINITY;
-                }
-                let u = if blocks {
-                    let distance = r - first.block.radius() - moved.radius();
-                    let faces =
-                        face_distances(&first.block, &moved).map(|d| (d - reach).max(reach / 16.0));
-                    [
-                        limits.energy(distance),
-                        limits.gradient(turn, distance),
-                        limits
-                            .curvature(turn, distance)
-                            .min(limits.curvature_of_faces(turn, faces)),
-                    ]
-                } else {
-                    [
-                        limits.derivative(0, r),
-                        limits.derivative(1, r) + turn * limits.derivative(0, r),
-                        limits.curvature(turn, r),
-                    ]
-                };
-                let [a, b] = [first.front.0, second.front.0].map(|shield| match self.rule {
-                    ShieldRule::Smooth => shield.map_or([1.0, 0.0, 0.0], |s| s.limits(turn, r)),
-                    ShieldRule::NearestFace => [1.0, 0.0, 0.0],
-                });
-                let w = [
-                    a[0] * b[0],
-                    a[1] * b[0] + a[0] * b[1],
-                    a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2],
-                ];
-                bound += w[0] * u[2] + 2.0 * w[1] * u[1] + w[2] * u[0];
-            }
-        }
-        bound
+        let (turn, stride) = (self.lever.turn(), self.columns.len());
+        let pairs = self
+            .blocks
+            .as_ref()
+            .map(|blocks| blocks.limits(q, turn, reach, stride));
+        self.level.run(kernel::Curvature {
+            fixed: &self.columns,
+            moving: &self.moving,
+            q,
+            turn,
+            reach,
+            pairs: pairs.as_ref(),
+        })
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
@@ -238,9 +215,8 @@ impl Potential for ShieldedPotential {
 
     /// That of the bare pairs.
     fn noise(&self) -> f64 {
-        match &self.pairs {
-            Pairs::Dipole(..) => 1e-12,
-            Pairs::Cuboid(potential) => potential.noise(),
-        }
+        self.blocks
+            .as_ref()
+            .map_or(1e-12, |blocks| blocks.potential.noise())
     }
 }

@@ -53,6 +53,7 @@ impl Page {
             subtitle: design.description.clone(),
             facts: facts(docking),
             landscape,
+            charts: None,
             pictures,
             tables: vec![traps(docking), settings(design, docking)],
             origin: format!(

@@ -130,7 +130,7 @@ impl Landscape {
 
 /// The map all around the fixed tile: at least so many orientations, and as many places as the
 /// number of grid points leaves.
-fn whole(scene: &Scene) -> Volume {
+pub fn whole(scene: &Scene) -> Volume {
     let repeats = crate::tile::symmetry::rotations(scene.pair.moving).len();
     let orientations = ORIENTATIONS[usize::from(repeats == 1)];
     let reach = scene.reach();
@@ -140,7 +140,8 @@ fn whole(scene: &Scene) -> Volume {
     around(&scene.pair, reach, orientations, side as usize)
 }
 
-fn in_front(scene: &Scene) -> InFront {
+/// The map in front of the target face.
+pub fn in_front(scene: &Scene) -> InFront {
     let pair = &scene.pair;
     let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
     let length = pair.fixed.faces[scene.target.0].length();

@@ -163,6 +163,7 @@ async function showLandscape() {
 }
 
 showPage();
+if (charts) showCharts();
 const ready = world ? showLandscape() : Promise.resolve();
 ready.then(
   () => { document.documentElement.dataset.ready = "yes"; },

@@ -5,8 +5,10 @@
 //! policy lets the page run its own script and style, known by their SHA-256, and load nothing at
 //! all; it opens from disk. The same page comes out as the same bytes.
 
+mod charts;
+mod comparison;
 mod docking;
-mod landscape;
+pub(super) mod landscape;
 mod packed;
 mod pathways;
 mod tables;
@@ -18,6 +20,7 @@ use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+pub use charts::Charts;
 pub use landscape::Landscape;
 
 use super::plots::Scene;
@@ -27,7 +30,7 @@ use crate::design::Design;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -35,6 +38,7 @@ const SCRIPTS: [&str; 8] = [
     include_str!("profile.js"),
     include_str!("tree.js"),
     include_str!("tables.js"),
+    include_str!("charts.js"),
     include_str!("main.js"),
 ];
 
@@ -46,6 +50,7 @@ pub struct Page {
     /// What to know first.
     pub facts: Vec<Fact>,
     pub landscape: Option<Landscape>,
+    pub charts: Option<Charts>,
     pub pictures: Vec<Illustration>,
     pub tables: Vec<Table>,
     /// How it was made: version, seed, checksum.
@@ -74,7 +79,8 @@ pub struct Table {
     /// What a row is.
     pub note: String,
     pub columns: Vec<Column>,
-    /// Numbers (in SI units), texts, or null, one a column.
+    /// Numbers (in SI units), texts, null, or a pair of a number that it sorts by and the text
+    /// that is shown; one a column.
     pub rows: Vec<Vec<Value>>,
     /// For each row the state whose pose it shows when clicked; empty where rows show none.
     pub states: Vec<usize>,
@@ -106,6 +112,7 @@ impl Page {
             subtitle: design.description.clone(),
             facts: tables::facts(design, analysis, scene),
             landscape: Some(Landscape::new(design, scene, pathways::played(scene))),
+            charts: None,
             pictures: Vec::new(),
             tables: vec![
                 tables::states(design, analysis, scene),
@@ -202,6 +209,7 @@ mod tests {
             subtitle: String::new(),
             facts: Vec::new(),
             landscape: None,
+            charts: None,
             pictures: Vec::new(),
             tables: Vec::new(),
             origin: String::new(),

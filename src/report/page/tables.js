@@ -18,7 +18,10 @@ function columnFormat(column, table) {
   return { show: (v) => column.unit === "m" ? decimal(v / scale, 2) : significant(v / scale), unit: prefix + column.unit };
 }
 
-const isNumeric = (rows, k) => rows.every((row) => row[k] === null || typeof row[k] === "number");
+/** What a cell sorts by: a pair is that and what is shown. */
+const valueOf = (cell) => Array.isArray(cell) ? cell[0] : cell;
+
+const isNumeric = (rows, k) => rows.every((row) => valueOf(row[k]) === null || typeof valueOf(row[k]) === "number");
 
 function make(name, text = "", className = "") {
   const made = document.createElement(name);
@@ -33,7 +36,7 @@ function buildTable(table, choose) {
   const rows = table.rows.map((cells, index) => {
     const row = make("tr");
     cells.forEach((value, k) => {
-      const shown = value === null ? "\u2013" : typeof value === "number" ? formats[k].show(value) : String(value);
+      const shown = Array.isArray(value) ? value[1] : value === null ? "\u2013" : typeof value === "number" ? formats[k].show(value) : String(value);
       row.append(make("td", shown, numeric[k] ? "" : "text"));
     });
     const state = table.states[index];
@@ -61,7 +64,7 @@ function buildTable(table, choose) {
     for (const cell of head.cells) cell.removeAttribute("aria-sort");
     head.cells[k].setAttribute("aria-sort", sign > 0 ? "ascending" : "descending");
     const compare = (a, b) => {
-      const [x, y] = [a.cells[k], b.cells[k]];
+      const [x, y] = [valueOf(a.cells[k]), valueOf(b.cells[k])];
       // What is missing comes last either way.
       if (x === null || y === null) return (x === null) - (y === null);
       return sign * (numeric[k] ? x - y : String(x).localeCompare(String(y), "en", { numeric: true }));

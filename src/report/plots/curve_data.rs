@@ -65,12 +65,22 @@ impl Variable {
     }
 }
 
-/// One curve: over the varied number, as the axis shows it, what came of each point.
+/// One curve: what came of each point over the varied number.
 #[derive(Clone, Debug)]
 pub struct Series<'a> {
     pub name: String,
+    pub points: Vec<Sample<'a>>,
+}
+
+/// A point of a curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'a> {
+    /// The varied number, as the axis shows it.
+    pub x: f64,
+    /// Place of the point in the sweep.
+    pub index: usize,
     /// `None` where the design is impossible.
-    pub points: Vec<(f64, Option<&'a Assessment>)>,
+    pub result: Option<&'a Assessment>,
 }
 
 /// The content of a picture of curves.
@@ -82,6 +92,24 @@ pub struct Group<'a> {
     pub left_out: usize,
 }
 
+/// The content of a picture of maps.
+#[derive(Clone, Debug)]
+pub struct Map {
+    pub title: String,
+    pub x: Variable,
+    pub y: Variable,
+    /// Places of the points in the sweep, row by row from the lowest; `None` where there is no such
+    /// point.
+    pub cells: Vec<Option<usize>>,
+}
+
+/// What a picture shows.
+#[derive(Clone, Debug)]
+pub enum Content<'a> {
+    Curves(Variable, Group<'a>),
+    Map(Map),
+}
+
 /// What all points of a picture of a map, or of a curve, have in common.
 type Common = Vec<(String, String)>;
 
@@ -91,6 +119,23 @@ type Common = Vec<(String, String)>;
 /// # Errors
 /// See [`PictureError`].
 pub fn pictures(sweep: &Sweep) -> Result<Vec<(String, Picture)>, PictureError> {
+    let draw = |(name, content)| {
+        let picture = match content {
+            Content::Curves(variable, group) => curves::draw(&group, &variable)?,
+            Content::Map(map) => {
+                let results = map.cells.iter();
+                let results = results.map(|cell| cell.map(|index| sweep.assessment(index)));
+                let results: Vec<_> = results.collect();
+                curve_map::draw(&map.title, &map.x, &map.y, &results)?
+            }
+        };
+        Ok((name, picture))
+    };
+    contents(sweep).into_iter().map(draw).collect()
+}
+
+/// What the pictures show, by the stems of their files.
+pub fn contents<'a>(sweep: &'a Sweep) -> Vec<(String, Content<'a>)> {
     let numbers = variables(sweep);
     let fixed: Vec<usize> = (0..sweep.plan.axes.len())
         .filter(|axis| numbers.iter().all(|number| number.axis != *axis))
@@ -104,27 +149,31 @@ pub fn pictures(sweep: &Sweep) -> Result<Vec<(String, Picture)>, PictureError> {
         }
     }
     match &numbers[..] {
-        [number] => curve_pictures(sweep, number, &groups),
+        [number] => curves_of(sweep, number, &groups),
         [x, y] => groups
             .iter()
             .take(MOST_PICTURES)
             .map(|(common, points)| {
-                let cells = cells(sweep, points, x, y);
-                let title = titled(sweep, common);
-                Ok((file("map", common), curve_map::draw(&title, x, y, &cells)?))
+                let map = Map {
+                    title: titled(sweep, common),
+                    x: x.clone(),
+                    y: y.clone(),
+                    cells: cells(points, x, y),
+                };
+                (file("map", common), Content::Map(map))
             })
             .collect(),
-        _ => Ok(Vec::new()),
+        _ => Vec::new(),
     }
 }
 
-/// A picture for each value of all but the first word that is varied, a series for each value of
+/// A group for each value of all but the first word that is varied, a series for each value of
 /// that first one.
-fn curve_pictures(
-    sweep: &Sweep,
+fn curves_of<'a>(
+    sweep: &'a Sweep,
     number: &Variable,
     groups: &[(Common, Vec<&Point>)],
-) -> Result<Vec<(String, Picture)>, PictureError> {
+) -> Vec<(String, Content<'a>)> {
     let mut pictures: Vec<(Common, Vec<Series>)> = Vec::new();
     for (common, points) in groups {
         let (name, rest) = match common.split_first() {
@@ -133,10 +182,14 @@ fn curve_pictures(
         };
         let points = points.iter().map(|point| {
             let value = point.values[number.axis].number().unwrap_or(f64::NAN);
-            (number.shown().0 * value, sweep.assessment(point.index))
+            Sample {
+                x: number.shown().0 * value,
+                index: point.index,
+                result: sweep.assessment(point.index),
+            }
         });
         let mut points: Vec<_> = points.collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.sort_by(|a, b| a.x.total_cmp(&b.x));
         let series = Series { name, points };
         match pictures.iter_mut().find(|(known, _)| *known == rest) {
             Some((_, all)) => all.push(series),
@@ -154,7 +207,10 @@ fn curve_pictures(
                 series,
                 left_out,
             };
-            Ok((file("curves", &rest), curves::draw(&group, number)?))
+            (
+                file("curves", &rest),
+                Content::Curves(number.clone(), group),
+            )
         })
         .collect()
 }
@@ -225,14 +281,8 @@ fn file(kind: &str, common: &Common) -> String {
     stem
 }
 
-/// What came of the points of a map, row by row from the lowest; the outer `None` where there is no
-/// such point.
-fn cells<'a>(
-    sweep: &'a Sweep,
-    points: &[&Point],
-    x: &Variable,
-    y: &Variable,
-) -> Vec<Option<Option<&'a Assessment>>> {
+/// The points of a map by their places in the sweep.
+fn cells(points: &[&Point], x: &Variable, y: &Variable) -> Vec<Option<usize>> {
     let mut cells = vec![None; x.values.len() * y.values.len()];
     for point in points {
         let place = |variable: &Variable| {
@@ -240,7 +290,7 @@ fn cells<'a>(
             variable.values.iter().position(|known| *known == value)
         };
         if let (Some(i), Some(j)) = (place(x), place(y)) {
-            cells[j * x.values.len() + i] = Some(sweep.assessment(point.index));
+            cells[j * x.values.len() + i] = Some(point.index);
         }
     }
     cells

@@ -79,6 +79,11 @@ const PANELS: [Panel; 9] = [
     },
 ];
 
+/// The headings of the panels, and the figures on each.
+pub fn panels() -> impl Iterator<Item = (&'static str, &'static [Quantity])> {
+    PANELS.iter().map(|panel| (panel.heading, panel.quantities))
+}
+
 /// A panel a figure, a curve a series.
 ///
 /// # Errors
@@ -164,9 +169,12 @@ impl Panel {
                 };
                 any |= curve.draw(series, *quantity)?;
             }
-            for (x, assessment) in &series.points {
-                if assessment.is_none() {
-                    let at = (pixel(&chart, *x, 0.0).0, bottom - 7.0 - 9.0 * number as f64);
+            for point in &series.points {
+                if point.result.is_none() {
+                    let at = (
+                        pixel(&chart, point.x, 0.0).0,
+                        bottom - 7.0 - 9.0 * number as f64,
+                    );
                     cross(root, at, colour)?;
                 }
             }
@@ -183,9 +191,9 @@ impl Panel {
     fn range(&self, group: &Group) -> (f64, f64) {
         let mut range = (0.0_f64, 0.0_f64);
         for series in &group.series {
-            for (_, assessment) in &series.points {
+            for point in &series.points {
                 let estimates = self.quantities.iter();
-                let estimates = estimates.filter_map(|q| q.of((*assessment)?));
+                let estimates = estimates.filter_map(|q| q.of(point.result?));
                 for value in estimates.flat_map(|e| [Some(e.value), e.low, e.high]) {
                     let value = value.filter(|v| v.is_finite()).unwrap_or(0.0);
                     range = (range.0.min(value), range.1.max(value));
@@ -243,7 +251,7 @@ impl Curve<'_, '_, '_> {
         let known: Vec<(f64, Option<Estimate>)> = series
             .points
             .iter()
-            .map(|(x, assessment)| (*x, assessment.and_then(|a| quantity.of(a))))
+            .map(|point| (point.x, point.result.and_then(|a| quantity.of(a))))
             .collect();
         let finite = |(_, estimate): &(f64, Option<Estimate>)| {
             estimate.is_some_and(|estimate| estimate.value.is_finite())

@@ -14,7 +14,7 @@ mod approach;
 mod canvas;
 pub mod curve_data;
 mod curve_map;
-mod curves;
+pub(in crate::report) mod curves;
 pub(in crate::report) mod disconnectivity;
 pub mod dock;
 mod energy_map;

@@ -24,17 +24,17 @@ pub(crate) mod tests;
 use std::f64::consts::PI;
 
 use super::{CellBounds, Enclosure};
-use crate::cell::Cell;
+use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
 use crate::potential::dipole::Dipole;
 use crate::tile::Tile;
-use taylor::Taylor;
+pub(super) use taylor::{Spread, Taylor};
 
 /// mu0 / (4 pi) (T m / A).
 const SCALE: f64 = crate::units::MU0 / (4.0 * PI);
 
 /// Pairs closer than this many times the magnet's reach are bounded one by one.
-const NEAR: f64 = 4.0;
+pub(super) const NEAR: f64 = 4.0;
 
 /// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
 /// as touching, with room to spare.
@@ -49,6 +49,8 @@ pub struct DipoleBounds {
     rounding: f64,
     /// Largest distance of a fixed dipole from the origin (m).
     extent: f64,
+    /// Zero but for dipoles that stand for blocks.
+    spread: Spread,
 }
 
 /// A dipole of the fixed tile.
@@ -96,7 +98,44 @@ impl DipoleBounds {
             extent: fixed.iter().map(norm).fold(0.0, f64::max),
             fixed,
             moving,
+            spread: Spread::default(),
         }
+    }
+
+    /// The same dipoles standing for blocks.
+    pub(super) fn with_spread(self, spread: Spread) -> Self {
+        Self { spread, ..self }
+    }
+
+    /// The form of all pairs that are not near, and the bound of its remainder; with the
+    /// weights of all pairs (see [`Taylor`]).
+    pub(super) fn far<const BLOCKS: bool>(&self, cell: &Cell) -> (Quadratic, f64, Vec<f64>) {
+        let mut weights = Vec::new();
+        let (form, remainder) = self.level.run(Taylor::<BLOCKS> {
+            bounds: self,
+            cell,
+            weights: &mut weights,
+        });
+        (form, remainder, weights)
+    }
+
+    /// How many weights a fixed dipole has.
+    pub(super) fn stride(&self) -> usize {
+        self.moving.x.len()
+    }
+
+    /// The pairs that are near: the numbers of the fixed and of the moving dipole.
+    pub(super) fn near<'a>(
+        &'a self,
+        weights: &'a [f64],
+    ) -> impl Iterator<Item = (usize, usize)> + 'a {
+        let stride = self.stride();
+        weights
+            .iter()
+            .enumerate()
+            .filter(|(_, weight)| **weight == 0.0)
+            .map(move |(k, _)| (k / stride, k % stride))
+            .filter(|(_, i)| *i < self.moving.count)
     }
 }
 
@@ -145,22 +184,14 @@ impl Moving {
 
 impl CellBounds for DipoleBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
-        let mut weights = Vec::new();
-        let (form, remainder) = self.level.run(Taylor {
-            bounds: self,
-            cell,
-            weights: &mut weights,
-        });
+        let (form, remainder, weights) = self.far::<false>(cell);
         let mut out = Enclosure {
             form,
             low: -remainder,
             high: remainder,
         };
-        let stride = self.moving.x.len();
-        for (k, _) in weights.iter().enumerate().filter(|(_, far)| **far == 0.0) {
-            if k % stride < self.moving.count {
-                self.add_near(&mut out, cell, &self.fixed[k / stride], k % stride);
-            }
+        for (j, i) in self.near(&weights) {
+            self.add_near(&mut out, cell, &self.fixed[j], i);
         }
         out
     }

@@ -30,6 +30,18 @@
 //! ```
 //!
 //! and the remainder is a sixth of that.
+//!
+//! **Blocks** ([`Taylor`] with `BLOCKS`) add the remainder of what their energy V has over that of
+//! point dipoles, beyond its value and gradient. A block is an even spread of dipoles, so V is the
+//! mean over the offsets xi between two of them of `u(x + xi) - u(x)`, in which xi has mean zero
+//! and the mean square `s`: a second derivative of u along xi, at a distance of at least `rho_b`,
+//! the centres' rho less the blocks' radii. Two time derivatives fall on the place (speed `V_b`,
+//! acceleration `A_b w^2`, lever arms now to the blocks' farthest points) or on one of the three
+//! directions that turn, so half of the second time derivative is at most
+//!
+//! ```text
+//! K s / 4 [720 V_b^2 / rho_b^7 + (720 V_b w + 120 A_b w^2) / rho_b^6 + 216 w^2 / rho_b^5]
+//! ```
 
 use super::{DipoleBounds, NEAR};
 use crate::cell::{Cell, Quadratic};
@@ -44,10 +56,23 @@ const TINY: f64 = 1e-10;
 
 /// Sums up the far pairs of a cell: their form, and the bound of its remainder. `weights` gets 1
 /// for each far pair and 0 for each near one, which is left out; fixed dipole by fixed dipole.
-pub(super) struct Taylor<'a> {
+pub(in crate::potential::bounds) struct Taylor<'a, const BLOCKS: bool> {
     pub bounds: &'a DipoleBounds,
     pub cell: &'a Cell,
     pub weights: &'a mut Vec<f64>,
+}
+
+/// What must be known of blocks to bound them by their centres' dipoles.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::potential::bounds) struct Spread {
+    /// Pairs closer than this (m) are near.
+    pub near: f64,
+    /// Sum of the blocks' radii in the plane (m).
+    pub radii: f64,
+    /// Mean square of the offset between two dipoles (m^2).
+    pub square: f64,
+    /// Relative error of the value and of the gradient's effect, as a share of K / r^3.
+    pub error: f64,
 }
 
 /// A vector of complex numbers.
@@ -97,6 +122,8 @@ struct Dipoles<F> {
     near: F,
     /// Coefficients of rho^-3 to rho^-6 in the remainder.
     remainder: [F; 4],
+    /// The same for rho_b, from rho_b^-5 to rho_b^-7, where the dipoles stand for blocks.
+    spread: [F; 3],
 }
 
 /// Derivatives of psi, and the sum of the remainders.
@@ -110,7 +137,7 @@ struct Sums<F> {
     remainder: F,
 }
 
-impl Task for Taylor<'_> {
+impl<const BLOCKS: bool> Task for Taylor<'_, BLOCKS> {
     type Output = (Quadratic, f64);
 
     #[inline(always)]
@@ -151,7 +178,7 @@ impl Task for Taylor<'_> {
     }
 }
 
-impl Taylor<'_> {
+impl<const BLOCKS: bool> Taylor<'_, BLOCKS> {
     #[inline(always)]
     fn dipoles<L: Lanes>(&self, l: L, first: usize) -> Dipoles<L::F> {
         let moving = &self.bounds.moving;
@@ -170,7 +197,10 @@ impl Taylor<'_> {
         let lever = l.load(&moving.lever[first..]);
         let w = self.cell.half[2];
         let reach = l.mul_add(lever, l.splat(w), l.splat(self.cell.travel()));
-        let near = l.mul(l.splat(NEAR), reach);
+        let mut near = l.mul(l.splat(NEAR), reach);
+        if BLOCKS {
+            near = l.add(near, l.splat(self.bounds.spread.near));
+        }
         Dipoles {
             place: sum(l, [l.splat(q.x), l.splat(q.y)], arm),
             arm,
@@ -178,13 +208,31 @@ impl Taylor<'_> {
             reach,
             near: l.mul_add(near, near, l.splat(NEAR * NEAR * TINY * TINY)),
             remainder: self.remainder(l, w, reach, lever),
+            spread: self.spread(l, w, reach, lever),
         }
+    }
+
+    #[inline(always)]
+    fn spread<L: Lanes>(&self, l: L, w: f64, v: L::F, lever: L::F) -> [L::F; 3] {
+        let Spread { radii, square, .. } = self.bounds.spread;
+        let share = square / 4.0;
+        let v = l.add(v, l.splat(radii * w));
+        let lever = l.add(lever, l.splat(radii));
+        let turning = l.mul_add(l.splat(720.0 * w), v, l.mul(l.splat(120.0 * w * w), lever));
+        [
+            l.splat(share * 216.0 * w * w),
+            l.mul(l.splat(share), turning),
+            l.mul(l.splat(share * 720.0), l.mul(v, v)),
+        ]
     }
 
     #[inline(always)]
     fn remainder<L: Lanes>(&self, l: L, w: f64, v: L::F, lever: L::F) -> [L::F; 4] {
         let q = &self.cell.centre;
-        let rounding = self.bounds.rounding;
+        let mut rounding = self.bounds.rounding;
+        if BLOCKS {
+            rounding += self.bounds.spread.error;
+        }
         let size = self.bounds.extent + q.x.abs() + q.y.abs() + 1.0;
         let second = l.mul(lever, l.splat(w * w));
         let v2 = l.mul(v, v);
@@ -219,7 +267,8 @@ impl Taylor<'_> {
         let weight = l.min(l.sub(l.splat(0.0), nearness), l.splat(1.0));
         let r2 = at_least(l, r2, TINY * TINY);
         let i1 = l.reciprocal_sqrt(r2);
-        let rho = l.reciprocal(at_least(l, l.sub(l.mul(r2, i1), dipoles.reach), TINY));
+        let distance = l.sub(l.mul(r2, i1), dipoles.reach);
+        let rho = l.reciprocal(at_least(l, distance, TINY));
         let i2 = l.mul(i1, i1);
         let i4 = l.mul(l.mul(i2, i2), weight);
         let i3 = l.mul(l.mul(i2, i1), weight);
@@ -251,6 +300,15 @@ impl Taylor<'_> {
         let rho3 = l.mul(l.mul(rho, rho), l.mul(rho, weight));
         let magnitude = l.splat(fixed.magnitude);
         sums.remainder = l.mul_add(l.mul(magnitude, rho3), series, sums.remainder);
+        if BLOCKS {
+            let distance = l.sub(distance, l.splat(self.bounds.spread.radii));
+            let rho = l.reciprocal(at_least(l, distance, TINY));
+            let rho2 = l.mul(rho, rho);
+            let rho5 = l.mul(l.mul(rho2, rho2), l.mul(rho, weight));
+            let [c5, c6, c7] = dipoles.spread;
+            let series = l.mul_add(rho, l.mul_add(rho, c7, c6), c5);
+            sums.remainder = l.mul_add(l.mul(magnitude, rho5), series, sums.remainder);
+        }
         weight
     }
 }

@@ -12,22 +12,21 @@
 //! until every meeting place is a transition state, or its energy moves by less than a set
 //! fraction of the barrier from round to round.
 
+mod densify;
+
 use std::collections::{HashMap, HashSet};
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use nalgebra::Vector3;
 
 use super::minimum::{Descent, Outcome, descend};
-use super::network::{Link, Merge, Network, Way};
+use super::network::{Merge, Network, Way};
 use super::slide::{self, Point};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-use crate::roadmap::edge::{self, EdgeCosts};
-use crate::roadmap::{EdgeSettings, Milestone, Roadmap};
+use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
@@ -72,13 +71,14 @@ impl Survey {
     /// minima; `images` gives the configurations that symmetries make of one (itself included).
     pub fn new(
         problem: &Problem,
-        roadmap: &Roadmap,
+        roadmap: Roadmap,
         guesses: &[Configuration],
         images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
         survey.find_states(problem, guesses, settings);
+        survey.network.span();
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
             survey.rounds = round;
@@ -92,17 +92,19 @@ impl Survey {
             }
             survey.polish(problem, &open, images, &mut tried, settings);
             survey.densify(problem, &open, round as u64, settings);
+            survey.network.span();
         }
         survey
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
-    pub(crate) fn of_roadmap(problem: &Problem, roadmap: &Roadmap) -> Self {
+    pub(crate) fn of_roadmap(problem: &Problem, roadmap: Roadmap) -> Self {
         let mut network = Network::new(roadmap);
         let free = network.add_node(None);
-        for (i, milestone) in roadmap.milestones.iter().enumerate() {
-            if problem.space.is_far(&milestone.configuration) {
-                network.add_link(same_link(i, free, milestone.energy));
+        for node in 0..free {
+            let far = network.nodes[node].filter(|known| problem.space.is_far(&known.0));
+            if let Some((_, energy)) = far {
+                network.add_same(node, free, energy);
             }
         }
         Self {
@@ -150,22 +152,6 @@ impl Survey {
         }
     }
 
-    /// Joins a node to the network by milestones around it.
-    fn join(&mut self, problem: &Problem, node: usize, settings: &SurveySettings) {
-        let Some((centre, energy)) = self.network.nodes[node] else {
-            return;
-        };
-        for radius in [1e-3, 1e-2, 3e-2] {
-            let place = Place {
-                centre,
-                radius,
-                highest: energy.abs() + settings.edge.tolerance.absolute,
-                number: node as u64,
-            };
-            self.densify_at(problem, &place, settings);
-        }
-    }
-
     /// The node in which a descent ended, made if need be.
     pub(crate) fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
@@ -173,8 +159,7 @@ impl Survey {
             Outcome::Free => {
                 let last = descent.way.last()?;
                 let node = self.network.add_node(Some((last.q, last.energy)));
-                let link = same_link(node, self.free, last.energy);
-                self.network.add_link(link);
+                self.network.add_same(node, self.free, last.energy);
                 Some(node)
             }
             Outcome::Stuck => None,
@@ -212,7 +197,7 @@ impl Survey {
             .map(|s| (s.node, s.minimum.point.energy))
             .collect();
         labelled.push((self.free, f64::NEG_INFINITY));
-        self.network.minimax_tree().merges(&labelled)
+        self.network.merges(&labelled)
     }
 
     fn is_settled(&self, merge: &Merge, settings: &SurveySettings) -> bool {
@@ -303,158 +288,18 @@ impl Survey {
 
     /// The highest configuration of a link and the direction in which the link passes it.
     fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
-        let link = &self.network.links[number];
         let q = self.network.peak_configuration(number)?;
-        let along = match &link.way {
+        let along = match self.network.way(number) {
             Way::Same => return None,
             Way::Straight => {
-                let (a, b) = (
-                    self.network.nodes[link.from]?.0,
-                    self.network.nodes[link.to]?.0,
-                );
-                a.step_to(&b)
+                let link = &self.network.links[number];
+                let [a, b] = [link.from, link.to].map(|node| self.network.nodes[node as usize]);
+                a?.0.step_to(&b?.0)
             }
             Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
         };
         Some((q, along))
     }
-
-    /// Adds milestones around the meeting places that are still no transition states, and notes
-    /// how far that has moved them.
-    fn densify(
-        &mut self,
-        problem: &Problem,
-        open: &[Merge],
-        round: u64,
-        settings: &SurveySettings,
-    ) {
-        let before: HashMap<usize, Merge> =
-            self.merges().into_iter().map(|m| (m.upper, m)).collect();
-        let still: Vec<Merge> = open
-            .iter()
-            .filter_map(|merge| before.get(&merge.upper).copied())
-            .filter(|merge| !self.is_settled(merge, settings))
-            .collect();
-        for merge in &still {
-            self.densify_around(problem, merge, round, settings);
-        }
-        let after: HashMap<usize, Merge> =
-            self.merges().into_iter().map(|m| (m.upper, m)).collect();
-        for merge in &still {
-            if let Some(now) = after.get(&merge.upper) {
-                let peak = |m: &Merge| self.network.links[m.link].costs.peak;
-                self.unpolished.insert(now.link, peak(merge) - peak(now));
-            }
-        }
-    }
-
-    fn densify_around(
-        &mut self,
-        problem: &Problem,
-        merge: &Merge,
-        round: u64,
-        settings: &SurveySettings,
-    ) {
-        let Some((centre, along)) = self.meeting_place(merge.link) else {
-            return;
-        };
-        let place = Place {
-            centre,
-            radius: problem.space.length(along).clamp(2e-3, 0.03),
-            highest: self.network.links[merge.link].costs.peak,
-            number: (round << 32) + merge.link as u64,
-        };
-        self.densify_at(problem, &place, settings);
-    }
-
-    fn densify_at(&mut self, problem: &Problem, place: &Place, settings: &SurveySettings) {
-        let added = added_milestones(problem, place, settings);
-        let (centre, radius) = (place.centre, place.radius);
-        // Old nodes around the place, then the new ones; links among them all that involve a new
-        // one.
-        let mut around: Vec<(usize, Milestone)> = self
-            .network
-            .nodes
-            .iter()
-            .enumerate()
-            .filter_map(|(i, node)| {
-                let (q, _) = (*node)?;
-                (problem.space.distance(&q, &centre) <= 2.0 * radius)
-                    .then(|| (i, Milestone::new(problem, q)))
-            })
-            .collect();
-        let old = around.len();
-        for milestone in added {
-            let node = self
-                .network
-                .add_node(Some((milestone.configuration, milestone.energy)));
-            around.push((node, milestone));
-        }
-        let pairs = pairs_with_new(problem, &around, old, 12);
-        let milestones: Vec<Milestone> = around.iter().map(|a| a.1).collect();
-        for found in edge::edges(problem, &milestones, &pairs, &settings.edge) {
-            self.network.add_link(Link {
-                from: around[found.from as usize].0,
-                to: around[found.to as usize].0,
-                costs: found.costs,
-                way: Way::Straight,
-            });
-        }
-    }
-}
-
-/// A place around which milestones are added.
-struct Place {
-    centre: Configuration,
-    /// How far around (m, metric of the space).
-    radius: f64,
-    /// New milestones lie below this energy (J).
-    highest: f64,
-    /// Tells the random streams of places apart.
-    number: u64,
-}
-
-/// Free configurations around a place, those that would overlap pushed out into contact.
-fn added_milestones(problem: &Problem, place: &Place, settings: &SurveySettings) -> Vec<Milestone> {
-    (0..settings.added_milestones)
-        .into_par_iter()
-        .filter_map(|i| {
-            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ place.number.rotate_left(16));
-            rng.set_stream((1 << 32) + i as u64);
-            let mut draw = || rng.random_range(-1.0..1.0);
-            let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
-            let aim = place.centre.moved(step);
-            let q = slide::settle(problem, &aim, place.radius)?;
-            let milestone = Milestone::new(problem, q);
-            (milestone.energy < place.highest).then_some(milestone)
-        })
-        .collect()
-}
-
-/// For each new configuration (from `old` on) its `k` nearest among all.
-fn pairs_with_new(
-    problem: &Problem,
-    around: &[(usize, Milestone)],
-    old: usize,
-    k: usize,
-) -> Vec<(u32, u32)> {
-    let mut pairs: Vec<(u32, u32)> = Vec::new();
-    for i in old..around.len() {
-        let here = &around[i].1.configuration;
-        let mut near: Vec<(f64, usize)> = (0..around.len())
-            .filter(|&j| j != i)
-            .map(|j| (problem.space.distance(here, &around[j].1.configuration), j))
-            .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        pairs.extend(
-            near.iter()
-                .take(k)
-                .map(|&(_, j)| (i.min(j) as u32, i.max(j) as u32)),
-        );
-    }
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
 }
 
 /// The descent from a transition state to one of its sides.
@@ -464,17 +309,4 @@ fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Desce
     let start = slide::settle(problem, &aim, OFF_SADDLE)?;
     let descent = descend(problem, &start);
     (descent.way[0].energy <= saddle.point.energy).then_some(descent)
-}
-
-/// A link that identifies a far configuration with `free`.
-pub(crate) fn same_link(from: usize, to: usize, energy: f64) -> Link {
-    Link {
-        from,
-        to,
-        costs: EdgeCosts {
-            peak: energy,
-            ..EdgeCosts::default()
-        },
-        way: Way::Same,
-    }
 }

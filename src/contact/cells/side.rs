@@ -1,0 +1,122 @@
+//! One of two tiles, as the cells of a subdivision see it.
+
+use nalgebra::Vector2;
+
+use crate::contact::tree::CircleTree;
+use crate::tile::Outline;
+use crate::tile::outline::distance_to_segment;
+
+/// Inner points that are tried as witnesses of overlap, at most.
+const INNER: usize = 8;
+
+/// One tile, as the other one's cells see it.
+#[derive(Clone, Debug)]
+pub(super) struct Side {
+    pub outline: Outline,
+    pub edges: CircleTree,
+    /// Points on the boundary that may lie inside the other tile: vertex i at 2 i, the middle of
+    /// edge i at 2 i + 1.
+    pub probes: Vec<Vector2<f64>>,
+    pub probe_tree: CircleTree,
+    /// Points deep inside.
+    pub inner: Vec<Vector2<f64>>,
+}
+
+impl Side {
+    pub fn new(outline: &Outline) -> Self {
+        let edges = (0..outline.vertices().len()).map(|i| outline.edge(i));
+        let circles: Vec<_> = edges
+            .clone()
+            .map(|(a, b)| ((a + b) / 2.0, (b - a).norm() / 2.0))
+            .collect();
+        let probes: Vec<_> = edges.flat_map(|(a, b)| [a, (a + b) / 2.0]).collect();
+        let points: Vec<_> = probes.iter().map(|p| (*p, 0.0)).collect();
+        let mut inner: Vec<_> = outline
+            .parts()
+            .iter()
+            .map(|part| part.points.iter().sum::<Vector2<f64>>() / part.points.len() as f64)
+            .collect();
+        inner.push(outline.centroid());
+        inner.retain(|p| outline.contains(*p));
+        inner.sort_by(|a, b| {
+            outline
+                .signed_distance(*a)
+                .total_cmp(&outline.signed_distance(*b))
+        });
+        inner.truncate(INNER);
+        Self {
+            outline: outline.clone(),
+            edges: CircleTree::new(&circles),
+            probes,
+            probe_tree: CircleTree::new(&points),
+            inner,
+        }
+    }
+
+    /// Whether no point of the boundary is within `distance` of a point.
+    pub fn boundary_is_beyond(&self, at: Vector2<f64>, distance: f64) -> bool {
+        self.edges.near(at, distance, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            distance_to_segment(at, a, b) > distance
+        })
+    }
+
+    /// Whether all points within `distance` of a point are inside.
+    pub fn holds_disc(&self, at: Vector2<f64>, distance: f64) -> bool {
+        at.norm() < self.outline.circumradius()
+            && self.boundary_is_beyond(at, distance)
+            && self.outline.contains(at)
+    }
+
+    /// What a point at `at` that gets no farther than `reach` (m) says.
+    pub fn verdict(&self, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
+        let n = self.outline.vertices().len();
+        let mut near = [0; 3];
+        let mut count = 0;
+        self.edges.near(at, reach, &mut |i| {
+            let (a, b) = self.outline.edge(i);
+            if distance_to_segment(at, a, b) <= reach {
+                near[count] = i;
+                count += 1;
+            }
+            count < near.len()
+        });
+        let near = &mut near[..count];
+        near.sort_unstable();
+        let inside = || self.outline.contains(at);
+        match *near {
+            [] if inside() => Verdict::Blocked,
+            [] => Verdict::Nothing,
+            [edge] if vertex => Verdict::Edges([edge, edge]),
+            [i, j] if vertex && (i + 1 == j || (i == 0 && j + 1 == n)) => {
+                let corner = if i + 1 == j { j } else { 0 };
+                if self.outline.convex_vertices()[corner] {
+                    Verdict::Corner([i, j])
+                } else {
+                    Verdict::Edges([i, j])
+                }
+            }
+            _ if inside() => Verdict::Inside(self.distance_to_boundary(at)),
+            _ => Verdict::Nothing,
+        }
+    }
+
+    pub fn distance_to_boundary(&self, at: Vector2<f64>) -> f64 {
+        self.edges.nearest(at, &|i| {
+            let (a, b) = self.outline.edge(i);
+            distance_to_segment(at, a, b)
+        })
+    }
+}
+
+/// What one point of one tile says about a cell.
+pub(super) enum Verdict {
+    Nothing,
+    Blocked,
+    /// Inside at the centre, this deep (m), but too near to several edges to say more.
+    Inside(f64),
+    /// Must be on the outer side of these edges (twice the same, if it is one).
+    Edges([usize; 2]),
+    /// Must be on the outer side of one of these edges.
+    Corner([usize; 2]),
+}

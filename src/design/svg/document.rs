@@ -1,0 +1,278 @@
+//! An SVG file as the shapes that it draws, in metres.
+
+use std::str::FromStr;
+
+use kurbo::Affine;
+use roxmltree::{Document, Node, ParsingOptions};
+use svgtypes::Transform;
+
+use super::super::error::{Source, Span};
+use super::super::reader::Result;
+use super::path::{SHAPES, draw};
+use super::pen::{Pen, points};
+use super::scale::scale;
+
+const NAMESPACE: &str = "http://www.w3.org/2000/svg";
+
+/// Most elements of a drawing.
+const MOST_NODES: u32 = 200_000;
+
+/// Cubics that stand for an arc leave it by this share of the chord error at most.
+const ARC_SHARE: f64 = 1e-3;
+
+/// A shape of a drawing.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    /// The element's name.
+    pub element: String,
+    pub id: Option<String>,
+    /// The element's name in the file.
+    pub span: Span,
+    pub lines: Vec<Line>,
+}
+
+/// A line drawn without lifting the pen: x to the right, y upwards (m).
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub start: [f64; 2],
+    /// For each drawn segment its points after the first one; one for a straight segment.
+    pub segments: Vec<Vec<[f64; 2]>>,
+    pub closed: bool,
+}
+
+/// What is not read of a drawing: the place, and what is there.
+pub(super) type Skipped = (Span, String);
+
+/// All shapes of a drawing, and what else is in it. `unit` is what the design says of the length
+/// (m) of a user unit.
+pub(super) fn read(
+    source: Source,
+    unit: Option<f64>,
+    chord_error: f64,
+) -> Result<(Vec<Shape>, Vec<Skipped>)> {
+    let options = ParsingOptions {
+        // OpenSCAD begins with one.
+        allow_dtd: true,
+        nodes_limit: MOST_NODES,
+        ..ParsingOptions::default()
+    };
+    let document = Document::parse_with_options(source.text, options).map_err(|error| {
+        let at = byte_of(source.text, error.pos());
+        source.error(
+            (at..at + 1).into(),
+            format!("the drawing is not well-formed XML: {error}"),
+            "write it anew with the program that drew it",
+        )
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" || !is_svg(root) {
+        return Err(source.error(
+            span(root),
+            format!("a drawing is an <svg>, not a <{}>", root.tag_name().name()),
+            "save the drawing as plain SVG",
+        ));
+    }
+    let mut reader = Reader {
+        source,
+        chord_error,
+        shapes: Vec::new(),
+        skipped: Vec::new(),
+    };
+    reader.refuse_unread_transforms(root, true)?;
+    let map = scale(source, root, unit)?;
+    reader.children(root, map)?;
+    Ok((reader.shapes, reader.skipped))
+}
+
+struct Reader<'a> {
+    source: Source<'a>,
+    chord_error: f64,
+    shapes: Vec<Shape>,
+    skipped: Vec<Skipped>,
+}
+
+impl Reader<'_> {
+    fn children(&mut self, parent: Node, map: Affine) -> Result<()> {
+        for node in parent.children().filter(Node::is_element) {
+            // Notes of the drawing program, licences and the like draw nothing.
+            if is_svg(node) {
+                self.element(node, map)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn element(&mut self, node: Node, map: Affine) -> Result<()> {
+        let name = node.tag_name().name();
+        let empty = || node.text().is_none_or(|text| text.trim().is_empty());
+        match name {
+            // Drawn only where a <use> asks for it, and that is listed.
+            "title" | "desc" | "metadata" | "defs" | "symbol" => return Ok(()),
+            "style" if empty() => return Ok(()),
+            _ => {}
+        }
+        let container = matches!(name, "g" | "a");
+        if !container && !SHAPES.contains(&name) {
+            self.skipped.push((span(node), format!("<{name}>")));
+            return Ok(());
+        }
+        if let Some(reason) = hidden(node) {
+            let note = format!("<{name}> ({reason})");
+            self.skipped.push((span(node), note));
+            return Ok(());
+        }
+        for unread in ["clip-path", "mask"] {
+            if property(node, unread).is_some_and(|value| value != "none") {
+                let note = format!("the {unread} of <{name}>");
+                self.skipped.push((span(node), note));
+            }
+        }
+        self.refuse_unread_transforms(node, false)?;
+        let map = map * self.transform(node)?;
+        if container {
+            return self.children(node, map);
+        }
+        self.shape(node, map)
+    }
+
+    fn shape(&mut self, node: Node, map: Affine) -> Result<()> {
+        // The map's largest stretch of any direction.
+        let stretch = map.spectral_norm();
+        let mut pen = Pen::new(ARC_SHARE * self.chord_error / stretch);
+        draw(node, &mut pen).map_err(|fault| {
+            let place = node.attribute_node(fault.attribute);
+            let place = place.map_or(span(node), |attribute| {
+                let value = attribute.range_value();
+                let written = &self.source.text[value.clone()];
+                let at = fault.character.and_then(|character| {
+                    // Past the end, the last character is to blame.
+                    written.char_indices().take(character + 1).last()
+                });
+                match at {
+                    Some((at, c)) => (value.start + at..value.start + at + c.len_utf8()).into(),
+                    None => value.into(),
+                }
+            });
+            let help = "mend the shape, or convert it to a path in the drawing program";
+            self.source.error(place, fault.message, help)
+        })?;
+        let lines: Vec<Line> = pen
+            .finish()
+            .iter()
+            .map(|stroke| {
+                let start = map * stroke.start;
+                let segments = stroke.segments.iter();
+                Line {
+                    start: [start.x, start.y],
+                    segments: segments
+                        .map(|segment| points(segment, map, self.chord_error))
+                        .collect(),
+                    closed: stroke.closed,
+                }
+            })
+            .collect();
+        let finite = lines.iter().all(|line| {
+            let all = line.segments.iter().flatten().chain([&line.start]);
+            all.flatten().all(|x| x.is_finite())
+        });
+        if !finite {
+            let message = "the shape's coordinates are not finite";
+            let help = "look for very large numbers in the shape and its transforms";
+            return Err(self.source.error(span(node), message, help));
+        }
+        if lines.is_empty() {
+            let note = format!("<{}> that draws nothing", node.tag_name().name());
+            self.skipped.push((span(node), note));
+            return Ok(());
+        }
+        self.shapes.push(Shape {
+            element: node.tag_name().name().to_owned(),
+            id: node.attribute("id").map(str::to_owned),
+            span: span(node),
+            lines,
+        });
+        Ok(())
+    }
+
+    fn transform(&self, node: Node) -> Result<Affine> {
+        let Some(attribute) = node.attribute_node("transform") else {
+            return Ok(Affine::IDENTITY);
+        };
+        let Transform { a, b, c, d, e, f } =
+            Transform::from_str(attribute.value()).map_err(|error| {
+                let message = format!("`transform` cannot be read: {error}");
+                let help = "apply the transform in the drawing program";
+                self.source
+                    .error(attribute.range_value().into(), message, help)
+            })?;
+        Ok(Affine::new([a, b, c, d, e, f]))
+    }
+
+    /// Refuses what would move a shape and is not read.
+    fn refuse_unread_transforms(&self, node: Node, root: bool) -> Result<()> {
+        let help = "apply the transform in the drawing program";
+        if style(node).any(|(name, _)| name.starts_with("transform"))
+            || node.has_attribute("transform-origin")
+        {
+            let message = "transforms in styles and about other origins are not read";
+            return Err(self.source.error(span(node), message, help));
+        }
+        if root && node.has_attribute("transform") {
+            let message = "a transform of the whole drawing is not read";
+            return Err(self.source.error(span(node), message, help));
+        }
+        Ok(())
+    }
+}
+
+/// Whether an element is SVG's; a drawing without any namespace is taken for one.
+fn is_svg(node: Node) -> bool {
+    node.tag_name()
+        .namespace()
+        .is_none_or(|uri| uri == NAMESPACE)
+}
+
+/// The name in an element's tag.
+pub(super) fn span(node: Node) -> Span {
+    let start = node.range().start + 1;
+    let name = node.tag_name().name().len();
+    (start..start + name).into()
+}
+
+/// The properties in an element's `style`.
+fn style<'a>(node: Node<'a, '_>) -> impl Iterator<Item = (&'a str, &'a str)> {
+    let declarations = node.attribute("style").unwrap_or_default().split(';');
+    declarations.filter_map(|declaration| {
+        let (name, value) = declaration.split_once(':')?;
+        Some((name.trim(), value.trim()))
+    })
+}
+
+/// A property, in the style or as an attribute.
+fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    let styled = style(node).find(|(property, _)| *property == name);
+    styled
+        .map(|(_, value)| value)
+        .or_else(|| node.attribute(name))
+}
+
+/// Why an element is not to be seen.
+fn hidden(node: Node) -> Option<&'static str> {
+    if property(node, "display") == Some("none") {
+        return Some("not displayed");
+    }
+    let invisible = matches!(property(node, "visibility"), Some("hidden" | "collapse"));
+    invisible.then_some("hidden")
+}
+
+/// The byte of a position that the XML parser gives, row and column from 1.
+fn byte_of(text: &str, position: roxmltree::TextPos) -> usize {
+    let rows: usize = text
+        .split_inclusive('\n')
+        .take((position.row as usize).saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let column = (position.col as usize).saturating_sub(1);
+    let within = text[rows..].char_indices().nth(column);
+    rows + within.map_or(0, |(at, _)| at)
+}

@@ -1,0 +1,117 @@
+//! How large a drawing is.
+
+use std::str::FromStr;
+
+use kurbo::Affine;
+use roxmltree::Node;
+use svgtypes::{AspectRatio, Length, LengthUnit, ViewBox};
+
+use super::super::error::Source;
+use super::super::reader::Result;
+use super::document::span;
+use super::path::{INCH, metres};
+
+/// How much the scales along x and y, or two statements of the same scale, may differ.
+const SAME_SCALE: f64 = 1e-4;
+
+/// The units that a design may give a drawing.
+pub(in crate::design) const UNITS: [(&str, f64); 6] = [
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("m", 1.0),
+    ("in", INCH),
+    ("pt", INCH / 72.0),
+    ("px", INCH / 96.0),
+];
+
+/// From user units, y down, to metres, y up.
+pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Affine> {
+    let view_box = root
+        .attribute_node("viewBox")
+        .map(|attribute| {
+            ViewBox::from_str(attribute.value()).map_err(|error| {
+                let help = "give four numbers: viewBox=\"0 0 430 430\"";
+                source.error(attribute.range_value().into(), error.to_string(), help)
+            })
+        })
+        .transpose()?;
+    let size = view_box.map(|view_box| [view_box.w, view_box.h]);
+    let stated = stated_scale(source, root, size)?;
+    let [x, y] = match (unit, stated) {
+        (Some(unit), Some(stated)) if !agree(unit, stated[0]) || !agree(unit, stated[1]) => {
+            let message = format!(
+                "the drawing says that a user unit is {} mm, the design {} mm",
+                1e3 * stated[0],
+                1e3 * unit
+            );
+            let help = "take `unit` away: the drawing knows its size";
+            return Err(source.error(span(root), message, help));
+        }
+        (_, Some(stated)) => stated,
+        (Some(unit), None) => [unit, unit],
+        (None, None) => {
+            let message = "the drawing does not say how large it is: its width and height are \
+                           not in mm, cm, in, pt or pc";
+            let help = "write width and height with units, such as width=\"430mm\", or give \
+                        the length of a user unit in the design: unit = \"mm\"";
+            return Err(source.error(span(root), message, help));
+        }
+    };
+    Ok(Affine::scale_non_uniform(x, -y))
+}
+
+/// The length (m) of a user unit along x and y where the drawing states it.
+fn stated_scale(
+    source: Source,
+    root: Node,
+    view_box: Option<[f64; 2]>,
+) -> Result<Option<[f64; 2]>> {
+    let mut stated = [None, None];
+    for (k, name) in ["width", "height"].into_iter().enumerate() {
+        let length = root.attribute(name).map(Length::from_str);
+        let Some(Ok(Length { number, unit })) = length else {
+            continue;
+        };
+        let Some(metres) = metres(unit) else {
+            continue;
+        };
+        if number <= 0.0 || !number.is_finite() {
+            let help = "give the drawing a width and a height";
+            return Err(source.error(span(root), format!("a {name} of {number}"), help));
+        }
+        // Without a view box, user units are CSS px.
+        let user_units = view_box.map_or(number * metres / (INCH / 96.0), |size| size[k]);
+        stated[k] = Some(number * metres / user_units);
+    }
+    let px = |name| {
+        let length = root.attribute(name).map(Length::from_str);
+        matches!(length, Some(Ok(length)) if matches!(length.unit, LengthUnit::None | LengthUnit::Px))
+    };
+    let scales = match stated {
+        [Some(x), Some(y)] => [x, y],
+        [Some(one), None] if !px("height") => [one, one],
+        [None, Some(one)] if !px("width") => [one, one],
+        _ => return Ok(None),
+    };
+    if agree(scales[0], scales[1]) {
+        // As far as a viewer goes: the whole drawing fits.
+        let fit = scales[0].min(scales[1]);
+        return Ok(Some([fit, fit]));
+    }
+    let aspect = root.attribute("preserveAspectRatio");
+    let aspect = aspect.and_then(|text| AspectRatio::from_str(text).ok());
+    if aspect.is_some_and(|aspect| aspect.align == svgtypes::Align::None) {
+        return Ok(Some(scales));
+    }
+    let message = format!(
+        "width and height do not fit the view box: a user unit is {} mm along x, {} mm along y",
+        1e3 * scales[0],
+        1e3 * scales[1]
+    );
+    let help = "give the drawing a size of the proportions of its view box";
+    Err(source.error(span(root), message, help))
+}
+
+fn agree(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_SCALE * a.max(b)
+}

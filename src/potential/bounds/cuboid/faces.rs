@@ -1,0 +1,295 @@
+//! One pair of blocks near each other: quadratures over the second one's pole faces whose errors
+//! are bounded over a whole cell.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+
+use super::nodes::{Node, Nodes};
+use crate::potential::cuboid::block::Block;
+use crate::potential::cuboid::limits::segment_distance;
+use crate::potential::cuboid::quadrature::Rules;
+
+/// How much (m) blocks may overlap in configurations that count as free, with room to spare.
+const SLACK: f64 = 1e-8;
+
+/// Panels take a Gauss rule of 4, 8 or 16 nodes from these distances on, in halves of the panel's
+/// width: each leaves about 1e-7 of the integrand's bound.
+const RULES: [(f64, Rule); 3] = [(4.9, Rule::Four), (1.6, Rule::Eight), (0.7, Rule::Sixteen)];
+
+/// The share of the distance to the sheet that the ellipse of analyticity takes.
+const ELLIPSE: f64 = 0.75;
+
+/// Panels get third-order forms from a distance of this many times their reach on.
+const FAR: f64 = 3.0;
+
+/// Panels are not cut finer than this share of the face.
+const FINEST: f64 = 1.0 / 128.0;
+
+#[derive(Clone, Copy)]
+enum Rule {
+    Four,
+    Eight,
+    Sixteen,
+}
+
+/// The second block as seen from the first, in the first one's frame: u along its axis, v along
+/// its pole faces.
+pub(super) struct Pair {
+    first: [f64; 3],
+    second: [f64; 3],
+    /// `mu0 / (4 pi)` times the product of the charge densities (J/m^3).
+    strength: f64,
+    /// Place (m) and axis of the second block.
+    place: Vector2<f64>,
+    axis: Vector2<f64>,
+    motion: Motion,
+}
+
+/// How a cell moves the second block.
+#[derive(Clone, Copy)]
+pub(super) struct Motion {
+    /// Way (m) to the block from the point about which it turns.
+    pub arm: Vector2<f64>,
+    /// Farthest any point of it gets (m), and half the cell's angle (rad).
+    pub reach: f64,
+    pub turn: f64,
+    /// Whether no point of the second block gets into the first one where the tiles are free.
+    pub apart: bool,
+}
+
+/// A piece of a pole face of the second block before one of the first.
+#[derive(Clone, Copy)]
+struct Panel {
+    /// `h` out of the first block's face and `v` along it, of the middle (m), and their change
+    /// per metre of the panel.
+    middle: Vector2<f64>,
+    along: Vector2<f64>,
+    /// Half the panel's width (m).
+    half: f64,
+    /// The direction of h along u.
+    side: f64,
+    /// The pair's strength with the poles' signs (J/m^3).
+    strength: f64,
+    /// Way (m) from the point about which the second block turns to the middle, along u and v.
+    arm: Vector2<f64>,
+}
+
+impl Panel {
+    /// A part of it, `offset` (m) from the middle.
+    fn part(&self, offset: f64, half: f64) -> Self {
+        let way = self.along * offset;
+        Self {
+            middle: self.middle + way,
+            arm: self.arm + Vector2::new(self.side * way.x, way.y),
+            half,
+            ..*self
+        }
+    }
+
+    /// A node of no weight in the middle.
+    fn node(&self) -> Node {
+        Node {
+            h: self.middle.x,
+            v: self.middle.y,
+            side: self.side,
+            arm: self.arm.into(),
+            ..Node::default()
+        }
+    }
+
+    /// The weight (J/m^2) of Phi over the whole panel. Nodes give half of Phi.
+    fn weight(&self) -> f64 {
+        2.0 * self.half * self.strength
+    }
+}
+
+impl Pair {
+    /// `second` as the cell's centre places it.
+    pub fn new(first: &Block, second: &Block, strength: f64, motion: &Motion) -> Self {
+        let into = |w: Vector2<f64>| Vector2::new(first.axis.dot(&w), first.axis.perp(&w));
+        Self {
+            first: first.size,
+            second: second.size,
+            strength,
+            place: into(second.position - first.position),
+            axis: into(second.axis),
+            motion: Motion {
+                arm: into(motion.arm),
+                ..*motion
+            },
+        }
+    }
+
+    /// Appends the nodes of all four pairs of pole faces; returns the bound of what they leave out
+    /// (J), but for the nodes' own spread.
+    pub fn append(&self, nodes: &mut Nodes) -> f64 {
+        let along = Vector2::new(-self.axis.y, self.axis.x);
+        let mut rest = 0.0;
+        for (side, pole) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let offset = self.axis * (pole * self.second[0] / 2.0);
+            let middle = self.place + offset;
+            let face = Panel {
+                middle: Vector2::new(side * middle.x - self.first[0] / 2.0, middle.y),
+                along: Vector2::new(side * along.x, along.y),
+                half: self.second[1] / 2.0,
+                side,
+                strength: side * pole * self.strength,
+                arm: self.motion.arm + offset,
+            };
+            rest += self.cut(&face, nodes);
+        }
+        rest
+    }
+
+    /// Cuts a panel until each piece is far enough for its width, or fine enough.
+    fn cut(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
+        let distance = self.distance(panel) - self.motion.reach - SLACK;
+        if distance >= FAR * self.motion.reach {
+            let ratio = distance / panel.half;
+            let rule = RULES.iter().find(|(least, _)| ratio >= *least);
+            if let Some((_, rule)) = rule {
+                return self.gauss(panel, distance, *rule, nodes);
+            }
+        }
+        let fine = (0.5 * self.motion.reach).max(FINEST * self.second[1]);
+        if panel.half <= fine {
+            return self.touch(panel, nodes);
+        }
+        let half = panel.half / 2.0;
+        [-half, half]
+            .into_iter()
+            .map(|offset| self.cut(&panel.part(offset, half), nodes))
+            .sum()
+    }
+
+    /// The least distance (m) of a panel's points from the first block's pole face.
+    fn distance(&self, panel: &Panel) -> f64 {
+        let end = panel.along * panel.half;
+        let half = Vector2::new(0.0, self.first[1] / 2.0);
+        segment_distance([panel.middle - end, panel.middle + end], [-half, half])
+    }
+
+    /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
+    fn gauss(&self, panel: &Panel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
+        let rules = Rules::get();
+        let (places, weights): (&[f64], &[f64]) = match rule {
+            Rule::Four => (&rules.four[0], &rules.four[1]),
+            Rule::Eight => (&rules.eight[0], &rules.eight[1]),
+            Rule::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
+        };
+        for (place, share) in places.iter().zip(weights) {
+            let weight = share * panel.weight();
+            nodes.push(&Node {
+                value: weight,
+                slope: weight,
+                bend: weight,
+                ..panel.part(place * panel.half, panel.half).node()
+            });
+        }
+        let [width, thin, thick] = self.charge();
+        let area = thin * thick;
+        let short = ELLIPSE * distance / panel.half;
+        let rho = short + (1.0 + short * short).sqrt();
+        let power = rho.powi(-2 * places.len() as i32);
+        let largest = width * area / ((1.0 - ELLIPSE) * distance);
+        let error = 64.0 / 15.0 * largest * power / (1.0 - 1.0 / (rho * rho)) / 2.0;
+
+        let (d, v, w) = (distance, self.motion.reach, self.motion.turn);
+        let bend = panel.arm.norm() + panel.half;
+        let (d2, d3, d4) = (d * d, d * d * d, d * d * d * d);
+        let first = (width * area / d2).min(PI * area / d);
+        let second = (2.0 * width * area / d3)
+            .min(4.0 * area / d2)
+            .min(4.0 * PI * thin / d);
+        let third = (6.0 * width * area / d4)
+            .min(3.0 * PI * area / d3)
+            .min(6.0 * PI * thin / d2);
+        let bends = bend * w * w;
+        let remainder = (third * v * v * v + 3.0 * second * v * bends + first * bends * w) / 6.0;
+        panel.weight().abs() * (error + remainder)
+    }
+
+    /// A panel that may touch the first block's pole face: its middle's form of first order, or an
+    /// interval by monotony.
+    fn touch(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
+        let sheet = self.first[1] / 2.0;
+        let extent = panel.along.abs() * panel.half;
+        let [up, aside] = [extent.x + self.motion.reach, extent.y + self.motion.reach];
+        let (h, v) = (panel.middle.x, panel.middle.y.abs());
+        let inside = v + aside <= sheet - SLACK;
+        let beside = v - aside >= sheet + SLACK;
+        if !(beside || (inside && (h > up || self.stays_out(h, up)))) {
+            return self.interval(panel, [up, aside], nodes);
+        }
+        let remainder = self.touching_remainder(panel, [up, aside], inside);
+        let [_, thin, _] = self.charge();
+        if remainder > 4.0 * PI * thin * (up + aside) {
+            return self.interval(panel, [up, aside], nodes);
+        }
+        // At the pole face itself the side on which the second block stays.
+        let base = if inside && h <= 0.0 { 0.0 } else { h };
+        let (weight, w) = (2.0 * panel.weight(), self.motion.turn);
+        nodes.push(&Node {
+            h: base,
+            shift: h - base,
+            value: weight,
+            slope: weight,
+            turn: weight.abs() * panel.arm.norm() * w * w * w / 6.0,
+            ..panel.node()
+        });
+        panel.weight().abs() * remainder
+    }
+
+    /// Whether a panel that may get below the first block's face, within the face's width, does not
+    /// where the tiles are free: it would be inside the block.
+    fn stays_out(&self, h: f64, up: f64) -> bool {
+        self.motion.apart && h > -up && 2.0 * up <= self.first[0] - SLACK
+    }
+
+    /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it.
+    fn touching_remainder(&self, panel: &Panel, [up, aside]: [f64; 2], inside: bool) -> f64 {
+        let sheet = self.first[1] / 2.0;
+        let (h, v) = (panel.middle.x, panel.middle.y.abs());
+        let [_, thin, thick] = self.charge();
+        let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
+        let least = if inside { h - up } else { h.abs() - up };
+        let floor = least.max(0.0);
+        let edge = |beside: f64| {
+            let p = beside.hypot(floor);
+            2.0 * (p.hypot(high) - p.hypot(low)) / p
+        };
+        let near = (v - sheet).abs() - aside;
+        let far = (v + sheet - aside).max(near);
+        let edges = 0.5 * (edge(near) + edge(far)) * (up * up + aside * aside);
+        let level = |height: f64| (sheet / height.hypot(low)).asinh();
+        let passing = if inside { 0.75 } else { 1.75 };
+        let levels = 4.0 * up * up * (0.5 * level(floor)).min(0.5 * level(up) + passing);
+        edges + levels + 4.0 * PI * thick * SLACK
+    }
+
+    /// Phi falls with the distance from the face's line and with that from its middle line, so
+    /// its extremes over a box are at two of the box's points.
+    fn interval(&self, panel: &Panel, [up, aside]: [f64; 2], nodes: &mut Nodes) -> f64 {
+        let (h, v) = (panel.middle.x.abs(), panel.middle.y.abs());
+        let weight = panel.weight();
+        let highest = ((h - up).max(0.0), (v - aside).max(0.0), weight.abs());
+        let lowest = (h + up, v + aside, -weight.abs());
+        for (h, v, spread) in [highest, lowest] {
+            nodes.push(&Node {
+                h,
+                v,
+                value: weight,
+                spread,
+                ..panel.node()
+            });
+        }
+        0.0
+    }
+
+    /// Width of the first block's pole face and the smaller and the greater thickness (m).
+    fn charge(&self) -> [f64; 3] {
+        let (a, b) = (self.first[2], self.second[2]);
+        [self.first[1], a.min(b), a.max(b)]
+    }
+}

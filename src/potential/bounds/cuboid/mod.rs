@@ -1,0 +1,320 @@
+//! Bounds of the interaction energy of uniformly magnetised blocks over a cell.
+//!
+//! # Far pairs
+//! Blocks whose centres are farther apart than three times the sum of their half diagonals, and
+//! four times the magnet's reach, are their centres' dipoles, with value, gradient and Hessian as
+//! in [`DipoleBounds`], plus the value and the gradient of what blocks have over dipoles, from the
+//! multipole series. The second-order remainder of that difference is bounded from the blocks being
+//! even spreads of dipoles (see `dipole::taylor`); it falls like `r^-7`. The series leaves out
+//! terms of less than 1e-9 of `K / r^3`, K = mu0 m1 m2 / (4 pi); with their gradients and turns over
+//! the cell, and the terms beyond the sixteenth, of which at 2.5 sums of the half diagonals less
+//! than 3e-10 is left, 1e-7 is more than enough.
+//!
+//! # Near pairs
+//! As charged pole faces: with Phi the potential of a face of the first block, integrated over the
+//! heights of the second (closed, see `cuboid::sheet`), the energy is the integral of Phi along the
+//! second block's faces. Each face is cut into panels, and the nodes of the panels move with the
+//! cell.
+//!
+//! **Clear panels**, at least the distance D from the face throughout the cell, take a Gauss rule.
+//! Phi is, along the panel's line, an integral of `((t - w)(t - w*))^(-1/2)` whose branch points w
+//! are at least D from the panel in the complex plane (the points of the face, seen along and across
+//! the panel's line, and what lies above them), so on an ellipse about the panel whose points are
+//! no farther than b < D from it `|Phi| <= M = w1 c1 c2 / (D - b)`, and the rule of n nodes is wrong
+//! by at most `(half width) 64/15 M rho^(-2n) / (1 - rho^-2)`, rho the sum of the ellipse's half
+//! axes in half widths: the rule is exact up to the degree 2n - 1, the Chebyshev coefficients from
+//! there on are at most `2 M rho^-k`, and each integral and its rule together at most 32/15
+//! (Trefethen, *Is Gauss quadrature better than Clenshaw-Curtis?*, theorem 4.5,
+//! doi:10.1137/060659831). That holds at every configuration of the cell. Each node has its value, gradient and
+//! Hessian, and a third-order remainder from the bounds of the n-th directional derivative of Phi
+//! by `n! int int int dz1 dz2 ds / r^(n+1)`, over the finite face or over an infinite one,
+//! whichever is less.
+//!
+//! **Touching panels** are cut to about half the reach and have first-order forms about their
+//! middles. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of the
+//! face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and
+//! `4 asinh(w1 / 2 / sqrt(h^2 + low^2))`, from the level ones. The latter grows like a logarithm as
+//! h tends to 0, and its average over a straight way on one side of the face adds 3/4 to half of the
+//! arc function at the far end (`int (1 - t) ln(1/t) dt = 3/4`; beside the face, where h may
+//! change its sign, at most 7/4). Phi_h jumps at the face itself, but a panel over the face that got
+//! below it would be inside the first block, which lies in its own tile: not free. The forms are
+//! hence those of the outer side. Should a block stick out of its tile, or the cell be too large, and
+//! at the face's upright edges, the panel has an interval: Phi falls with the distance from the
+//! face's line and with that from its middle line.
+//!
+//! A pair of which all that says less than `2 K / d^3` (d the least distance of the blocks) or
+//! `sqrt(U11 U22)` (Cauchy and Schwarz; Uii the energy of a block's charges with a copy of
+//! themselves, bounded in the same way) has the smaller of these as its interval.
+//!
+//! # Rounding
+//! Dipoles as in [`DipoleBounds`]. Phi and its derivatives are sums of a few dozen terms on partial
+//! results of at most `40 S^2`, with S the sum of all lengths, as no logarithm exceeds
+//! `ln(S / 1e-15 m) < 40`; at most 20 of their operations are on results of that size, each right to
+//! 1e-13 or better (the reciprocals): together less than `1e-10 S^2`, which times the face's charge
+//! is added for each pair. Gradients and Hessians have the same relative errors and act over less
+//! than the distance that their denominators hold. Distances have a spare 1e-8 m. Assumed as
+//! elsewhere: the platform's sine, cosine and arc functions are right to 8 units in the last place.
+
+mod faces;
+mod nodes;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::Vector2;
+
+use super::dipole::{DipoleBounds, NEAR, Spread};
+use super::{CellBounds, Enclosure};
+use crate::cell::{Cell, Quadratic};
+use crate::potential::CuboidPotential;
+use crate::potential::batch::Level;
+use crate::potential::cuboid::block::Block;
+use crate::potential::cuboid::correction::Correction;
+use crate::tile::{Magnet, Outline, Tile};
+use crate::units::MU0;
+use faces::{Motion, Pair};
+use nodes::{Nodes, Sum, Totals};
+
+/// mu0 / (4 pi) (T m / A).
+const SCALE: f64 = MU0 / (4.0 * std::f64::consts::PI);
+
+/// Blocks closer than this many sums of their radii are taken by their pole faces.
+const CLOSE: f64 = 3.0;
+
+/// The error of the multipole series, in value and in what its gradient and turn do over a cell, as
+/// a share of `mu0 m1 m2 / (4 pi r^3)`.
+const SERIES: f64 = 1e-7;
+
+/// Share by which rounding may change what nodes give.
+const ROUNDING: f64 = 1e-10;
+
+/// Depth (m) up to which a block may stick out of its tile and still count as inside.
+const STICKING_OUT: f64 = 1e-9;
+
+/// Cell bounds of the interaction energy of two tiles' blocks.
+#[derive(Clone, Debug)]
+pub struct CuboidBounds {
+    level: Level,
+    /// The blocks' dipoles.
+    dipoles: DipoleBounds,
+    potential: CuboidPotential,
+    fixed: Vec<Enclosed>,
+    moving: Vec<Enclosed>,
+}
+
+/// A block with what is known of it.
+#[derive(Clone, Copy, Debug)]
+struct Enclosed {
+    block: Block,
+    /// Whether it lies inside its own tile's outline.
+    inside: bool,
+    /// Square root of the greatest energy (J) its charges may have with a copy of themselves.
+    own: f64,
+}
+
+impl CuboidBounds {
+    pub fn new(fixed: &Tile, moving: &Tile) -> Self {
+        Self::with_level(fixed, moving, Level::best())
+    }
+
+    /// For the given instruction set.
+    pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
+        let potential = CuboidPotential::with_level(&fixed.magnets, &moving.magnets, level);
+        let largest = |size: &dyn Fn(&[f64; 3]) -> f64, tile: &Tile| {
+            let sizes = tile.magnets.iter().map(|magnet| size(&magnet.size));
+            sizes.fold(0.0, f64::max)
+        };
+        let both = |size: &dyn Fn(&[f64; 3]) -> f64| largest(size, fixed) + largest(size, moving);
+        let diagonals = both(&|[a, b, c]| a.hypot(*b).hypot(*c) / 2.0);
+        let spread = Spread {
+            near: (CLOSE * diagonals).max(potential.hand_over()),
+            radii: both(&|[a, b, _]| a.hypot(*b) / 2.0),
+            square: both(&|[a, b, c]| (a * a + b * b + c * c) / 12.0),
+            error: SERIES,
+        };
+        let enclosed = |tile| enclosed(tile, level);
+        Self {
+            level,
+            dipoles: DipoleBounds::with_level(fixed, moving, level).with_spread(spread),
+            potential,
+            fixed: enclosed(fixed),
+            moving: enclosed(moving),
+        }
+    }
+}
+
+fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
+    let inside = |magnet: &Magnet| {
+        magnet
+            .corners()
+            .iter()
+            .all(|corner| tile.outline.signed_distance(*corner) <= STICKING_OUT)
+            && !is_cut(&Block::from(magnet), &tile.outline)
+    };
+    tile.magnets
+        .iter()
+        .map(|magnet| {
+            let block = Block::from(magnet);
+            let (totals, rest) = faces(level, &block, &block, &SELF, &mut Nodes::default());
+            Enclosed {
+                block,
+                inside: inside(magnet),
+                own: (totals.value + rest).max(0.0).sqrt(),
+            }
+        })
+        .collect()
+}
+
+/// Nothing moves.
+const SELF: Motion = Motion {
+    arm: Vector2::new(0.0, 0.0),
+    reach: 0.0,
+    turn: 0.0,
+    apart: false,
+};
+
+/// The form of two blocks by their pole faces, in the frame of the first one's axis, and the bound
+/// (J) of what it leaves out, rounding included.
+fn faces(
+    level: Level,
+    first: &Block,
+    second: &Block,
+    motion: &Motion,
+    nodes: &mut Nodes,
+) -> (Totals, f64) {
+    let volume = |block: &Block| block.size.iter().product::<f64>();
+    let strength = SCALE * first.moment * second.moment / (volume(first) * volume(second));
+    nodes.clear();
+    let rest = Pair::new(first, second, strength, motion).append(nodes);
+    nodes.fill(level.width());
+    let totals = level.run(Sum {
+        nodes,
+        half: first.size[1] / 2.0,
+        heights: [
+            (first.size[2] + second.size[2]) / 2.0,
+            (first.size[2] - second.size[2]).abs() / 2.0,
+        ],
+    });
+    let whole: f64 = first.size.iter().chain(&second.size).sum();
+    let whole = whole + (second.position - first.position).norm();
+    let rounding = ROUNDING * strength.abs() * second.size[1] * whole * whole;
+    (totals, rest + totals.spread + rounding)
+}
+
+/// Whether the outline runs through a block's inner part.
+fn is_cut(block: &Block, outline: &Outline) -> bool {
+    let half = [block.size[0], block.size[1]].map(|size| size / 2.0 - STICKING_OUT);
+    let local = |p: Vector2<f64>| {
+        let d = p - block.position;
+        [block.axis.dot(&d), block.axis.perp(&d)]
+    };
+    (0..outline.vertices().len()).any(|i| {
+        let (a, b) = outline.edge(i);
+        let (a, b) = (local(a), local(b));
+        // The part of the edge, from 0 to 1, between each two sides (Liang and Barsky 1984).
+        let mut part = [0.0f64, 1.0];
+        for k in 0..2 {
+            let step = b[k] - a[k];
+            if step == 0.0 {
+                if a[k].abs() >= half[k] {
+                    return false;
+                }
+                continue;
+            }
+            let ends = [(-half[k] - a[k]) / step, (half[k] - a[k]) / step];
+            part = [
+                part[0].max(ends[0].min(ends[1])),
+                part[1].min(ends[0].max(ends[1])),
+            ];
+        }
+        part[0] < part[1]
+    })
+}
+
+impl CellBounds for CuboidBounds {
+    fn enclose(&self, cell: &Cell) -> Enclosure {
+        let (form, remainder, weights) = self.dipoles.far::<true>(cell);
+        let (energy, gradient) = self.level.run(Correction {
+            potential: &self.potential,
+            q: &cell.centre,
+            weights: &weights,
+            stride: self.dipoles.stride(),
+        });
+        let mut out = Enclosure {
+            form,
+            low: -remainder,
+            high: remainder,
+        };
+        out.form.value += energy;
+        for (total, share) in out.form.gradient.iter_mut().zip(gradient.iter()) {
+            *total += share;
+        }
+        let mut nodes = Nodes::default();
+        for (i, j) in self.dipoles.near(&weights) {
+            self.add_near(&mut out, cell, i, j, &mut nodes);
+        }
+        out
+    }
+}
+
+impl CuboidBounds {
+    /// Adds the pair of the fixed block `i` and the moving block `j`.
+    fn add_near(&self, out: &mut Enclosure, cell: &Cell, i: usize, j: usize, nodes: &mut Nodes) {
+        let (fixed, moving) = (&self.fixed[i], &self.moving[j]);
+        let first = &fixed.block;
+        let (sin, cos) = cell.centre.theta.sin_cos();
+        let second = moving.block.moved(cos, sin, cell.centre.position());
+        let moment = (SCALE * first.moment * second.moment).abs();
+        if moment == 0.0 {
+            return;
+        }
+        let r = (second.position - first.position).norm();
+        let lever = moving.block.position.norm();
+        let reach = cell.reach(lever + second.radius());
+        let radii = first.radius() + second.radius();
+        let gap = r - radii - cell.reach(lever);
+        let dipole = if gap > 0.0 {
+            2.0 * moment / gap.powi(3)
+        } else {
+            f64::INFINITY
+        };
+        let most = dipole.min(fixed.own * moving.own) * (1.0 + ROUNDING);
+        let coarse = reach * NEAR >= r && gap > radii;
+        let motion = Motion {
+            arm: second.position - cell.centre.position(),
+            reach,
+            turn: cell.half[2],
+            apart: fixed.inside && moving.inside,
+        };
+        let by_faces = (!coarse)
+            .then(|| faces(self.level, first, &second, &motion, nodes))
+            .filter(|(_, rest)| *rest < most);
+        let rest = by_faces.as_ref().map_or(most, |(totals, rest)| {
+            out.form = out.form.minus(-1.0, &in_the_plane(totals, first.axis));
+            *rest
+        });
+        out.low -= rest;
+        out.high += rest;
+    }
+}
+
+/// The form of totals in the frame whose first axis is `axis`.
+fn in_the_plane(totals: &Totals, axis: Vector2<f64>) -> Quadratic {
+    let (c, s) = (axis.x, axis.y);
+    let turned = |u: f64, v: f64| [c * u - s * v, s * u + c * v];
+    let [uu, vv, tt, uv, ut, vt] = totals.hessian;
+    let [u, v, turn] = totals.gradient;
+    let [x, y] = turned(u, v);
+    let [xt, yt] = turned(ut, vt);
+    Quadratic {
+        value: totals.value,
+        gradient: [x, y, turn],
+        hessian: [
+            c * c * uu - 2.0 * c * s * uv + s * s * vv,
+            s * s * uu + 2.0 * c * s * uv + c * c * vv,
+            tt,
+            c * s * (uu - vv) + (c * c - s * s) * uv,
+            xt,
+            yt,
+        ],
+    }
+}

@@ -1,0 +1,182 @@
+//! Potentials of one pole face at many nodes of another block's, in vectors.
+
+use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::cuboid::sheet::{Expansion, expansion};
+
+/// A node of a quadrature over a pole face of the second block: an upright line of charge, in the
+/// field of a pole face of the first one. The first block's frame has u along its axis and v along
+/// its pole faces.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Node {
+    /// Where it is: along the first block's pole face and out of it (m).
+    pub v: f64,
+    pub h: f64,
+    /// How far (m) out of the face the place that is meant lies from the node.
+    pub shift: f64,
+    /// The direction of h along u: 1 or -1.
+    pub side: f64,
+    /// Weights (J/m^2) of the potential, of its slopes and of its second derivatives.
+    pub value: f64,
+    pub slope: f64,
+    pub bend: f64,
+    /// Weight of the potential in what is uncertain, and that of the magnitude of its slopes (that
+    /// times m).
+    pub spread: f64,
+    pub turn: f64,
+    /// Way (m) from the point about which the second block turns, in the first one's frame.
+    pub arm: [f64; 2],
+}
+
+const COLUMNS: usize = 11;
+
+/// Nodes as a structure of arrays.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Nodes([Vec<f64>; COLUMNS]);
+
+impl Nodes {
+    pub fn clear(&mut self) {
+        self.0.iter_mut().for_each(Vec::clear);
+    }
+
+    pub fn push(&mut self, node: &Node) {
+        let [u, v] = node.arm;
+        let entries = [
+            node.v,
+            node.h,
+            node.shift,
+            node.side,
+            node.value,
+            node.slope,
+            node.bend,
+            node.spread,
+            node.turn,
+            u,
+            v,
+        ];
+        for (column, entry) in self.0.iter_mut().zip(entries) {
+            column.push(entry);
+        }
+    }
+
+    /// Fills up to whole vectors with nodes of no weight.
+    pub fn fill(&mut self, width: usize) {
+        let none = Node {
+            h: 1.0,
+            ..Node::default()
+        };
+        while !self.0[0].len().is_multiple_of(width) {
+            self.push(&none);
+        }
+    }
+}
+
+/// Sums over nodes, in the first block's frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Totals {
+    pub value: f64,
+    /// By u, v and the angle.
+    pub gradient: [f64; 3],
+    /// As (uu, vv, angle angle, uv, u angle, v angle).
+    pub hessian: [f64; 6],
+    /// What is uncertain (J).
+    pub spread: f64,
+}
+
+/// Sums up all nodes in the field of a pole face of half the width `half` (m); `heights` are half
+/// the sum and half the difference of the two blocks' thicknesses.
+pub(super) struct Sum<'a> {
+    pub nodes: &'a Nodes,
+    pub half: f64,
+    pub heights: [f64; 2],
+}
+
+impl Task for Sum<'_> {
+    type Output = Totals;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Totals {
+        let mut sums = [l.splat(0.0); 11];
+        let mut from = 0;
+        while from < self.nodes.0[0].len() {
+            self.add(l, from, &mut sums);
+            from += L::WIDTH;
+        }
+        let mut totals = [0.0; 11];
+        for (total, sum) in totals.iter_mut().zip(sums) {
+            *total = l.sum(sum);
+        }
+        let [value, u, v, turn, uu, vv, tt, uv, ut, vt, spread] = totals;
+        Totals {
+            value,
+            gradient: [u, v, turn],
+            hessian: [uu, vv, tt, uv, ut, vt],
+            spread,
+        }
+    }
+}
+
+impl Sum<'_> {
+    #[inline(always)]
+    fn add<L: Lanes>(&self, l: L, from: usize, sums: &mut [L::F; 11]) {
+        let [
+            v,
+            h,
+            shift,
+            side,
+            value,
+            slope,
+            bend,
+            spread,
+            turn,
+            arm_u,
+            arm_v,
+        ] = &self.nodes.0;
+        let zero = l.splat(0.0);
+        let half = l.splat(self.half);
+        let (v, side) = (l.load(&v[from..]), l.load(&side[from..]));
+        let ends = [l.sub(v, half), l.add(v, half)];
+        let phi: Expansion<L::F> = expansion(l, ends, l.load(&h[from..]), self.heights);
+
+        let weight = l.load(&slope[from..]);
+        let gu = l.mul(l.mul(weight, side), phi.h);
+        let gv = l.mul(weight, phi.x);
+        let bend = l.load(&bend[from..]);
+        let huu = l.mul(bend, phi.hh);
+        let hvv = l.mul(bend, phi.xx);
+        let huv = l.mul(l.mul(bend, side), phi.xh);
+        // A turn moves the node along i arm and bends its way along -arm.
+        let (arm_u, arm_v) = (l.load(&arm_u[from..]), l.load(&arm_v[from..]));
+        let (tu, tv) = (l.sub(zero, arm_v), arm_u);
+        let hut = l.mul_add(huu, tu, l.mul(huv, tv));
+        let hvt = l.mul_add(huv, tu, l.mul(hvv, tv));
+        let htt = l.mul_add(hut, tu, l.mul(hvt, tv));
+        let htt = l.neg_mul_add(gu, arm_u, l.neg_mul_add(gv, arm_v, htt));
+
+        let shifted = l.mul(l.mul(weight, phi.h), l.load(&shift[from..]));
+        let value = l.mul_add(l.load(&value[from..]), phi.value, shifted);
+        let steepness = l.add(magnitude(l, phi.x), magnitude(l, phi.h));
+        let uncertain = l.mul(l.load(&turn[from..]), steepness);
+        let uncertain = l.mul_add(l.load(&spread[from..]), phi.value, uncertain);
+        let shares = [
+            value,
+            gu,
+            gv,
+            l.mul_add(gu, tu, l.mul(gv, tv)),
+            huu,
+            hvv,
+            htt,
+            huv,
+            hut,
+            hvt,
+            uncertain,
+        ];
+        for (sum, share) in sums.iter_mut().zip(shares) {
+            *sum = l.add(*sum, share);
+        }
+    }
+}
+
+#[inline(always)]
+fn magnitude<L: Lanes>(l: L, a: L::F) -> L::F {
+    l.select(a, a, l.sub(l.splat(0.0), a))
+}

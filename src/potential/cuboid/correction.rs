@@ -1,0 +1,89 @@
+//! What the blocks' energy has over that of point dipoles, far apart.
+
+use nalgebra::{Complex, Vector3};
+
+use super::CuboidPotential;
+use super::far::{self, Group, Pairs, Sums};
+use super::multipole::{Coefficients, TERMS, index};
+use crate::configuration::Configuration;
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::units::MU0;
+
+/// How many terms are summed for pairs far apart.
+const FEW: usize = 3;
+
+/// The multipole series without its first term, the point dipole, and its gradient (J), over the
+/// pairs that a mask selects. Right to the hand-over's 1e-9 of `mu0 m1 m2 / (4 pi r^3)` a pair
+/// where the pairs are at least the [hand-over](CuboidPotential::hand_over) apart.
+pub(in crate::potential) struct Correction<'a> {
+    pub potential: &'a CuboidPotential,
+    pub q: &'a Configuration,
+    /// 1 for each pair to be summed and 0 for the others: that of the fixed tile's block i and the
+    /// moving tile's block j is number `i * stride + j`.
+    pub weights: &'a [f64],
+    pub stride: usize,
+}
+
+impl Task for Correction<'_> {
+    type Output = (f64, Vector3<f64>);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let (sin, cos) = self.q.theta.sin_cos();
+        let mut total = Sums::zero(l);
+        let mut coefficients = Coefficients::NONE;
+        for moving in &self.potential.moving_groups {
+            for fixed in &self.potential.fixed_groups {
+                let far = &self.potential.far[fixed.size][moving.size];
+                let into = fixed.axis.conj();
+                let turn = moving.axis * Complex::new(cos, sin) * into;
+                far.series
+                    .evaluate::<L, true>(l, turn, TERMS, &mut coefficients);
+                // Without the dipole.
+                for at in 0..index(1, 0) {
+                    coefficients.re[at] = 0.0;
+                    coefficients.im[at] = 0.0;
+                    coefficients.turn_re[at] = 0.0;
+                    coefficients.turn_im[at] = 0.0;
+                }
+                let mut sums = Sums::zero(l);
+                for (j, &second) in moving.members.iter().enumerate() {
+                    let arm = turn * Complex::new(moving.x[j], moving.y[j]);
+                    let place = Complex::new(self.q.x, self.q.y) * into + arm;
+                    for from in (0..fixed.x.len()).step_by(L::WIDTH) {
+                        let mask = self.mask(fixed, from, second);
+                        let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+                        pairs.arm = arm;
+                        pairs.moments = l.mul(pairs.moments, l.load(&mask));
+                        // Pairs left out must not divide by zero.
+                        let near = l.splat(far.near());
+                        let outside = l.sub(pairs.rr, near);
+                        pairs.rr = l.select(outside, pairs.rr, near);
+                        if l.least(pairs.rr) >= far.squares[FEW] {
+                            far::add::<L, FEW, true>(l, &coefficients, &pairs, &mut sums);
+                        } else {
+                            far::add::<L, TERMS, true>(l, &coefficients, &pairs, &mut sums);
+                        }
+                    }
+                }
+                total.add::<L, true>(l, &sums, fixed.axis);
+            }
+        }
+        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        let [x, y, turn] = total.gradient;
+        let gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
+        (l.sum(total.energy) * scale, gradient)
+    }
+}
+
+impl Correction<'_> {
+    /// The weights of a vector of fixed blocks with the moving block `second`.
+    #[inline(always)]
+    fn mask(&self, fixed: &Group, from: usize, second: usize) -> [f64; MAX_WIDTH] {
+        let mut mask = [0.0; MAX_WIDTH];
+        for (weight, &first) in mask.iter_mut().zip(&fixed.members[from..]) {
+            *weight = self.weights[first * self.stride + second];
+        }
+        mask
+    }
+}

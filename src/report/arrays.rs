@@ -1,0 +1,242 @@
+//! Maps, roadmap, states and barriers as NPY files, for NumPy and all that reads its format.
+//!
+//! Grids are plain arrays of doubles in C order, NaN where no configuration is free, with an array
+//! for each axis; tables are structured arrays whose fields carry their units. The format is NumPy's
+//! version 1.0 (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>): a header
+//! of text and the bytes, little-endian. The same analysis gives the same bytes.
+//!
+//! | file in `arrays/` | shape, fields |
+//! |---|---|
+//! | `around_energy_J` | (theta, y, x): U around the fixed tile over `around_theta_rad`, `around_y_m`, `around_x_m` |
+//! | `front_energy_J` | (gap, tilt, slide): U in front of the target face over `front_gap_m`, `front_tilt_rad`, `front_slide_m` |
+//! | `front_landing_m` | (tilt, slide): distance from the bound position at which the tile first touches; the gap is counted from there |
+//! | `states` | id, class, bound (0 or 1), pose, energy, block energy, escape saddle, share of far starts captured |
+//! | `barriers` | from, to (ids of states, -1 for free), saddle energy with its bounds, saddle pose |
+//! | `milestones` | pose and energy; an edge's `from` and `to` are places in this list |
+//! | `edges` | from, to, highest energy and where it is on the way (0 to 1), length, work and -ln of the transition probability either way |
+
+use super::page::landscape::{in_front, whole};
+use super::plots::Scene;
+use super::writer::Files;
+use crate::analysis::Analysis;
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::landscape::volume::Volume;
+use crate::landscape::{Barrier, Place, State, StateKind};
+use crate::pipeline;
+use crate::roadmap::Roadmap;
+
+/// The folder of the arrays.
+pub const FOLDER: &str = "arrays";
+
+/// A field of a structured array.
+enum Field {
+    Whole(&'static str, Vec<i64>),
+    Real(&'static str, Vec<f64>),
+}
+
+use Field::{Real, Whole};
+
+/// All arrays of an analysis. The roadmap is built anew from the settings, as the analysis has it.
+pub fn files(design: &Design, analysis: &Analysis) -> Files {
+    let problem = pipeline::problem(design);
+    let mut files = Files::new();
+    let mut add = |name: &str, content: Vec<u8>| {
+        files.insert(format!("{FOLDER}/{name}.npy"), content);
+    };
+    if let Some(scene) = Scene::new(design, &problem, analysis) {
+        let (around, front) = rayon::join(|| whole(&scene), || in_front(&scene));
+        let names = ["around_theta_rad", "around_y_m", "around_x_m"];
+        add_volume(&mut add, "around_energy_J", names, &around);
+        let names = ["front_gap_m", "front_tilt_rad", "front_slide_m"];
+        add_volume(&mut add, "front_energy_J", names, &front.volume);
+        let shape = [1, 2].map(|k| front.volume.axes[k].len());
+        add("front_landing_m", grid(&shape, &or_nan(&front.landing)));
+    }
+    let roadmap = pipeline::roadmap(design, &problem, &analysis.settings);
+    add("states", table(&states(analysis)));
+    add("barriers", table(&barriers(analysis)));
+    add("milestones", table(&milestones(&roadmap)));
+    add("edges", table(&edges(&roadmap)));
+    files
+}
+
+fn add_volume(add: &mut impl FnMut(&str, Vec<u8>), name: &str, axes: [&str; 3], volume: &Volume) {
+    add(
+        name,
+        grid(
+            &volume.axes.each_ref().map(Vec::len),
+            &or_nan(&volume.energies),
+        ),
+    );
+    for (name, axis) in axes.iter().zip(&volume.axes) {
+        add(name, grid(&[axis.len()], axis));
+    }
+}
+
+fn or_nan(values: &[Option<f64>]) -> Vec<f64> {
+    values
+        .iter()
+        .map(|value| value.unwrap_or(f64::NAN))
+        .collect()
+}
+
+fn states(analysis: &Analysis) -> Vec<Field> {
+    let states = &analysis.states;
+    let whole = |of: &dyn Fn(&State) -> usize| states.iter().map(|s| of(s) as i64).collect();
+    let real = |of: &dyn Fn(&State) -> Option<f64>| {
+        states.iter().map(|s| of(s).unwrap_or(f64::NAN)).collect()
+    };
+    let escape = |state: &State| analysis.escapes[state.id].as_ref();
+    let mut fields = vec![
+        Whole("id", whole(&|state| state.id)),
+        Whole("class", whole(&|state| state.class)),
+        Whole("bound", whole(&|s| usize::from(s.kind == StateKind::Bound))),
+    ];
+    fields.extend(poses(states.iter().map(|state| &state.configuration)));
+    fields.extend([
+        Real("energy_J", real(&|state| Some(state.energy))),
+        Real("block_energy_J", real(&|state| state.block_energy)),
+        Real(
+            "escape_saddle_energy_J",
+            real(&|state| Some(escape(state)?.saddle_energy)),
+        ),
+        Real("capture_share", real(&|state| Some(state.capture?.share()))),
+    ]);
+    fields
+}
+
+fn barriers(analysis: &Analysis) -> Vec<Field> {
+    let escapes = analysis.escapes.iter().flatten();
+    let all: Vec<&Barrier> = escapes.chain(&analysis.barriers).collect();
+    let end = |of: &dyn Fn(&Barrier) -> Place| {
+        let number = |barrier: &&Barrier| match of(barrier) {
+            Place::State(id) => id as i64,
+            Place::Free => -1,
+        };
+        all.iter().map(number).collect()
+    };
+    let real = |of: &dyn Fn(&Barrier) -> Option<f64>| {
+        let value = |barrier: &&Barrier| of(barrier).unwrap_or(f64::NAN);
+        all.iter().map(value).collect()
+    };
+    let mut fields = vec![
+        Whole("from", end(&|barrier| barrier.from)),
+        Whole("to", end(&|barrier| barrier.to)),
+        Real("saddle_energy_J", real(&|b| Some(b.saddle_energy))),
+        Real("lower_J", real(&|barrier| barrier.lower)),
+        Real("upper_J", real(&|barrier| barrier.upper)),
+    ];
+    fields.extend(poses(all.iter().map(|barrier| &barrier.saddle)));
+    fields
+}
+
+fn milestones(roadmap: &Roadmap) -> Vec<Field> {
+    let milestones = &roadmap.milestones;
+    let mut fields = Vec::from(poses(milestones.iter().map(|m| &m.configuration)));
+    let energies = milestones.iter().map(|milestone| milestone.energy);
+    fields.push(Real("energy_J", energies.collect()));
+    fields
+}
+
+fn edges(roadmap: &Roadmap) -> Vec<Field> {
+    let edges = &roadmap.edges;
+    let whole = |of: &dyn Fn(usize) -> u32| (0..edges.len()).map(|k| of(k).into()).collect();
+    let real = |of: &dyn Fn(&crate::roadmap::EdgeCosts) -> f64| {
+        edges.iter().map(|edge| of(&edge.costs)).collect()
+    };
+    vec![
+        Whole("from", whole(&|k| edges[k].from)),
+        Whole("to", whole(&|k| edges[k].to)),
+        Real("peak_J", real(&|costs| costs.peak)),
+        Real("peak_at", real(&|costs| costs.peak_at)),
+        Real("length_m", real(&|costs| costs.length)),
+        Real("work_forwards_J", real(&|costs| costs.work[0])),
+        Real("work_backwards_J", real(&|costs| costs.work[1])),
+        Real("improbability_forwards", real(&|c| c.improbability[0])),
+        Real("improbability_backwards", real(&|c| c.improbability[1])),
+    ]
+}
+
+fn poses<'a>(configurations: impl Iterator<Item = &'a Configuration>) -> [Field; 3] {
+    let poses: Vec<[f64; 3]> = configurations.map(Configuration::to_array).collect();
+    let column = |k: usize| poses.iter().map(|pose| pose[k]).collect();
+    [
+        Real("x_m", column(0)),
+        Real("y_m", column(1)),
+        Real("theta_rad", column(2)),
+    ]
+}
+
+/// A plain array of doubles.
+fn grid(shape: &[usize], values: &[f64]) -> Vec<u8> {
+    let mut file = header("'<f8'", shape);
+    file.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    file
+}
+
+/// A structured array, row by row.
+fn table(fields: &[Field]) -> Vec<u8> {
+    let kinds: Vec<String> = fields
+        .iter()
+        .map(|field| match field {
+            Whole(name, _) => format!("('{name}', '<i8')"),
+            Real(name, _) => format!("('{name}', '<f8')"),
+        })
+        .collect();
+    let rows = fields.first().map_or(0, |field| match field {
+        Whole(_, values) => values.len(),
+        Real(_, values) => values.len(),
+    });
+    let mut file = header(&format!("[{}]", kinds.join(", ")), &[rows]);
+    for row in 0..rows {
+        for field in fields {
+            file.extend(match field {
+                Whole(_, values) => values[row].to_le_bytes(),
+                Real(_, values) => values[row].to_le_bytes(),
+            });
+        }
+    }
+    file
+}
+
+/// NumPy's header: the bytes begin at a multiple of 64.
+fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
+    let sizes: String = shape.iter().map(|size| format!("{size},")).collect();
+    let mut text = format!("{{'descr': {kind}, 'fortran_order': False, 'shape': ({sizes}), }}");
+    const BEFORE: usize = 10;
+    let padding = 63 - (BEFORE + text.len()) % 64;
+    text.push_str(&" ".repeat(padding));
+    text.push('\n');
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    // Far below the format's 65 535: a header holds names and sizes.
+    file.extend((text.len() as u16).to_le_bytes());
+    file.extend(text.into_bytes());
+    file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_what_numpy_writes() {
+        // numpy.save of numpy.array([[1.0, 2.0, numpy.nan]]) and of a structured array.
+        let file = grid(&[1, 3], &[1.0, 2.0, f64::NAN]);
+        assert_eq!(&file[..10], b"\x93NUMPY\x01\x00\x76\x00");
+        let text = String::from_utf8(file[10..128].to_vec()).unwrap();
+        let start = "{'descr': '<f8', 'fortran_order': False, 'shape': (1,3,), }";
+        assert!(text.starts_with(start) && text.ends_with(" \n"));
+        assert_eq!(file.len(), 128 + 3 * 8);
+        assert_eq!(file[136..144], 2.0_f64.to_le_bytes());
+
+        let file = table(&[Whole("a", vec![1, -2]), Real("b_J", vec![0.5, 0.25])]);
+        let text = String::from_utf8_lossy(&file[10..]);
+        assert!(text.starts_with("{'descr': [('a', '<i8'), ('b_J', '<f8')], "));
+        assert!(text.contains("'shape': (2,), }"));
+        let rows = &file[file.len() - 32..];
+        assert_eq!(rows[16..24], (-2_i64).to_le_bytes());
+        assert_eq!(rows[24..], 0.25_f64.to_le_bytes());
+        assert_eq!((file.len() - 32) % 64, 0);
+    }
+}

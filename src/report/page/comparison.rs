@@ -1,0 +1,177 @@
+//! The pages of `compare` and `sweep`.
+
+use serde_json::{Value, json};
+
+use super::charts::Charts;
+use super::{Column, Fact, Illustration, Page, Table};
+use crate::comparison::{Assessment, Quantity};
+use crate::report::comparison::Comparison;
+use crate::report::figures::cell;
+use crate::report::sweep::{Sweep, counts};
+
+/// What ranks above every number: a barrier that nothing crosses.
+const BEYOND: f64 = 1e300;
+
+impl Page {
+    /// The page of designs side by side; `ranking` is the picture, as SVG.
+    pub fn of_comparison(comparison: &Comparison, ranking: String) -> Self {
+        let by = comparison.by.label();
+        let best = [
+            comparison.by,
+            Quantity::BondDepth,
+            Quantity::Unbinding,
+            Quantity::Captured,
+        ];
+        let mut facts: Vec<Fact> = Vec::new();
+        for quantity in best {
+            let name = match quantity {
+                Quantity::BondDepth => "deepest bond".to_owned(),
+                Quantity::Captured => "most captured".to_owned(),
+                other => format!("highest {}", other.label()),
+            };
+            if facts.iter().all(|fact| fact.name != name) {
+                facts.extend(first(comparison, quantity, name));
+            }
+        }
+        let mut columns = vec![Column::new("rank", ""), Column::new("design", "")];
+        columns.extend(figure_columns());
+        let designs = comparison.designs.iter().enumerate();
+        let rows = designs
+            .map(|(k, design)| {
+                let mut row = vec![json!(k + 1), json!(comparison.name(design))];
+                row.extend(figures(design));
+                row
+            })
+            .collect();
+        let orders = comparison.certified_orders();
+        let mut tables = vec![Table {
+            title: "Designs".to_owned(),
+            note: comparison.note(),
+            columns,
+            rows,
+            states: Vec::new(),
+        }];
+        if !orders.is_empty() {
+            tables.push(Table {
+                title: "Certified order".to_owned(),
+                note: "From the highest to the lowest: > is proved for the stated model, ~ is \
+                       undecided, as the bounds overlap."
+                    .to_owned(),
+                columns: vec![Column::new("figure", ""), Column::new("order", "")],
+                rows: orders
+                    .into_iter()
+                    .map(|(figure, order)| vec![json!(figure), json!(order)])
+                    .collect(),
+                states: Vec::new(),
+            });
+        }
+        let seeds: Vec<u64> = comparison.designs.iter().map(|d| d.seed).collect();
+        Self {
+            title: format!("{} designs side by side", comparison.designs.len()),
+            subtitle: format!("ranked by {by}"),
+            facts,
+            landscape: None,
+            charts: None,
+            pictures: vec![Illustration {
+                title: format!("Ranked by {by}"),
+                svg: ranking,
+            }],
+            tables,
+            origin: format!(
+                "tilebind {}, seed {}; compare.json holds what reproduces it",
+                env!("CARGO_PKG_VERSION"),
+                seeds.first().copied().unwrap_or_default()
+            ),
+        }
+    }
+
+    /// The page of a finished sweep.
+    pub fn of_sweep(sweep: &Sweep) -> Self {
+        let plan = sweep.plan;
+        let several = plan.designs.len() > 1;
+        let mut columns = Vec::new();
+        if several {
+            columns.push(Column::new("design", ""));
+        }
+        columns.extend(plan.axes.iter().map(|axis| Column::new(&axis.key, "")));
+        columns.extend(figure_columns());
+        columns.push(Column::new("impossible", ""));
+        let rows = sweep
+            .points
+            .iter()
+            .map(|point| {
+                let mut row = Vec::new();
+                if several {
+                    row.push(json!(plan.designs[point.design].name));
+                }
+                row.extend(point.values.iter().map(|value| json!(value)));
+                match sweep.assessment(point.index) {
+                    Some(design) => row.extend(figures(design)),
+                    None => row.extend(Quantity::ALL.map(|_| Value::Null)),
+                }
+                row.push(json!(sweep.reason(point.index)));
+                row
+            })
+            .collect();
+        let names: Vec<&str> = plan.designs.iter().map(|d| d.name.as_str()).collect();
+        let keys: Vec<&str> = plan.axes.iter().map(|axis| axis.key.as_str()).collect();
+        Self {
+            title: format!("{}: a sweep", names.join(", ")),
+            subtitle: format!("over {}", keys.join(", ")),
+            facts: vec![Fact {
+                name: "points".to_owned(),
+                value: sweep.points.len().to_string(),
+                note: counts(&sweep.progress()),
+            }],
+            landscape: None,
+            charts: Some(Charts::new(sweep)),
+            pictures: Vec::new(),
+            tables: vec![Table {
+                title: "Points".to_owned(),
+                note: "Varied keys as the design file has them, in SI units; brackets hold \
+                       certified bounds, percentages 95 % intervals."
+                    .to_owned(),
+                columns,
+                rows,
+                states: Vec::new(),
+            }],
+            origin: format!(
+                "tilebind {}, seed {}; plan.json holds what reproduces it",
+                plan.tilebind, plan.seed
+            ),
+        }
+    }
+}
+
+/// The design with the largest value of a figure.
+fn first(comparison: &Comparison, quantity: Quantity, name: String) -> Option<Fact> {
+    let order = crate::comparison::ranking::ranked(&comparison.designs, quantity);
+    let design = &comparison.designs[*order.first()?];
+    quantity.of(design)?;
+    Some(Fact {
+        name,
+        value: comparison.name(design),
+        note: cell(quantity, design),
+    })
+}
+
+fn figure_columns() -> impl Iterator<Item = Column> {
+    Quantity::ALL.into_iter().map(|quantity| {
+        let unit = match quantity.unit() {
+            "m" => " (mm)",
+            "rad" => " (°)",
+            _ => "",
+        };
+        Column::new(&format!("{}{unit}", quantity.label()), "")
+    })
+}
+
+/// The figures of a design, each as what it sorts by and what is shown.
+fn figures(design: &Assessment) -> [Value; 13] {
+    Quantity::ALL.map(|quantity| {
+        let value = quantity
+            .of(design)
+            .map(|estimate| estimate.value.min(BEYOND));
+        json!([value, cell(quantity, design)])
+    })
+}
