@@ -117,7 +117,8 @@ fn a_fan_behind_the_tile_blows_it_in_and_one_before_it_keeps_it_away() {
         let out = dock(&[&common[..], &["--fan", fan]].concat());
         let fans = &out["settings"]["motion"]["fans"];
         assert_eq!(fans.as_array().unwrap().len(), 1);
-        let met = out["bound"]["count"].as_u64().unwrap() + out["misbound"]["count"].as_u64().unwrap();
+        let met =
+            out["bound"]["count"].as_u64().unwrap() + out["misbound"]["count"].as_u64().unwrap();
         (met, out["free"]["count"].as_u64().unwrap())
     };
     let (caught, _) = bound("0.95,0,5e-3,0.2");
@@ -135,12 +136,23 @@ fn wrong_docking_options_are_refused_with_their_mend() {
         (["--restitution", "1.5"], "from 0 to 1"),
         (["--drag", "-1"], "0 or more"),
     ] {
-        let arguments = [&["dock", "shapes/paper-tile.toml", "--runs", "2"], &wrong[..]].concat();
+        let arguments = [
+            &["dock", "shapes/paper-tile.toml", "--runs", "2"],
+            &wrong[..],
+        ]
+        .concat();
         let output = tilebind(&arguments);
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");
         assert!(stderr(&output).contains(mend), "{}", stderr(&output));
     }
-    let shaken = ["dock", "shapes/paper-tile.toml", "--shaking", "1e-5", "--drag", "0"];
+    let shaken = [
+        "dock",
+        "shapes/paper-tile.toml",
+        "--shaking",
+        "1e-5",
+        "--drag",
+        "0",
+    ];
     let output = tilebind(&shaken);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("set a drag rate above 0"));
