@@ -28,7 +28,7 @@ pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
 mod lever;
-mod motion;
+pub mod motion;
 pub mod shielding;
 
 use crate::configuration::Configuration;

@@ -23,12 +23,12 @@
 
 /// The bracket of the second derivative's bound as a polynomial in `1 / r`, the coefficient of the
 /// highest power first; `turn` is w (1/m).
-pub(super) fn second_derivative(turn: f64) -> [f64; 3] {
+pub fn second_derivative(turn: f64) -> [f64; 3] {
     [24.0, 18.0 * turn, 2.0 * turn.powi(2)]
 }
 
 /// The same for the fourth derivative's bound.
-pub(super) fn fourth_derivative(turn: f64) -> [f64; 5] {
+pub fn fourth_derivative(turn: f64) -> [f64; 5] {
     [
         720.0,
         1200.0 * turn,
@@ -40,7 +40,7 @@ pub(super) fn fourth_derivative(turn: f64) -> [f64; 5] {
 
 /// The bound `k / r^3` times the polynomial (J/m^n) at a distance r (m); infinite where r is not
 /// positive.
-pub(super) fn bound(terms: &[f64], k: f64, r: f64) -> f64 {
+pub fn bound(terms: &[f64], k: f64, r: f64) -> f64 {
     if r <= 0.0 {
         return f64::INFINITY;
     }

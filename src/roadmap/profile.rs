@@ -50,9 +50,9 @@ impl Profile {
     ///   second derivative, and the same from the other end, exceed the larger end by no more.
     ///
     /// Blocks in contact have no bound of the one and only a very wide one of the other. There a
-    /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is also
-    /// accepted where the cubic foretells the energy in its middle. That is a check, no proof;
-    /// proved bounds of barriers come from the certificate.
+    /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
+    /// where the cubic foretells the energy in its middle. That is a check, no proof; proved bounds
+    /// of barriers come from the certificate.
     pub fn new(
         problem: &Problem,
         a: &Milestone,
@@ -227,6 +227,10 @@ impl Motion<'_> {
         *fourth = fourth.min(potential.fourth_derivative_bound(&middle, reach));
         if fourth.is_finite() {
             return is_close(*fourth);
+        }
+        // Where the middle can be asked it tells more, and sooner.
+        if potential.feature_length() > 0.0 {
+            return false;
         }
         let bound = potential.curvature_bound(&middle, reach);
         let curvature = bound * self.displacement * self.displacement;

@@ -213,6 +213,13 @@ impl Potential for ShieldedPotential {
         self.lever.displacement(step)
     }
 
+    /// That of bare blocks: shields act over longer distances. Dipoles have a bound that serves.
+    fn feature_length(&self) -> f64 {
+        self.blocks
+            .as_ref()
+            .map_or(0.0, |blocks| blocks.potential.feature_length())
+    }
+
     /// That of the bare pairs.
     fn noise(&self) -> f64 {
         self.blocks
