@@ -539,7 +539,7 @@ mod tests {
             position: turned(rng.random_range(-3.1..3.1)) * rng.random_range(0.01..0.06),
             moment: turned(rng.random_range(-3.1..3.1)) * 0.3,
             front: (
-                (k % 3 > 0).then(|| Shield {
+                (!k.is_multiple_of(3)).then(|| Shield {
                     attenuation: rng.random_range(0.0..1.0),
                     length: rng.random_range(0.01..0.1),
                     width: 10f64.powf(rng.random_range(-3.0..0.0)),
