@@ -23,8 +23,10 @@ const ELLIPSE: f64 = 0.75;
 /// Panels get third-order forms from a distance of this many times their reach on.
 const FAR: f64 = 3.0;
 
-/// Panels are not cut finer than this share of the face.
+/// Panels are not cut finer than this share of the face; those that have no form of first order
+/// not finer than the second one.
 const FINEST: f64 = 1.0 / 128.0;
+const FINEST_WITHOUT_FORM: f64 = 1.0 / 8192.0;
 
 #[derive(Clone, Copy)]
 enum Rule {
@@ -152,9 +154,13 @@ impl Pair {
                 return self.gauss(panel, distance, *rule, nodes);
             }
         }
-        let fine = (0.5 * self.motion.reach).max(FINEST * self.second[1]);
-        if panel.half <= fine {
-            return self.touch(panel, nodes);
+        let width = self.second[1];
+        let fine = |share: f64| panel.half <= (0.5 * self.motion.reach).max(share * width);
+        if fine(FINEST) {
+            let remainder = self.touching_remainder(panel);
+            if remainder.is_some() || fine(FINEST_WITHOUT_FORM) {
+                return self.touch(panel, remainder, nodes);
+            }
         }
         let half = panel.half / 2.0;
         [-half, half]
@@ -210,25 +216,22 @@ impl Pair {
         panel.weight().abs() * (error + remainder)
     }
 
-    /// A panel that may touch the first block's pole face: its middle's form of first order, or an
-    /// interval by monotony.
-    fn touch(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
-        let sheet = self.first[1] / 2.0;
+    /// How far (m) the points of a panel get from its middle, along h and along v.
+    fn extent(&self, panel: &Panel) -> [f64; 2] {
         let extent = panel.along.abs() * panel.half;
-        let [up, aside] = [extent.x + self.motion.reach, extent.y + self.motion.reach];
-        let (h, v) = (panel.middle.x, panel.middle.y.abs());
-        let inside = v + aside <= sheet - SLACK;
-        let beside = v - aside >= sheet + SLACK;
-        if !(beside || (inside && (h > up || self.stays_out(h, up)))) {
-            return self.interval(panel, [up, aside], nodes);
-        }
-        let remainder = self.touching_remainder(panel, [up, aside], inside);
-        let [_, thin, _] = self.charge();
-        if remainder > 4.0 * PI * thin * (up + aside) {
-            return self.interval(panel, [up, aside], nodes);
-        }
-        // At the pole face itself the side on which the second block stays.
-        let base = if inside && h <= 0.0 { 0.0 } else { h };
+        [extent.x + self.motion.reach, extent.y + self.motion.reach]
+    }
+
+    /// A panel that may touch the first block's pole face: its middle's form of first order, of the
+    /// given remainder, or an interval by monotony.
+    fn touch(&self, panel: &Panel, remainder: Option<f64>, nodes: &mut Nodes) -> f64 {
+        let Some(remainder) = remainder else {
+            return self.interval(panel, nodes);
+        };
+        let h = panel.middle.x;
+        // Over the pole face, at least on the side on which the second block stays.
+        let over = panel.middle.y.abs() <= self.first[1] / 2.0;
+        let base = if over && h <= 0.0 { 0.0 } else { h };
         let (weight, w) = (2.0 * panel.weight(), self.motion.turn);
         nodes.push(&Node {
             h: base,
@@ -247,10 +250,17 @@ impl Pair {
         self.motion.apart && h > -up && 2.0 * up <= self.first[0] - SLACK
     }
 
-    /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it.
-    fn touching_remainder(&self, panel: &Panel, [up, aside]: [f64; 2], inside: bool) -> f64 {
+    /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it. `None`
+    /// where it has none (see the module's text), or one that says less than an interval.
+    fn touching_remainder(&self, panel: &Panel) -> Option<f64> {
         let sheet = self.first[1] / 2.0;
+        let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x, panel.middle.y.abs());
+        let inside = v + aside <= sheet - SLACK;
+        let beside = v - aside >= sheet + SLACK;
+        if !(beside || (inside && (h > up || self.stays_out(h, up)))) {
+            return None;
+        }
         let [_, thin, thick] = self.charge();
         let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
         let least = if inside { h - up } else { h.abs() - up };
@@ -265,12 +275,14 @@ impl Pair {
         let level = |height: f64| (sheet / height.hypot(low)).asinh();
         let passing = if inside { 0.75 } else { 1.75 };
         let levels = 4.0 * up * up * (0.5 * level(floor)).min(0.5 * level(up) + passing);
-        edges + levels + 4.0 * PI * thick * SLACK
+        let remainder = edges + levels + 4.0 * PI * thick * SLACK;
+        (remainder <= 4.0 * PI * thin * (up + aside)).then_some(remainder)
     }
 
     /// Phi falls with the distance from the face's line and with that from its middle line, so
     /// its extremes over a box are at two of the box's points.
-    fn interval(&self, panel: &Panel, [up, aside]: [f64; 2], nodes: &mut Nodes) -> f64 {
+    fn interval(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
+        let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x.abs(), panel.middle.y.abs());
         let weight = panel.weight();
         let highest = ((h - up).max(0.0), (v - aside).max(0.0), weight.abs());
