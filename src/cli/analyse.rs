@@ -4,12 +4,14 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use tilebind::analysis::{Analysis, Settings};
+use tilebind::analysis::Settings;
 use tilebind::design::MagnetModel;
+use tilebind::dynamics::check::BarrierCheck;
 use tilebind::pipeline::{self, Observer};
 use tilebind::report::writer::{self, Extent, WriteError};
-use tilebind::report::{arrays, dynamics, summary};
+use tilebind::report::{arrays, summary};
 
+use super::failure::fail_if_contradicted;
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -140,7 +142,7 @@ impl Analyse {
             let folder = self.out.display().to_string();
             print(&summary::summary(&design, &analysis, &folder))?;
         }
-        contradictions(&analysis)
+        fail_if_contradicted(analysis.contradicted().map(BarrierCheck::told))
     }
 
     fn settings(&self) -> Settings {
@@ -158,18 +160,5 @@ impl Analyse {
             dynamics_runs: self.dynamics.unwrap_or(0) as usize,
             ..Settings::default()
         }
-    }
-}
-
-/// Barriers that moving tiles contradict fail the run, whose results are written all the same.
-fn contradictions(analysis: &Analysis) -> Result<(), Failure> {
-    let all: Vec<String> = analysis
-        .contradicted()
-        .map(dynamics::contradiction)
-        .collect();
-    if all.is_empty() {
-        Ok(())
-    } else {
-        Err(Failure::Run(all.join("\n")))
     }
 }

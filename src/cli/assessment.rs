@@ -32,6 +32,13 @@ pub struct AssessmentOptions {
     /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds
     #[arg(long, value_name = "N", default_value_t = 200_000)]
     certify_cells: u32,
+
+    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; a
+    /// contradiction ends the command with status 1 after all results are written. 1000 take some
+    /// two seconds of a core for each barrier
+    #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
+          default_missing_value = "1000", value_parser = clap::value_parser!(u32).range(1..))]
+    dynamics: Option<u32>,
 }
 
 impl AssessmentOptions {
@@ -43,6 +50,7 @@ impl AssessmentOptions {
             far_starts: self.far_starts as usize,
             tolerance: self.tolerance,
             certify_cells: self.certify_cells as usize,
+            dynamics_runs: self.dynamics.unwrap_or(0) as usize,
         }
     }
 }

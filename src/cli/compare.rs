@@ -13,6 +13,7 @@ use tilebind::report::plots::ranking;
 use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
+use super::failure::{fail_if_contradicted, told_of};
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -105,18 +106,22 @@ impl Compare {
         })?;
         progress.finish();
         if self.json {
-            print(&json)
-        } else if self.quiet {
-            Ok(())
-        } else {
+            print(&json)?;
+        } else if !self.quiet {
             let folder = self.out.display();
             let names =
                 "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
             print(&format!(
                 "{}results in {folder}: {names}\n",
                 comparison.summary()
-            ))
+            ))?;
         }
+        let contradictions = assessments.iter().flat_map(|one| {
+            one.contradictions
+                .iter()
+                .map(|what| told_of(&one.name, what))
+        });
+        fail_if_contradicted(contradictions)
     }
 
     /// The designs; those of the same name and model are told apart by their files.

@@ -11,6 +11,7 @@ use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::dock;
 use tilebind::report::{docking as report, writer};
 
+use super::docking_starts::StartOptions;
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -19,11 +20,14 @@ use super::{Failure, input, interrupt, print};
 #[command(after_help = "\
 Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
 one, speed, and the velocity's direction about that to the fixed tile. Without --engine the table
-has its rim and the drag is 0.005 per second.
+has its rim and the drag is 0.005 per second. On the paper's tile a trajectory takes some 10 ms of
+a core.
 
 Examples:
   tilebind dock shapes/paper-tile.toml --runs 2000 --engine
+  tilebind dock shapes/paper-tile.toml --runs 2000 --engine --restitution 0.1
   tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
+  tilebind dock my.toml --runs 1000 --speed 0.4,0.8 --orientation 0.5
   tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5")]
 pub struct Dock {
     /// The design file
@@ -58,12 +62,25 @@ pub struct Dock {
     #[arg(long, value_name = "MU", default_value_t = 0.3, value_parser = input::not_negative)]
     friction: f64,
 
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = input::not_negative)]
+    restitution: f64,
+
+    /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
+    /// a magnet]
+    #[arg(long, value_name = "M", value_parser = input::positive)]
+    threshold: Option<f64>,
+
+    #[command(flatten)]
+    starts: StartOptions,
+
     /// Lets tiles leave the table
     #[arg(long)]
     no_walls: bool,
 
-    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m)
-    #[arg(long, value_name = "X,Y,E_J,S", allow_hyphen_values = true, value_parser = fan)]
+    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m);
+    /// the energy may swing by the share A at the frequency F (Hz)
+    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
     fan: Vec<Fan>,
 
     /// Effective energy kT (J) of a random shaking force
@@ -184,6 +201,9 @@ impl Dock {
             settings.duration = self.duration;
         }
         settings.motion.friction = self.friction;
+        settings.motion.restitution = self.restitution;
+        settings.starts = self.starts.starts(settings.starts);
+        settings.threshold = self.threshold;
         settings.runs = self.runs as usize;
         settings.seed = self.seed;
         settings
@@ -218,9 +238,11 @@ fn usage(error: DockingError) -> Failure {
     Failure::Usage(error.to_string())
 }
 
-/// A fan as `X,Y,E_J,S`.
+/// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 fn fan(text: &str) -> Result<Fan, String> {
-    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as 0.6,0.6,1e-3,0.2";
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
+                        0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
+                        often a second";
     let numbers: Vec<f64> = text
         .split(',')
         .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
@@ -228,6 +250,31 @@ fn fan(text: &str) -> Result<Fan, String> {
         .ok_or(FORM)?;
     match numbers[..] {
         [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
+        [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
+            amplitude,
+            frequency,
+            ..Fan::steady([x, y], energy, width)
+        }),
         _ => Err(FORM.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fans() {
+        let steady = Fan::steady([0.6, -0.5], 1e-3, 0.2);
+        assert_eq!(fan("0.6,-0.5, 1e-3,0.2"), Ok(steady));
+        let swinging = Fan {
+            amplitude: 0.5,
+            frequency: 2.0,
+            ..steady
+        };
+        assert_eq!(fan("0.6,-0.5,1e-3,0.2,0.5,2"), Ok(swinging));
+        for wrong in ["", "1,2,3", "0,0,1,0", "0,0,1,-1", "0,0,1,1,1", "0,0,NaN,1"] {
+            assert!(fan(wrong).is_err(), "{wrong}");
+        }
     }
 }

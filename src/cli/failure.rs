@@ -37,6 +37,21 @@ impl Failure {
     }
 }
 
+/// What is told of one design among several.
+pub fn told_of(name: &str, what: &str) -> String {
+    format!("{name}: {what}")
+}
+
+/// Barriers that moving tiles contradict fail a run, whose results are written all the same.
+pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Result<(), Failure> {
+    let all: Vec<String> = contradictions.collect();
+    if all.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Run(all.join("\n")))
+    }
+}
+
 impl From<DesignError> for Failure {
     fn from(error: DesignError) -> Self {
         Self::Usage(error.to_string())

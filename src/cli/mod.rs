@@ -7,6 +7,7 @@ pub mod calibrate;
 pub mod compare;
 pub mod completions;
 pub mod dock;
+mod docking_starts;
 pub mod energy;
 mod failure;
 pub mod init;

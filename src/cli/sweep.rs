@@ -12,6 +12,7 @@ use tilebind::report::writer::{self, WriteError};
 use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
 
 use super::assessment::AssessmentOptions;
+use super::failure::{fail_if_contradicted, told_of};
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, print};
 
@@ -248,7 +249,14 @@ impl Sweep {
             ))?;
         }
         match report.progress().failed {
-            0 => Ok(()),
+            0 => fail_if_contradicted((0..report.outcomes.len()).flat_map(|index| {
+                let found = report.assessment(index).into_iter();
+                found.flat_map(move |one| {
+                    let name = format!("point {index}");
+                    let told = one.contradictions.iter();
+                    told.map(move |what| told_of(&name, what))
+                })
+            })),
             failed => Err(Failure::Run(format!(
                 "{failed} points failed by a fault of tilebind; sweep.csv says which and why"
             ))),

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::{Analysis, Certified, Settings};
 use crate::design::{Design, Drawing};
+use crate::dynamics::check::BarrierCheck;
 use crate::landscape::{Barrier, Place, State, StateKind};
 use crate::pipeline::{self, Observer};
 
@@ -43,6 +44,14 @@ pub struct AssessmentSettings {
     pub tolerance: Option<f64>,
     /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
     pub certify_cells: usize,
+    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub dynamics_runs: usize,
+}
+
+/// Settings of sweeps without the check read as they always did.
+fn is_zero(runs: &usize) -> bool {
+    *runs == 0
 }
 
 impl Default for AssessmentSettings {
@@ -55,6 +64,7 @@ impl Default for AssessmentSettings {
             far_starts: settings.far_starts,
             tolerance: settings.tolerance,
             certify_cells: 200_000,
+            dynamics_runs: 0,
         }
     }
 }
@@ -76,6 +86,7 @@ impl AssessmentSettings {
                 0.0
             },
             certified: Certified::BondAndDeepestTrap,
+            dynamics_runs: self.dynamics_runs,
             ..Settings::default()
         }
     }
@@ -105,6 +116,12 @@ pub struct Assessment {
     pub far_starts: usize,
     pub captured: usize,
     pub uncaptured: usize,
+    /// Barriers that moving tiles checked; `None` where they were not asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub barriers_checked: Option<usize>,
+    /// What they contradict, a barrier each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contradictions: Vec<String>,
 }
 
 /// The bound state.
@@ -215,6 +232,8 @@ impl Assessment {
                 .map(captured)
                 .sum(),
             uncaptured: analysis.uncaptured.count,
+            barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
+            contradictions: analysis.contradicted().map(BarrierCheck::told).collect(),
         }
     }
 }

@@ -57,6 +57,8 @@ mod tests {
             far_starts: 0,
             captured: 0,
             uncaptured: 0,
+            barriers_checked: None,
+            contradictions: Vec::new(),
         }
     }
 

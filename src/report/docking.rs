@@ -81,6 +81,11 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
         },
         "open_dynamics_engine": is_engine_comparison(settings).then(|| json!({
             "matched": ENGINE.matched, "slid": ENGINE.slid, "margin": ENGINE.margin,
+            "restitution_in_the_mean": ENGINE.restitution,
+            "matched_with_correction_limited": ENGINE.corrected.0,
+            "margin_with_correction_limited": ENGINE.corrected.1,
+            "core_s_per_step": ENGINE.cost,
+            "core_s_per_simulated_s": ENGINE.steps.map(|step| ENGINE.cost / step),
             "best_speed_m_per_s": ENGINE.best.0, "best_matched": ENGINE.best.1,
             "here_at_best_speed":
                 proportion(&share_within(docking, [-starts.orientation, starts.orientation], ENGINE.best.0)),
@@ -89,9 +94,11 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
     }))
 }
 
-/// Whether this is the experiment that was made with the Open Dynamics Engine as well.
+/// Whether this is the experiment that was made with the Open Dynamics Engine as well, with
+/// whatever restitution.
 pub fn is_engine_comparison(settings: &DockingSettings) -> bool {
-    let other = DockingSettings::engine_comparison();
+    let mut other = DockingSettings::engine_comparison();
+    other.motion.restitution = settings.motion.restitution;
     settings.motion == other.motion
         && settings.starts == other.starts
         && settings.duration == other.duration
@@ -273,12 +280,17 @@ pub fn summary(design: &Design, docking: &Docking, map: &DockingMap) -> String {
         let starts = &docking.settings.starts;
         let all = [-starts.orientation, starts.orientation];
         text += &format!(
-            "  Open Dynamics Engine: {:.1} to {:.1} % bound (+- {:.1} %); here {}\n  \
-             at {} to {} m/s: {:.0} %; here {}\n",
+            "  Open Dynamics Engine: {:.1} to {:.1} % bound (+- {:.1} %), with a restitution of {:.2} \
+             in the mean where 0.01 is asked for; here {} with {}\n  \
+             with its correction of overlap limited, which leaves 0.02: {:.1} % (+- {:.1} %)\n  at {} to {} m/s: {:.0} %; here {}\n",
             100.0 * ENGINE.matched[0],
             100.0 * ENGINE.matched[1],
             100.0 * ENGINE.margin,
+            ENGINE.restitution,
             share(&docking.bound),
+            docking.settings.motion.restitution,
+            100.0 * ENGINE.corrected.0,
+            100.0 * ENGINE.corrected.1,
             ENGINE.best.0[0],
             ENGINE.best.0[1],
             100.0 * ENGINE.best.1,
@@ -292,13 +304,17 @@ pub fn summary(design: &Design, docking: &Docking, map: &DockingMap) -> String {
         .sum();
     let core = docking.wall_s * docking.threads as f64;
     text += &format!(
-        "  {} a step, {} a simulated second (of one core)\n",
+        "  {} a step, {} a simulated second (of one core that has nothing else to do); Open \
+         Dynamics Engine {} and {} to {}\n",
         si(core / contact.max(1) as f64, "s", 2),
         si(
             core / (docking.settings.duration * docking.runs.len().max(1) as f64),
             "s",
             2
-        )
+        ),
+        si(ENGINE.cost, "s", 2),
+        si(ENGINE.cost / ENGINE.steps[0], "s", 2),
+        si(ENGINE.cost / ENGINE.steps[1], "s", 2)
     );
     text
 }

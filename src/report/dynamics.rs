@@ -9,7 +9,6 @@ use super::json::{place, place_name};
 use crate::analysis::Analysis;
 use crate::dynamics::Motion;
 use crate::dynamics::check::{BarrierCheck, Side, SideVerdict};
-use crate::units::si;
 
 /// The file with a line for each barrier.
 pub const TABLE: &str = "dynamics.csv";
@@ -209,38 +208,7 @@ pub fn summary(analysis: &Analysis) -> String {
         sides.len(),
     );
     for check in analysis.contradicted() {
-        let _ = writeln!(text, "{}", contradiction(check));
+        let _ = writeln!(text, "{}", check.told());
     }
     text
-}
-
-/// A contradiction, told loudly.
-pub fn contradiction(check: &BarrierCheck) -> String {
-    let (from, to) = (place_name(check.from), place_name(check.to));
-    let claim = match (check.certified, check.ceiling.is_infinite()) {
-        (_, true) => "proved to have no way over it".to_owned(),
-        (true, _) => format!("certified to be above {}", si(check.ceiling, "J", 4)),
-        (false, _) => format!("estimated above {}", si(check.ceiling, "J", 4)),
-    };
-    let mut found = Vec::new();
-    if check.is_crossed() {
-        let below = &check.below;
-        found.push(format!(
-            "{} of {} trajectories below it crossed",
-            below.crossed, below.runs
-        ));
-    }
-    if let Some(kick) = check.kick.filter(|_| check.is_kicked_over()) {
-        let (kick, climb) = (si(kick, "J", 4), si(check.climb, "J", 4));
-        found.push(format!(
-            "a kick of {kick} threw the tile over, less than {climb}"
-        ));
-    }
-    if check.is_swapped() {
-        found.push("from beside the saddle a tile ended on the other side".to_owned());
-    }
-    format!(
-        "CONTRADICTION: the barrier from {from} to {to}, {claim}: {}",
-        found.join("; ")
-    )
 }

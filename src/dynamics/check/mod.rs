@@ -41,6 +41,7 @@ use rayon::prelude::*;
 use super::{Body, Motion};
 use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
+use crate::units::si;
 use checker::Checker;
 
 /// What the check does.
@@ -142,6 +143,40 @@ impl BarrierCheck {
     /// Whether any of these is so.
     pub fn is_contradicted(&self) -> bool {
         self.is_crossed() || self.is_kicked_over() || self.is_swapped()
+    }
+
+    /// What contradicts the barrier, told loudly.
+    pub fn told(&self) -> String {
+        let name = |place| match place {
+            Place::State(id) => format!("state {id}"),
+            Place::Free => "free".to_owned(),
+        };
+        let ceiling = si(self.ceiling, "J", 4);
+        let claim = match self.certified {
+            _ if self.ceiling.is_infinite() => "proved to have no way over it".to_owned(),
+            true => format!("certified to be above {ceiling}"),
+            false => format!("estimated to be above {ceiling}"),
+        };
+        let mut found = Vec::new();
+        if self.is_crossed() {
+            let Below { crossed, runs, .. } = self.below;
+            found.push(format!("{crossed} of {runs} trajectories below it crossed"));
+        }
+        if let Some(kick) = self.kick.filter(|_| self.is_kicked_over()) {
+            let [kick, climb] = [kick, self.climb].map(|energy| si(energy, "J", 4));
+            found.push(format!(
+                "a kick of {kick} threw the tile over it, less than {climb}"
+            ));
+        }
+        if self.is_swapped() {
+            found.push("from beside the saddle a tile ended on the other side".to_owned());
+        }
+        format!(
+            "CONTRADICTION: the barrier from {} to {}, {claim}: {}",
+            name(self.from),
+            name(self.to),
+            found.join("; ")
+        )
     }
 }
 

@@ -8,22 +8,40 @@ fn few(runs: usize) -> DockingSettings {
     }
 }
 
+/// The engine's share with the restitution that it really has, and with the one it is asked for.
 #[test]
 fn chances_agree_with_the_open_dynamics_engine() {
-    let docking = dock(&paper_tile(), &few(500), &|| ()).unwrap();
     let [low, high] = ENGINE.matched;
-    assert!(
-        docking.bound.low < high + ENGINE.margin,
-        "{:?}",
-        docking.bound
-    );
-    assert!(
-        docking.bound.high > low - ENGINE.margin,
-        "{:?}",
-        docking.bound
-    );
-    // The most frequent trap is the bond slid by one magnet.
-    assert!((docking.traps[0].energy + 16.026e-3).abs() < 1e-5);
+    let (corrected, margin) = ENGINE.corrected;
+    let expected = [
+        (
+            ENGINE.restitution,
+            [low - ENGINE.margin, high + ENGINE.margin],
+        ),
+        (0.01, [corrected - margin, corrected + margin]),
+    ];
+    for (restitution, [low, high]) in expected {
+        let mut settings = few(500);
+        settings.motion.restitution = restitution;
+        let docking = dock(&paper_tile(), &settings, &|| ()).unwrap();
+        let bound = docking.bound;
+        assert!(
+            bound.low < high && bound.high > low,
+            "{restitution}: {bound:?}"
+        );
+        // The most frequent trap is the bond slid by one magnet.
+        assert!((docking.traps[0].energy + 16.026e-3).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn knocks_that_give_back_more_bind_fewer() {
+    let share = |restitution| {
+        let mut settings = few(500);
+        settings.motion.restitution = restitution;
+        dock(&paper_tile(), &settings, &|| ()).unwrap().bound
+    };
+    assert!(share(0.5).high < share(0.0).low);
 }
 
 #[test]
