@@ -113,6 +113,10 @@ impl Sweep {
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
         }
+        // Doubts about the designs as they stand are told here.
+        for design in &self.designs {
+            input::load(design)?;
+        }
         let plan = Plan::new(
             &self.designs,
             self.vary.clone(),

@@ -78,6 +78,13 @@ pub struct State {
     pub capture: Option<Proportion>,
 }
 
+impl State {
+    /// How much higher (J) point dipoles' energy is than that of the blocks they stand for.
+    pub fn dipole_error(&self) -> Option<f64> {
+        self.block_energy.map(|blocks| self.energy - blocks)
+    }
+}
+
 /// One end of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Place {

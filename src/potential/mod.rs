@@ -16,7 +16,12 @@
 //! dipole is wrong by much: for blocks of 10 x 10 x 3 mm magnetised along a long side, face to
 //! face, its energy is 35 % too weak at a gap of 1 mm and 18 % at 5 mm, and for the same block
 //! magnetised through its 3 mm side it is 6.7 times too strong at 1 mm and 2.4 times at 5 mm.
-//! [`cuboid::ModelComparison`] gives both energies at any configuration.
+//! [`cuboid::ModelComparison`] gives both energies at any configuration; every analysis draws them
+//! over the gap (its picture `models`; that of the paper's tile is `results/paper-tile/models.svg`),
+//! and with dipoles its table of states has the blocks' energy and the dipoles' error in each.
+//!
+//! Over whole cells of configurations the energy of either model has guaranteed bounds
+//! ([`bounds`]), of which barriers are certified; not so with shields.
 //!
 //! Sources: Jackson, *Classical Electrodynamics* (3rd ed.), chapter 5, for the dipole; Akoun and
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, of whose integrals

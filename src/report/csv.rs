@@ -9,7 +9,8 @@ use crate::design::Design;
 use crate::landscape::{Barrier, Pathway, PathwayPoint};
 
 const STATES: &str = "id,kind,class,copies,x_m,y_m,theta_rad,energy_J,escape_J,escape_to,\
-                      capture_share,capture_low,capture_high,attracting,repelling,faces";
+                      capture_share,capture_low,capture_high,attracting,repelling,faces,\
+                      block_energy_J,dipole_error_J";
 const BARRIERS: &str = "from,to,saddle_energy_J,lower_J,upper_J,forward_J,reverse_J,\
                         spread_low_J,spread_high_J,x_m,y_m,theta_rad,pathway";
 /// Lengths are in m, theta is in rad.
@@ -23,7 +24,8 @@ const CLEARANCE_TOLERANCE: f64 = 1e-3;
 /// How far the energy may be off there, as a fraction of the range of energies on the pathway.
 const ENERGY_TOLERANCE: f64 = 1e-3;
 
-/// The table of states.
+/// The table of states. Where magnets are point dipoles its last two columns hold the energy of the
+/// blocks they stand for, and how much higher the dipoles' is.
 pub fn states(design: &Design, analysis: &Analysis) -> String {
     let mut table = String::from(STATES);
     for (state, escape) in analysis.states.iter().zip(&analysis.escapes) {
@@ -41,7 +43,7 @@ pub fn states(design: &Design, analysis: &Analysis) -> String {
             .collect();
         let _ = write!(
             table,
-            "\n{},{},{},{},{},{},{escape_height},{escape_to},{share},{low},{high},{},{},{}",
+            "\n{},{},{},{},{},{},{escape_height},{escape_to},{share},{low},{high},{},{},{},{},{}",
             state.id,
             kind(state.kind),
             state.class,
@@ -51,6 +53,8 @@ pub fn states(design: &Design, analysis: &Analysis) -> String {
             state.attracting,
             state.repelling,
             faces.join(" "),
+            state.block_energy.map(number).unwrap_or_default(),
+            state.dipole_error().map(number).unwrap_or_default(),
         );
     }
     table.push('\n');

@@ -51,6 +51,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     }
     write_bond(&mut text, analysis, bond);
     write_deepest(&mut text, bond, &traps);
+    write_dipole_error(&mut text, analysis);
     if let Some(why) = analysis.uncertified {
         let _ = writeln!(text, "barriers are not certified: {why}");
     }
@@ -60,6 +61,24 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
         "results in {folder}: report.html to look at; report.json, tables, pathways/, pictures/"
     );
     text
+}
+
+/// How far the dipoles' energy is off at the state where it is off most.
+fn write_dipole_error(text: &mut String, analysis: &Analysis) {
+    let worst = analysis
+        .states
+        .iter()
+        .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
+        .max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+    if let Some((state, blocks, error)) = worst {
+        let _ = writeln!(
+            text,
+            "dipoles are off by up to {}: at {}, where blocks have {} (--model cuboid)",
+            si(error, "J", DIGITS),
+            state_name(state),
+            si(blocks, "J", DIGITS),
+        );
+    }
 }
 
 fn classes(analysis: &Analysis) -> Vec<Class<'_>> {

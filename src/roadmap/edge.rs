@@ -145,24 +145,63 @@ fn steps(length: f64, settings: &EdgeSettings) -> usize {
 fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings) -> [f64; 2] {
     let kt = settings.thermal_energy;
     let mut energies = energies;
-    let (Some(mut last), Some(mut here)) = (energies.next(), energies.next()) else {
+    let (Some(first), Some(second)) = (energies.next(), energies.next()) else {
         return [0.0; 2];
     };
+    let (mut last, mut here) = (first, second);
     // -ln of e^-f / (e^-f + e^-b) is ln(1 + e^(f - b)), with f - b the difference of the next and
-    // the last energy over kT; the other way round it is that less the difference.
-    let mut both = [softplus((here - last) / kt), 0.0];
+    // the last energy over kT; the other way round it is that less the difference. The differences
+    // add up to those at the ends.
+    let mut inner = Softplus::default();
     for next in energies {
-        let climb = (next - last) / kt;
-        let onwards = softplus(climb);
-        both[0] += onwards;
-        both[1] += onwards - climb;
+        inner.add((next - last) / kt);
         (last, here) = (here, next);
     }
-    both[1] += softplus((last - here) / kt);
-    both
+    let inner = inner.total();
+    let climbs = (here + last - second - first) / kt;
+    let end = |climb: f64| {
+        let mut end = Softplus::default();
+        end.add(climb / kt);
+        end.total()
+    };
+    [
+        inner + end(second - first),
+        (inner - climbs).max(0.0) + end(last - here),
+    ]
 }
 
-/// ln(1 + e^x) without overflow.
-fn softplus(x: f64) -> f64 {
-    x.max(0.0) + (-x.abs()).exp().ln_1p()
+/// A sum of `ln(1 + e^x)`, without overflow and with few logarithms: the logarithm of a product.
+struct Softplus {
+    sum: f64,
+    product: f64,
+}
+
+impl Default for Softplus {
+    fn default() -> Self {
+        Self {
+            sum: 0.0,
+            product: 1.0,
+        }
+    }
+}
+
+impl Softplus {
+    /// From here on `ln(1 + e^x)` is x to an error below 1e-15.
+    const LARGE: f64 = 35.0;
+
+    fn add(&mut self, x: f64) {
+        if x > Self::LARGE {
+            self.sum += x;
+            return;
+        }
+        self.product *= 1.0 + x.exp();
+        if self.product > 1e250 {
+            self.sum += self.product.ln();
+            self.product = 1.0;
+        }
+    }
+
+    fn total(&self) -> f64 {
+        self.sum + self.product.ln()
+    }
 }

@@ -1,6 +1,6 @@
 //! What certified barriers cost: widths, cells, times, and cells per second.
 //!
-//! The paper's tile, no pathway known, each bracket by a certifier of its own; time to set it up
+//! The paper's tile with both models of magnets, no pathway known, each bracket by a certifier of its own; time to set it up
 //! included.
 //!
 //! `cargo bench --bench certificate`
@@ -12,7 +12,7 @@ use tilebind::Configuration;
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Certifier, Effort, End};
-use tilebind::potential::bounds::DipoleBounds;
+use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
 
 fn main() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
@@ -20,10 +20,17 @@ fn main() {
         Ok(design) => design,
         Err(error) => return eprintln!("{error}"),
     };
-    let bounds = DipoleBounds::new(&design.fixed, &design.moving);
+    let (fixed, moving) = (&design.fixed, &design.moving);
+    println!("point dipoles");
+    measure(&design, &DipoleBounds::new(fixed, moving), 65.47e-3);
+    println!("\nblocks");
+    measure(&design, &CuboidBounds::new(fixed, moving), 118.64e-3);
+}
+
+/// Brackets several barriers to shares of the bond's depth (J).
+fn measure(design: &Design, bounds: &dyn CellBounds, depth: f64) {
     let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
     let space = design.space();
-    let depth = 65.47e-3;
     let queries = [
         (
             "slid by +40 mm, to bound",
@@ -51,7 +58,7 @@ fn main() {
     for (name, from, to) in queries {
         for share in [1e-2, 1e-3, 1e-4] {
             let start = Instant::now();
-            let mut certifier = Certifier::new(&bounds, Some(&contact), &space);
+            let mut certifier = Certifier::new(bounds, Some(&contact), &space);
             let effort = Effort {
                 tolerance: share * depth,
                 cells: 5_000_000,

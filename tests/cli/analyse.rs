@@ -168,13 +168,30 @@ fn tables_pictures_and_the_summary() {
     let states = report["states"].as_array().unwrap();
     assert_eq!(table.lines().count(), 1 + states.len());
     assert!(table.starts_with("id,kind,class,copies,x_m,y_m,theta_rad,energy_J,"));
+    let header = table.lines().next().unwrap();
+    assert!(header.ends_with("faces,block_energy_J,dipole_error_J"));
+    for (row, state) in table.lines().skip(1).zip(states) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let [blocks, error] = [cells.len() - 2, cells.len() - 1].map(|k| cells[k].parse::<f64>());
+        let energy = state["energy_J"].as_f64().unwrap();
+        let expected = energy - state["block_energy_J"].as_f64().unwrap();
+        assert!((error.unwrap() - expected).abs() < 1e-9 * expected.abs());
+        assert!((blocks.unwrap() + expected - energy).abs() < 1e-9);
+    }
     let table = std::fs::read_to_string(folder.path().join("barriers.csv")).unwrap();
     let barriers = report["barriers"].as_array().unwrap();
     assert_eq!(table.lines().count(), 1 + barriers.len());
     let columns: Vec<usize> = table.lines().map(|l| l.split(',').count()).collect();
     assert!(columns.iter().all(|n| *n == columns[0]));
     assert!(barriers.iter().any(|b| b["spread_J"].is_array()));
-    for name in ["map", "approach", "profiles", "docking", "disconnectivity"] {
+    for name in [
+        "map",
+        "approach",
+        "profiles",
+        "docking",
+        "models",
+        "disconnectivity",
+    ] {
         for (kind, start) in [("svg", "<svg"), ("png", "\u{89}PNG")] {
             let file = folder.path().join(format!("pictures/{name}.{kind}"));
             let content = std::fs::read(&file).unwrap_or_else(|_| panic!("{}", file.display()));
@@ -190,6 +207,7 @@ fn tables_pictures_and_the_summary() {
         "-65.47 mJ",
         "trap",
         "selectivity",
+        "dipoles are off by up to",
     ] {
         assert!(summary.contains(said), "{said:?} in\n{summary}");
     }

@@ -12,6 +12,7 @@ fn draw(pair: &Pair) -> Vec<NamedPicture> {
     let scene = Scene {
         name: &pair.design.name,
         pair: pair.tiles(),
+        shields: &pair.design.shields,
         space: &pair.space,
         bound: BOUND,
         target: pair.design.target,
@@ -40,7 +41,7 @@ fn texts(svg: &str) -> Vec<&str> {
 
 #[test]
 fn every_picture_says_what_it_shows() {
-    let expected: [(&str, &[&str]); 5] = [
+    let expected: [(&str, &[&str]); 6] = [
         (
             "map",
             &[
@@ -92,6 +93,17 @@ fn every_picture_says_what_it_shows() {
                 "U = \u{2212}65.47 mJ",
                 "touching",
                 "north pole",
+            ],
+        ),
+        (
+            "models",
+            &[
+                "paper-tile: magnets as point dipoles and as blocks",
+                "gap (mm)",
+                "dipoles",
+                "blocks",
+                "44.8 % in contact",
+                "35.5 % at 1.00 mm",
             ],
         ),
         (
@@ -177,5 +189,5 @@ fn an_analysis_without_states_still_has_its_maps() {
     pair.states.clear();
     pair.escapes.clear();
     let names: Vec<_> = draw(&pair).iter().map(|p| p.name).collect();
-    assert_eq!(names, ["map", "approach"]);
+    assert_eq!(names, ["map", "approach", "models"]);
 }

@@ -4,8 +4,8 @@
 //! the file, which must carry a physical unit, or from `unit` of the design, the length of a user
 //! unit; where both are there they must agree. Transforms of groups and shapes are composed.
 //! `path`, `polygon`, `polyline`, `rect`, `circle` and `ellipse` are read; anything else that would
-//! be seen is named in a warning, and what would move a shape without being read (transforms in
-//! style sheets) is refused. Style sheets themselves are named, not read.
+//! be seen is named in a warning, style sheets too, and what would move a shape without being read
+//! (a transform in an element's `style`, another origin of one) is refused.
 //!
 //! Curves become chords between points on the curve, no chord farther than
 //! [`CHORD_ERROR`] from it. Arcs go by way of cubics that leave them by a thousandth of that.

@@ -36,6 +36,7 @@ impl Page {
                     potential: problem.potential(),
                     contact,
                 },
+                shields: &design.shields,
                 space: &problem.space,
                 bound: design.bound,
                 target: design.target,

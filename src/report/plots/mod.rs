@@ -4,6 +4,7 @@
 //! - `approach`: energy in front of the target face, gap and slide against tilt;
 //! - `profiles`: energy along the main pathways with their barriers;
 //! - `docking`: film strip of the way into the bound state;
+//! - `models`: point dipoles against blocks over the gap;
 //! - `disconnectivity`: which states merge at which energy.
 //!
 //! Charts are laid out by plotters. Its SVG backend writes the vector form; pixels are drawn from
@@ -23,6 +24,7 @@ mod heat;
 mod labels;
 mod marks;
 pub(in crate::report) mod merge_tree;
+mod models;
 mod picture;
 mod profiles;
 pub mod ranking;
@@ -65,13 +67,14 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
     let scale = EnergyScale::holding(scene.states.iter().map(|state| state.energy).chain(sampled));
 
     type Drawing<'a> = &'a (dyn Fn() -> Result<Option<Picture>, PictureError> + Sync);
-    let drawings: [(&str, Drawing); 5] = [
+    let drawings: [(&str, Drawing); 6] = [
         ("map", &|| energy_map::draw(scene, &maps, &scale).map(Some)),
         ("approach", &|| {
             approach::draw(scene, &approach, &slices, &scale).map(Some)
         }),
         ("profiles", &|| profiles::draw(scene, &scale)),
         ("docking", &|| film::draw(scene, &scale)),
+        ("models", &|| models::draw(scene)),
         ("disconnectivity", &|| disconnectivity::draw(scene, &scale)),
     ];
     let pictures: Vec<_> = drawings

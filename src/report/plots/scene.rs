@@ -8,6 +8,7 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::design::Design;
 use crate::landscape::map::Pair;
 use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
+use crate::potential::shielding::Shields;
 use crate::problem::Problem;
 
 /// An analysed pair of tiles.
@@ -16,6 +17,7 @@ pub struct Scene<'a> {
     /// Name of the design.
     pub name: &'a str,
     pub pair: Pair<'a>,
+    pub shields: &'a Shields,
     pub space: &'a ConfigurationSpace,
     /// The configuration in which the two target faces coincide.
     pub bound: Configuration,
@@ -46,6 +48,7 @@ impl<'a> Scene<'a> {
                 potential: problem.potential(),
                 contact: problem.contact.as_ref()?,
             },
+            shields: &design.shields,
             space: &problem.space,
             bound: design.bound,
             target: design.target,

@@ -178,3 +178,62 @@ fn a_block_that_is_cut_or_sticks_out_does_not_count_as_inside() {
     assert!(is_cut(&block, &outline));
     assert!(!is_cut(&Block::new(1.0, [0.2, 0.05, 0.1]), &outline));
 }
+
+/// A tile with one block at its reference point.
+fn one_block(size: [f64; 3]) -> Tile {
+    let (mut tile, _) = paper_tiles();
+    tile.magnets.truncate(1);
+    tile.magnets[0].position = Vector2::zeros();
+    tile.magnets[0].angle = 0.0;
+    tile.magnets[0].moment = 0.3;
+    tile.magnets[0].size = size;
+    tile
+}
+
+/// Energies of two blocks of 0.3 A m^2, the first of 10 x 10 x 3 mm, to 14 digits: the integral of
+/// the charges' Coulomb energy, heights closed, along both pole faces by mpmath's tanh-sinh
+/// quadrature with 18 digits. Nothing of it is shared with this crate's formulas but the integrand
+/// `g`. (The interval crate `inari` cannot check the bounds here: it demands compiler flags of
+/// everything built with it.)
+#[test]
+fn bounds_hold_numbers_of_many_digits_with_no_room() {
+    const SECOND: [[f64; 3]; 2] = [[0.010, 0.010, 0.003], [0.006, 0.016, 0.005]];
+    #[rustfmt::skip]
+    const ENERGIES: [(usize, [f64; 3], f64); 12] = [
+        (0, [0.0105, 0.002, 0.0], -0.023193396842035),
+        (0, [0.011, 0.004, 0.05], -0.01541458070972),
+        (0, [0.016, -0.006, 0.7], -0.0014214530661701),
+        (0, [0.002, 0.0185, 1.5], -0.00038136421416988),
+        (0, [0.03, 0.01, -2.5], 0.00056622481578988),
+        (1, [0.0105, 0.002, 0.0], -0.012543102937123),
+        (1, [0.011, 0.004, 0.05], -0.0096959990323299),
+        (1, [0.016, -0.006, 0.7], -0.0025193419686325),
+        (1, [0.002, 0.0185, 1.5], -0.0002898655310415),
+        (1, [0.03, 0.01, -2.5], 0.00053275774493842),
+        (0, [0.010, 0.0, 0.0], -0.03257707991908),
+        (0, [0.010, 0.003, 0.0], -0.025776826593209),
+    ];
+    let first = one_block(SECOND[0]);
+    for level in Level::available() {
+        for (second, place, exact) in ENERGIES {
+            let bounds = CuboidBounds::with_level(&first, &one_block(SECOND[second]), level);
+            // Cells with the place at a corner, so that remainders count too.
+            for half in [0.0, 1e-5, 1e-4, 1e-3] {
+                let [x, y, theta] = place;
+                let enclosure = bounds.enclose(&Cell {
+                    centre: Configuration::new(x + half, y - half, theta + half),
+                    half: [half * (1.0 + 1e-12); 3],
+                });
+                let form = enclosure.form.at([-half, half, -half]);
+                let (low, high) = (form + enclosure.low, form + enclosure.high);
+                assert!(
+                    low <= exact && exact <= high,
+                    "{level} {place:?} {half}: {exact} not in [{low}, {high}]"
+                );
+                if half == 0.0 {
+                    assert!(high - low < 2e-3 * exact.abs(), "{place:?} {}", high - low);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What the model of the magnets costs: the energy of point dipoles against that of blocks, and
+//! the error of the dipoles, as the bound tiles are drawn apart along the target face's normal.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::marks::{Pixel, polyline};
+use super::picture::{Area, Picture, PictureError};
+use super::scene::Scene;
+use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel, title, units};
+use crate::landscape::approach::Approach;
+use crate::potential::{MagnetModel, of_tiles};
+use crate::units::{prefix_of, si};
+
+const SIZE: (u32, u32) = (1000, 440);
+const HEAD: f64 = 50.0;
+/// Space around a panel's plot (pixels): top, right, bottom, left.
+const MARGIN: [f64; 4] = [32.0, 24.0, 60.0, 80.0];
+const SAMPLES: usize = 101;
+/// Largest gap as a multiple of the largest magnet's length or width.
+const FARTHEST: f64 = 5.0;
+/// Gaps (in the same unit) at which the error is written out.
+const MARKED: [f64; 3] = [0.0, 0.1, 1.0];
+
+/// Energies (J) of both models over the gap (m).
+struct Curves {
+    gaps: Vec<f64>,
+    dipoles: Vec<f64>,
+    blocks: Vec<f64>,
+}
+
+impl Curves {
+    /// `None` where there are no magnets, or the faces cannot meet along the normal.
+    fn new(scene: &Scene) -> Option<Self> {
+        let pair = &scene.pair;
+        let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
+        let size = magnets
+            .map(|magnet| magnet.size[0].max(magnet.size[1]))
+            .fold(0.0, f64::max);
+        if size == 0.0 {
+            return None;
+        }
+        let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
+        let landing = approach.landing(pair.contact, 0.0, 0.0)?;
+        let gaps: Vec<f64> = (0..SAMPLES)
+            .map(|k| FARTHEST * size * k as f64 / (SAMPLES - 1) as f64)
+            .collect();
+        let energies = |model| {
+            let potential = of_tiles(model, pair.fixed, pair.moving, scene.shields);
+            let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
+            gaps.iter().map(at).collect::<Vec<_>>()
+        };
+        Some(Self {
+            dipoles: energies(MagnetModel::Dipole),
+            blocks: energies(MagnetModel::Cuboid),
+            gaps,
+        })
+    }
+
+    /// The dipoles' error (%) relative to the blocks' energy.
+    fn errors(&self) -> Vec<f64> {
+        let pairs = self.dipoles.iter().zip(&self.blocks);
+        pairs
+            .map(|(dipole, block)| 100.0 * (dipole - block).abs() / block.abs())
+            .collect()
+    }
+}
+
+/// Two panels: energies, and the error; `None` where there is nothing to compare.
+pub fn draw(scene: &Scene) -> Result<Option<Picture>, PictureError> {
+    let Some(curves) = Curves::new(scene) else {
+        return Ok(None);
+    };
+    let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+    if !finite(&curves.dipoles) || !finite(&curves.errors()) {
+        return Ok(None);
+    }
+    Picture::draw(SIZE, |root, _| {
+        let text = format!("{}: magnets as point dipoles and as blocks", scene.name);
+        title(root, &text)?;
+        let (_, body) = root.split_vertically(units(HEAD));
+        let (left, right) = body.split_horizontally(units(f64::from(SIZE.0) / 2.0));
+        energies(&left, root, &curves)?;
+        errors(&right, root, &curves)
+    })
+    .map(Some)
+}
+
+fn energies(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureError> {
+    let all = curves.dipoles.iter().chain(&curves.blocks);
+    let (low, high) = all.fold((0.0f64, 0.0f64), |(low, high), &u| {
+        (low.min(u), high.max(u))
+    });
+    let span = high - low;
+    let (joule, prefix) = prefix_of(0.999 * low.abs().max(high));
+    let (x_axis, metre) = gap_axis(curves);
+    let range = (low - 0.05 * span) / joule..(high + 0.05 * span) / joule;
+    let y_axis = Axis::linear(range, 6, format!("energy U ({prefix}J)"));
+    let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
+    let at = |gap: f64, energy: f64| pixel(&chart, gap / metre, energy / joule);
+    heading(root, at(0.0, high + 0.05 * span), "energy over the gap")?;
+    let named = [
+        ("dipoles", &curves.dipoles, VERMILLION),
+        ("blocks", &curves.blocks, BLUE),
+    ];
+    for (k, (name, energies, colour)) in named.into_iter().enumerate() {
+        let line: Vec<Pixel> = curves
+            .gaps
+            .iter()
+            .zip(energies)
+            .map(|(gap, energy)| at(*gap, *energy))
+            .collect();
+        polyline(root, &line, colour, 2.4)?;
+        let last = at(curves.gaps[SAMPLES - 1], 0.5 * (low + high));
+        let place = (last.0 - 12.0, last.1 + 22.0 * k as f64);
+        Text::new(LABEL)
+            .colour(colour)
+            .write(root, name, place, (HPos::Right, VPos::Center))?;
+    }
+    Ok(())
+}
+
+fn errors(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureError> {
+    let errors = curves.errors();
+    let most = errors.iter().copied().fold(1.0, f64::max);
+    let (x_axis, metre) = gap_axis(curves);
+    let y_axis = Axis::linear(0.0..1.1 * most, 6, "error of the dipoles' energy (%)");
+    let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
+    let at = |gap: f64, error: f64| pixel(&chart, gap / metre, error);
+    heading(root, at(0.0, 1.1 * most), "relative to the blocks")?;
+    let points = || curves.gaps.iter().zip(&errors);
+    let line: Vec<Pixel> = points().map(|(gap, error)| at(*gap, *error)).collect();
+    polyline(root, &line, INK, 2.4)?;
+    let unit = curves.gaps[SAMPLES - 1] / FARTHEST;
+    for mark in MARKED {
+        let wanted = points().find(|(gap, _)| **gap >= (mark - 1e-9) * unit);
+        if let Some((gap, error)) = wanted {
+            let (x, y) = at(*gap, *error);
+            polyline(root, &[(x, y), (x + 22.0, y)], INK, 0.8)?;
+            let place = match mark {
+                0.0 => "in contact".to_owned(),
+                _ => format!("at {}", si(*gap, "m", 3)),
+            };
+            let text = format!("{error:.1} % {place}");
+            Text::new(SMALL).write(root, &text, (x + 26.0, y), (HPos::Left, VPos::Center))?;
+        }
+    }
+    Ok(())
+}
+
+/// The axis of the gap, and its unit (m).
+fn gap_axis(curves: &Curves) -> (Axis, f64) {
+    let farthest = curves.gaps[SAMPLES - 1];
+    let (metre, prefix) = prefix_of(0.999 * farthest);
+    let name = format!("gap ({prefix}m)");
+    (Axis::linear(0.0..farthest / metre, 6, name), metre)
+}
+
+fn heading(root: &Area, (x, y): Pixel, text: &str) -> Result<(), PictureError> {
+    Text::new(LABEL)
+        .bold()
+        .write(root, text, (x, y - 8.0), (HPos::Left, VPos::Bottom))
+}
