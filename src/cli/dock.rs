@@ -17,7 +17,9 @@ use super::{Failure, input, interrupt, print};
 
 /// Send the moving tile towards the fixed one many times and count how it ends
 #[derive(Args)]
-#[command(after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
 one, speed, and the velocity's direction about that to the fixed tile. Without --engine the table
 has its rim and the drag is 0.005 per second. On the paper's tile a trajectory takes some 10 ms of
@@ -28,7 +30,8 @@ Examples:
   tilebind dock shapes/paper-tile.toml --runs 2000 --engine --restitution 0.1
   tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
   tilebind dock my.toml --runs 1000 --speed 0.4,0.8 --orientation 0.5
-  tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5")]
+  tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5"
+)]
 pub struct Dock {
     /// The design file
     design: PathBuf,

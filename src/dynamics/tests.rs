@@ -1,4 +1,4 @@
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -240,4 +240,41 @@ fn shaking_keeps_half_of_kt_in_each_degree_of_freedom() {
             "{axis}: {deviation}"
         );
     }
+}
+
+#[test]
+fn a_fan_pushes_down_its_energy_and_a_steady_one_keeps_the_total() {
+    let fan = Fan {
+        amplitude: 0.5,
+        frequency: 2.0,
+        ..Fan::steady([0.8, 0.1], 2e-3, 0.15)
+    };
+    let (r, t, step) = (Vector2::new(0.7, 0.25), 0.3, 1e-6);
+    let energy = |r: Vector2<f64>| fan.energy_and_force(r, t).0;
+    let force = fan.energy_and_force(r, t).1;
+    for axis in [Vector2::x(), Vector2::y()] {
+        let slope = (energy(r + axis * step) - energy(r - axis * step)) / (2.0 * step);
+        assert!((force.dot(&axis) + slope).abs() < 1e-8);
+    }
+    // Its top is at its place, half as high again a quarter of a swing after the start.
+    let top = fan.energy_and_force(fan.place.into(), 0.125).0;
+    assert!((top - 1.5 * fan.energy).abs() < 1e-15);
+
+    let (problem, body) = pushed(Vector3::zeros());
+    let settings = MotionSettings {
+        fans: vec![Fan::steady([0.9, 0.0], 2e-3, 0.1)],
+        ..ideal()
+    };
+    // Slowed down, turned aside and sped up again.
+    let start = ([1.4, 0.05, 0.0], [-0.15, 0.0, 0.2]);
+    let (run, samples) = run(&problem, body, &settings, start, 5.0);
+    let total = samples[0].total();
+    assert_eq!(run.contact_steps, 0, "meant not to touch");
+    assert!(samples.iter().any(|s| s.potential > 0.3 * total));
+    assert!(
+        samples
+            .iter()
+            .all(|s| (s.total() - total).abs() < 1e-6 * total)
+    );
+    assert!(run.last.motion.velocity.y > 0.05, "{run:?}");
 }

@@ -101,7 +101,7 @@ impl<'a> Checker<'a> {
             walls: true,
             contact_travel: STEP,
             // Slow tiles need not be watched more closely than fast ones.
-            contact_step: (STEP / speed).max(1e-3),
+            contact_step: (STEP / speed).clamp(1e-3, 1e-2),
             ..MotionSettings::default()
         };
         let settling = MotionSettings {
@@ -311,10 +311,11 @@ impl<'a> Checker<'a> {
                 Place::Free => self.barrier.forward(),
                 Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
             };
-            let low = highest.energy - BESIDE * drop;
+            // Below the ceiling too, so that an end on the other side refutes what is claimed.
+            let low = (highest.energy - BESIDE * drop).min(self.ceiling);
             let released = match side {
-                0 => before.iter().rev().find(|p| p.energy <= low),
-                _ => behind.iter().find(|p| p.energy <= low),
+                0 => before.iter().rev().find(|p| p.energy < low),
+                _ => behind.iter().find(|p| p.energy < low),
             };
             let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
             let ended = self.settled_place(settling, &start, steps);
@@ -340,7 +341,8 @@ impl<'a> Checker<'a> {
         std::iter::once(own).chain(passed).collect()
     }
 
-    /// Where a trajectory with light drag comes to rest.
+    /// Where a trajectory with light drag comes to rest; `None` also where the integration's error
+    /// lifted it over the ceiling.
     fn settled_place(
         &self,
         settling: &Simulation,
@@ -350,13 +352,15 @@ impl<'a> Checker<'a> {
         let space = &self.problem.space;
         let slow = 1e-3 * self.barrier.forward();
         let mut rng = stream(self.settings.seed, 0);
+        let mut spoilt = false;
         let run = settling.run(start, SETTLING, &mut rng, &mut |sample| {
             let q = &sample.motion.configuration;
+            spoilt |= sample.total() >= self.ceiling;
             let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
-            space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
+            spoilt || space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
         });
         *steps += run.free_steps + run.contact_steps;
-        self.place_below(&run.last)
+        (!spoilt).then(|| self.place_below(&run.last)).flatten()
     }
 
     /// The least kick along the pathway's beginning that leads to its end.

@@ -8,8 +8,9 @@
 //! - **Below.** Many trajectories with less total energy than the barrier's certified lower bound
 //!   ([`Below`]); none may cross. So that this could fail at all, some more start with as much
 //!   energy too much and are counted too ([`BarrierCheck::above`]).
-//! - **Sides.** Released at rest a little before and a little behind the saddle, with light drag,
-//!   the tile ends where the pathway comes from and where it leads ([`Side`]).
+//! - **Sides.** Released at rest on the pathway before and behind the saddle, just below what is
+//!   certified, with light drag, the tile ends where the pathway comes from and where it leads
+//!   ([`Side`]).
 //! - **Kick.** The least of a ladder of kicks along the pathway's beginning that throws the tile
 //!   out has at least the barrier's energy ([`BarrierCheck::kick`]).
 //!
@@ -82,7 +83,8 @@ pub struct Below {
 /// Where a trajectory from one side of a saddle ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Side {
-    /// `None` for no reported state.
+    /// `None` for no reported state, and where the integration's error lifted the tile over the
+    /// ceiling.
     pub ended: Option<Place>,
     pub verdict: SideVerdict,
 }
