@@ -118,7 +118,11 @@ fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
     let mut rounds: [Vec<Built>; 2] = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
         for ((_, pool), built) in pools.iter().zip(&mut rounds) {
-            built.push(pool.install(|| build(problem, depth, 8000, neighbours)));
+            built.push(pool.install(|| {
+                // A core that has slept takes a while to wake.
+                build(problem, depth, 2000, neighbours);
+                build(problem, depth, 8000, neighbours)
+            }));
         }
     }
     let first = &rounds[0][0];
