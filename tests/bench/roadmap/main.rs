@@ -7,7 +7,10 @@
 //! rounds in which both take turns.
 //!
 //! `cargo bench --bench roadmap -- --scale 1e4,1e5,1e6`: growth with the number of milestones, as
-//! CSV; `--neighbours K` for other than the default number.
+//! CSV; `--neighbours K` for other than the default number. `--draw results/scale.csv` draws such
+//! a table beside it.
+
+mod figure;
 
 use std::path::Path;
 use std::time::Instant;
@@ -37,6 +40,12 @@ fn main() {
         arguments.get(at + 1).cloned()
     };
     let neighbours = value("--neighbours").and_then(|k| k.parse().ok());
+    if let Some(table) = value("--draw") {
+        if let Err(error) = figure::draw(Path::new(&table)) {
+            eprintln!("{table}: {error}");
+        }
+        return;
+    }
     match value("--scale") {
         None => rates(&problem, depth, neighbours),
         Some(counts) => {
@@ -119,8 +128,8 @@ fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
     for _ in 0..ROUNDS {
         for ((_, pool), built) in pools.iter().zip(&mut rounds) {
             built.push(pool.install(|| {
-                // A core that has slept takes a while to wake.
-                build(problem, depth, 2000, neighbours);
+                // The system takes some tens of milliseconds to spread threads over cores.
+                build(problem, depth, 8000, neighbours);
                 build(problem, depth, 8000, neighbours)
             }));
         }
@@ -171,12 +180,21 @@ fn scale(
     counts: impl Iterator<Item = usize>,
     neighbours: Option<usize>,
 ) {
-    println!("milestones,edges,milestones_s,neighbours_s,edges_s,energies_per_edge,peak_memory_MB");
+    println!(
+        "neighbours,milestones,edges,milestones_s,neighbours_s,edges_s,energies_per_edge,\
+         peak_memory_MB"
+    );
     for count in counts {
+        let k = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(count));
+        let kind = if neighbours.is_some() {
+            "fixed"
+        } else {
+            "default"
+        };
         let built = build(problem, depth, count, neighbours);
-        let [milestones, neighbours, edges, _] = built.seconds;
+        let [milestones, found, edges, _] = built.seconds;
         println!(
-            "{},{},{milestones:.3},{neighbours:.3},{edges:.3},{:.2},{}",
+            "{k} {kind},{},{},{milestones:.3},{found:.3},{edges:.3},{:.2},{}",
             built.milestones,
             built.edges,
             built.energies as f64 / built.edges as f64,
