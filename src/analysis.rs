@@ -61,8 +61,8 @@ pub struct Settings {
     /// Cells spent on the bounds of one barrier at most, so that a hard one leaves time for the
     /// others.
     pub certify_cells: usize,
-    /// Which barriers are certified.
-    pub certified: Certified,
+    /// Which barriers are certified, and checked by moving tiles.
+    pub claims: Claims,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
     /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
@@ -70,10 +70,16 @@ pub struct Settings {
 }
 
 impl Analysis {
-    /// The barriers that moving tiles contradict.
+    /// The barriers that moving tiles contradict: they cross below what is certified.
     pub fn contradicted(&self) -> impl Iterator<Item = &BarrierCheck> {
         let checks = self.dynamics.iter().flatten();
         checks.filter(|check| check.is_contradicted())
+    }
+
+    /// The barriers without certified bounds that moving tiles show to be estimated too high.
+    pub fn overestimated(&self) -> impl Iterator<Item = &BarrierCheck> {
+        let checks = self.dynamics.iter().flatten();
+        checks.filter(|check| check.is_overestimated())
     }
 }
 
@@ -91,16 +97,17 @@ impl Default for Settings {
             tolerance: None,
             certify_seconds: 60.0,
             certify_cells: 1_000_000,
-            certified: Certified::All,
+            claims: Claims::All,
             repeats: 1,
             dynamics_runs: 0,
         }
     }
 }
 
-/// Which barriers are certified.
+/// The barriers of which more is claimed than the roadmap's estimate: they are certified, and
+/// checked by moving tiles where that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Certified {
+pub enum Claims {
     All,
     /// The ways out of the bond to `free` and out of the deepest trap.
     BondAndDeepestTrap,

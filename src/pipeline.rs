@@ -8,6 +8,7 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Body;
 use crate::dynamics::check::{self, BarrierCheck, CheckSettings};
+use crate::landscape::Barrier;
 use crate::landscape::capture::{self, FarStarts};
 use crate::landscape::inventory::{self, Inventory};
 use crate::landscape::survey::{Survey, SurveySettings};
@@ -135,7 +136,7 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     }
 }
 
-/// What moving tiles say of the barriers, if they are asked.
+/// What moving tiles say of the barriers that are claimed, if they are asked.
 fn check_barriers(
     design: &Design,
     problem: &Problem,
@@ -154,11 +155,15 @@ fn check_barriers(
         ..CheckSettings::default()
     };
     let observer = clock.observer;
+    let claimed: Vec<&Barrier> = (0..inventory.barriers.len())
+        .filter(|&number| inventory.is_claimed(number, settings.claims))
+        .map(|number| &inventory.barriers[number])
+        .collect();
     Some(check::check(
         problem,
         Body::of_tile(&design.moving),
         &inventory.states,
-        &inventory.barriers,
+        &claimed,
         &check,
         &|done, count| observer.part("dynamics", done, count),
     ))

@@ -13,7 +13,7 @@ use tilebind::report::plots::ranking;
 use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
-use super::failure::{fail_if_contradicted, told_of};
+use super::failure::tell_refuted;
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -116,12 +116,8 @@ impl Compare {
                 comparison.summary()
             ))?;
         }
-        let contradictions = assessments.iter().flat_map(|one| {
-            one.contradictions
-                .iter()
-                .map(|what| told_of(&one.name, what))
-        });
-        fail_if_contradicted(contradictions)
+        let named = assessments.iter().map(|one| (one.name.clone(), one));
+        tell_refuted(&named.collect::<Vec<_>>())
     }
 
     /// The designs; those of the same name and model are told apart by their files.

@@ -3,6 +3,7 @@
 use std::io;
 use std::process::ExitCode;
 
+use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
 use tilebind::report::writer::WriteError;
 
@@ -37,9 +38,18 @@ impl Failure {
     }
 }
 
-/// What is told of one design among several.
-pub fn told_of(name: &str, what: &str) -> String {
-    format!("{name}: {what}")
+/// Tells what moving tiles refute of several designs, each with a name: what they contradict fails
+/// the run, what they show to be estimated too high is noted.
+pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure> {
+    let mut contradictions = Vec::new();
+    for (name, one) in assessments {
+        for told in &one.overestimates {
+            eprintln!("note: {name}: {told}");
+        }
+        let told = one.contradictions.iter();
+        contradictions.extend(told.map(|told| format!("{name}: {told}")));
+    }
+    fail_if_contradicted(contradictions.into_iter())
 }
 
 /// Barriers that moving tiles contradict fail a run, whose results are written all the same.

@@ -12,7 +12,7 @@ use tilebind::report::writer::{self, WriteError};
 use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
 
 use super::assessment::AssessmentOptions;
-use super::failure::{fail_if_contradicted, told_of};
+use super::failure::tell_refuted;
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, print};
 
@@ -249,14 +249,11 @@ impl Sweep {
             ))?;
         }
         match report.progress().failed {
-            0 => fail_if_contradicted((0..report.outcomes.len()).flat_map(|index| {
-                let found = report.assessment(index).into_iter();
-                found.flat_map(move |one| {
-                    let name = format!("point {index}");
-                    let told = one.contradictions.iter();
-                    told.map(move |what| told_of(&name, what))
-                })
-            })),
+            0 => {
+                let point = |index| Some((format!("point {index}"), report.assessment(index)?));
+                let points = (0..report.outcomes.len()).filter_map(point);
+                tell_refuted(&points.collect::<Vec<_>>())
+            }
             failed => Err(Failure::Run(format!(
                 "{failed} points failed by a fault of tilebind; sweep.csv says which and why"
             ))),

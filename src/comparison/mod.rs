@@ -17,7 +17,7 @@ pub mod ranking;
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::{Analysis, Certified, Settings};
+use crate::analysis::{Analysis, Claims, Settings};
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
 use crate::landscape::{Barrier, Place, State, StateKind};
@@ -85,7 +85,7 @@ impl AssessmentSettings {
             } else {
                 0.0
             },
-            certified: Certified::BondAndDeepestTrap,
+            claims: Claims::BondAndDeepestTrap,
             dynamics_runs: self.dynamics_runs,
             ..Settings::default()
         }
@@ -122,6 +122,9 @@ pub struct Assessment {
     /// What they contradict, a barrier each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contradictions: Vec<String>,
+    /// Barriers without certified bounds that they show to be estimated too high.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overestimates: Vec<String>,
 }
 
 /// The bound state.
@@ -234,6 +237,7 @@ impl Assessment {
             uncaptured: analysis.uncaptured.count,
             barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
             contradictions: analysis.contradicted().map(BarrierCheck::told).collect(),
+            overestimates: analysis.overestimated().map(BarrierCheck::told).collect(),
         }
     }
 }

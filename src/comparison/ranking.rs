@@ -59,6 +59,7 @@ mod tests {
             uncaptured: 0,
             barriers_checked: None,
             contradictions: Vec::new(),
+            overestimates: Vec::new(),
         }
     }
 

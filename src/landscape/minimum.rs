@@ -137,6 +137,27 @@ mod tests {
     use crate::pipeline;
 
     #[test]
+    fn a_shallow_minimum_is_not_jumped_out_of() {
+        // 2 mm beside this one a ridge of 16 µJ hides a slope that falls by 16 mJ.
+        let design = Design::load("shapes/arrowhead.toml".as_ref()).unwrap();
+        let problem = pipeline::problem(&design);
+        let minimum = Configuration::new(0.347_926_5, -0.052_362_2, 0.0);
+        for [x, y, theta] in [
+            [0.347_843_4, -0.052_206_4, -1.298e-6],
+            [0.347_833_9, -0.052_187_7, 1.312e-6],
+            [0.348_1, -0.052_3, 0.0],
+        ] {
+            let start = Configuration::new(x, y, theta);
+            assert!(problem.is_free(&start), "{start:?}");
+            let Outcome::Minimum(end) = descend(&problem, &start).outcome else {
+                panic!("no minimum from {start:?}");
+            };
+            let distance = problem.space.distance(&end.point.q, &minimum);
+            assert!(distance < 1e-6, "from {start:?}: {:?}", end.point.q);
+        }
+    }
+
+    #[test]
     fn blocks_come_to_rest_beside_the_bond_as_dipoles_do() {
         // Slid by one magnet, blocks of both tiles touch edge to edge, where the second derivative
         // of their energy has no bound and the energy itself is least certain.

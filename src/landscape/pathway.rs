@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::network::{Cost, Network, Route, Way};
 use super::results::{Pathway, PathwayPoint};
 use super::slide;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
 use crate::roadmap::profile::Profile;
 use crate::roadmap::{Milestone, ProfileTolerance};
@@ -17,6 +17,8 @@ const SHORTEST_STEP: f64 = 2e-4;
 /// A middle that had to settle farther than this from either end, as a share of the step, is no
 /// middle: halving would not end.
 const LONGEST_HALF: f64 = 0.8;
+/// Descents into one minimum end this close to each other (m, metric of the space).
+const SAME: f64 = 1e-7;
 
 /// The best way between two nodes.
 #[derive(Clone, Debug)]
@@ -58,6 +60,33 @@ pub fn lowest(
 /// The point of a pathway with the highest energy.
 pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
     pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
+}
+
+/// A pathway gone backwards.
+pub fn reversed(pathway: &Pathway) -> Pathway {
+    let length = pathway.last().map_or(0.0, |last| last.s);
+    let back = |point: &PathwayPoint| PathwayPoint {
+        s: length - point.s,
+        ..*point
+    };
+    pathway.iter().rev().map(back).collect()
+}
+
+/// Two pathways, one after the other; `None` where the second does not begin where the first one
+/// ends. An empty first one may end anywhere.
+pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -> Option<Pathway> {
+    let (Some(end), Some(start)) = (first.last().copied(), second.first()) else {
+        return Some(if first.is_empty() { second } else { first });
+    };
+    if space.distance(&end.configuration, &start.configuration) > SAME {
+        return None;
+    }
+    let rest = second.into_iter().skip(1);
+    first.extend(rest.map(|point| PathwayPoint {
+        s: end.s + point.s,
+        ..point
+    }));
+    Some(first)
 }
 
 /// The pathway along a route. Stretches of straight motions are cut short where the direct motion

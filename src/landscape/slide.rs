@@ -20,6 +20,10 @@ const EQUILIBRIUM: f64 = 1e-9;
 /// side to side of a valley, are refused.
 const FULFILLED: f64 = 0.5;
 
+/// Rise of a step on its way down, as a fraction of its fall, that is put down to the cubic by which
+/// it is judged.
+const RISE: f64 = 0.01;
+
 /// Overlap (m) let pass along a step between two free configurations. A straight step along a
 /// surface that the tiles turn on cuts some 0.03 mm into it; a wall thinner than this has no place
 /// on a tile.
@@ -144,7 +148,31 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
         return None;
     }
     let next = Point::new(problem, settled);
-    (promised < 0.0 && next.energy <= point.energy + FULFILLED * promised).then_some(next)
+    let is_lower = promised < 0.0 && next.energy <= point.energy + FULFILLED * promised;
+    (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
+}
+
+/// Whether the energy along a step, as energies and slopes at its ends tell of it by the cubic
+/// through them, rises on the way to a lower end: motion that never climbs does not get there.
+fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
+    let step = from.q.step_to(&to.q);
+    let (before, after) = (from.gradient.dot(&step), to.gradient.dot(&step));
+    let fall = from.energy - to.energy;
+    // The cubic's slope at t in [0, 1] is before + 2 b t + 3 a t^2.
+    let a = before + after + 2.0 * fall;
+    let b = -3.0 * fall - 2.0 * before - after;
+    let discriminant = b * b - 3.0 * a * before;
+    if after >= 0.0 || a == 0.0 || discriminant <= 0.0 {
+        return false;
+    }
+    let at = |t: f64| ((a * t + b) * t + before) * t;
+    let [valley, ridge] = [1.0, -1.0].map(|sign| (-b + sign * discriminant.sqrt()) / (3.0 * a));
+    let lowest = if (0.0..ridge).contains(&valley) {
+        at(valley).min(0.0)
+    } else {
+        0.0
+    };
+    (0.0..1.0).contains(&ridge) && at(ridge) - lowest > RISE * fall
 }
 
 /// The configuration near `q` at which the given contacts are closed; `None` where there is none

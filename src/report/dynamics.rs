@@ -20,6 +20,8 @@ pub struct DynamicsEntry {
     pub runs: usize,
     /// Barriers contradicted; 0 where all is well.
     pub contradicted: usize,
+    /// Barriers without certified bounds that are shown to be estimated too high.
+    pub overestimated: usize,
     pub barriers: Vec<BarrierCheckEntry>,
 }
 
@@ -30,6 +32,7 @@ pub struct BarrierCheckEntry {
     pub from: Value,
     pub to: Value,
     pub contradicted: bool,
+    pub overestimated: bool,
     /// Whether the ceiling is a certified bound, not an estimate.
     pub certified: bool,
     /// Trajectories stayed below this total energy; null where the state is proved caged.
@@ -88,6 +91,7 @@ impl DynamicsEntry {
         Some(Self {
             runs: analysis.settings.dynamics_runs,
             contradicted: analysis.contradicted().count(),
+            overestimated: analysis.overestimated().count(),
             barriers: checks.iter().map(BarrierCheckEntry::new).collect(),
         })
     }
@@ -99,6 +103,7 @@ impl BarrierCheckEntry {
             from: place(check.from),
             to: place(check.to),
             contradicted: check.is_contradicted(),
+            overestimated: check.is_overestimated(),
             certified: check.certified,
             ceiling_J: check.ceiling,
             below: BelowEntry {
@@ -142,11 +147,12 @@ fn verdict(side: &Side) -> &'static str {
 
 /// The table of the checks, a barrier a line.
 pub fn csv(checks: &[BarrierCheck]) -> String {
-    let mut table = "from,to,contradicted,certified,ceiling_J,below_runs,below_crossed,\
+    let mut table =
+        "from,to,contradicted,overestimated,certified,ceiling_J,below_runs,below_crossed,\
                      below_spoilt,above_runs,above_crossed,before_saddle_ended,\
                      before_saddle_verdict,behind_saddle_ended,behind_saddle_verdict,kick_J,\
                      climb_J\n"
-        .to_owned();
+            .to_owned();
     for check in checks {
         let finite = |value: Option<f64>| {
             let value = value.filter(|value| value.is_finite());
@@ -163,10 +169,11 @@ pub fn csv(checks: &[BarrierCheck]) -> String {
         };
         let _ = writeln!(
             table,
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
             place_name(check.from),
             place_name(check.to),
             check.is_contradicted(),
+            check.is_overestimated(),
             check.certified,
             finite(Some(check.ceiling)),
             check.below.runs,
@@ -183,7 +190,7 @@ pub fn csv(checks: &[BarrierCheck]) -> String {
     table
 }
 
-/// What the check found in a line, and another line for each contradiction.
+/// What the check found in a line, and another line for each barrier that is refuted.
 pub fn summary(analysis: &Analysis) -> String {
     let Some(checks) = &analysis.dynamics else {
         return String::new();
@@ -207,7 +214,7 @@ pub fn summary(analysis: &Analysis) -> String {
         on_the_pathway.count(),
         sides.len(),
     );
-    for check in analysis.contradicted() {
+    for check in analysis.contradicted().chain(analysis.overestimated()) {
         let _ = writeln!(text, "{}", check.told());
     }
     text

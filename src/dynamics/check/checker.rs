@@ -290,7 +290,8 @@ impl<'a> Checker<'a> {
         Some(Place::State(self.states.iter().find(here)?.id))
     }
 
-    /// Released at rest a little before the saddle and a little behind it.
+    /// Released at rest a little before the saddle and a little behind it, where the pathway from
+    /// either end first rises that high.
     fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
         let path = &self.barrier.pathway;
         let Some(highest) = pathway::highest_point(path) else {
@@ -311,11 +312,13 @@ impl<'a> Checker<'a> {
                 Place::Free => self.barrier.forward(),
                 Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
             };
-            // Below the ceiling too, so that an end on the other side refutes what is claimed.
+            // Below the ceiling all the way from its own end, so that an end on the other side
+            // refutes what is claimed.
             let low = (highest.energy - BESIDE * drop).min(self.ceiling);
+            let is_low = |p: &&PathwayPoint| p.energy < low;
             let released = match side {
-                0 => before.iter().rev().find(|p| p.energy < low),
-                _ => behind.iter().find(|p| p.energy < low),
+                0 => before.iter().take_while(is_low).last(),
+                _ => behind.iter().rev().take_while(is_low).last(),
             };
             let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
             let ended = self.settled_place(settling, &start, steps);

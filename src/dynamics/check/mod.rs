@@ -33,7 +33,8 @@
 //!
 //! With these definitions a crossing is a path below the lower bound: either the bound or this
 //! simulation is wrong. Where a barrier has no certified bound, trajectories stay below its saddle
-//! energy less the fraction to which it was settled, and a crossing refutes the estimate.
+//! energy less the fraction to which it was settled, and a crossing only shows that the estimate
+//! was too high ([`BarrierCheck::is_overestimated`]).
 
 mod checker;
 
@@ -143,11 +144,22 @@ impl BarrierCheck {
     }
 
     /// Whether any of these is so.
-    pub fn is_contradicted(&self) -> bool {
+    pub fn is_refuted(&self) -> bool {
         self.is_crossed() || self.is_kicked_over() || self.is_swapped()
     }
 
-    /// What contradicts the barrier, told loudly.
+    /// Whether what is proved of the barrier is refuted: either the proof or the simulation is
+    /// wrong.
+    pub fn is_contradicted(&self) -> bool {
+        self.certified && self.is_refuted()
+    }
+
+    /// Whether an estimate, of which nothing is proved, is refuted: a lower way was found.
+    pub fn is_overestimated(&self) -> bool {
+        !self.certified && self.is_refuted()
+    }
+
+    /// What refutes the barrier, told loudly where it is a proof that is contradicted.
     pub fn told(&self) -> String {
         let name = |place| match place {
             Place::State(id) => format!("state {id}"),
@@ -173,8 +185,13 @@ impl BarrierCheck {
         if self.is_swapped() {
             found.push("from beside the saddle a tile ended on the other side".to_owned());
         }
+        let verdict = if self.certified {
+            "CONTRADICTION"
+        } else {
+            "estimate too high"
+        };
         format!(
-            "CONTRADICTION: the barrier from {} to {}, {claim}: {}",
+            "{verdict}: the barrier from {} to {}, {claim}: {}",
             name(self.from),
             name(self.to),
             found.join("; ")
@@ -192,12 +209,13 @@ pub fn check(
     problem: &Problem,
     body: Body,
     states: &[State],
-    barriers: &[Barrier],
+    barriers: &[&Barrier],
     settings: &CheckSettings,
     done: &(dyn Fn(usize, usize) + Sync),
 ) -> Vec<BarrierCheck> {
     let chosen: Vec<(usize, &Barrier)> = barriers
         .iter()
+        .copied()
         .enumerate()
         .filter(|(_, barrier)| is_checkable(barrier))
         .collect();

@@ -4,10 +4,10 @@
 mod taker;
 
 use self::taker::Taker;
-use super::results::{Barrier, PathwayPoint, Place, Proportion, State};
+use super::results::{Barrier, PathwayPoint, Place, Proportion, State, StateKind};
 use super::survey::Survey;
 use super::symmetry::Symmetry;
-use crate::analysis::{Alternative, Settings};
+use crate::analysis::{Alternative, Claims, Settings};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::problem::Problem;
@@ -87,6 +87,26 @@ impl Inventory {
             pathway: barrier.pathway.iter().map(image).collect(),
             ..barrier.clone()
         }
+    }
+
+    /// Whether a barrier is among those of which more is claimed than an estimate.
+    pub fn is_claimed(&self, number: usize, claims: Claims) -> bool {
+        match claims {
+            Claims::All => true,
+            Claims::BondAndDeepestTrap => self.is_main(&self.barriers[number]),
+        }
+    }
+
+    /// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
+    fn is_main(&self, barrier: &Barrier) -> bool {
+        let is_from = |kind| {
+            let first = self.states.iter().find(|state| state.kind == kind);
+            first.is_some_and(|state| barrier.from == Place::State(state.id))
+        };
+        let mut escapes = self.escapes.iter().flatten();
+        let is_escape = |escape: &Barrier| (escape.from, escape.to) == (barrier.from, barrier.to);
+        (is_from(StateKind::Bound) && barrier.to == Place::Free)
+            || (is_from(StateKind::Misbound) && escapes.any(is_escape))
     }
 
     /// Counts in which states far starts ended and fills in the capture shares; returns the share

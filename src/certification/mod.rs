@@ -1,8 +1,10 @@
 //! Certified bounds for the barriers of an inventory.
 
+mod joined;
+
 use std::time::{Duration, Instant};
 
-use crate::analysis::{Certified, Settings};
+use crate::analysis::Settings;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
@@ -23,6 +25,8 @@ const SHARE_OF_BARRIER: f64 = 0.05;
 const LEAST_SHARE: f64 = 1e-5;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
+/// How much lower a chain of pathways must be than a direct one, as a fraction of the bond's depth.
+const LEAST_GAIN: f64 = 1e-6;
 
 /// Why barriers have no certified bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -86,7 +90,7 @@ pub fn certify(
     for (pass, (cells, width)) in passes.iter().enumerate() {
         for number in 0..count {
             observer.part("certificate", pass * count + number, passes.len() * count);
-            if settings.certified == Certified::BondAndDeepestTrap && !is_main(inventory, number) {
+            if !inventory.is_claimed(number, settings.claims) {
                 continue;
             }
             let barrier = &inventory.barriers[number];
@@ -103,6 +107,7 @@ pub fn certify(
                 take_over(problem, barrier, &bracket, BEND * depth);
             }
         }
+        joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
     }
     certify_escapes(inventory);
     inventory.copy_escapes(problem, symmetries);
@@ -140,24 +145,6 @@ fn is_as_narrow(barrier: &Barrier, width: f64) -> bool {
 fn narrow_width(barrier: &Barrier, depth: f64) -> f64 {
     let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
     of_barrier.min(SHARE_OF_BOND * depth)
-}
-
-/// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
-fn is_main(inventory: &Inventory, number: usize) -> bool {
-    let barrier = &inventory.barriers[number];
-    let from = |kind| {
-        let first = inventory.states.iter().find(|state| state.kind == kind);
-        first.is_some_and(|state| barrier.from == Place::State(state.id))
-    };
-    if barrier.to == Place::Free && from(StateKind::Bound) {
-        return true;
-    }
-    from(StateKind::Misbound)
-        && inventory
-            .escapes
-            .iter()
-            .flatten()
-            .any(|escape| (escape.from, escape.to) == (barrier.from, barrier.to))
 }
 
 /// The barrier from the bound state to `free`, where no way was found: with no pathway yet, and
