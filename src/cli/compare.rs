@@ -14,13 +14,16 @@ use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
+use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
-use super::{Failure, input, interrupt, print};
+use super::{Failure, input, interrupt};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
+    mut_arg("json", |json| json.help("Print compare.json instead of the tables")),
+    mut_arg("quiet", |quiet| quiet.help("Print neither progress nor the tables")),
     after_help = "\
 Writes report.html to look at, compare.csv, compare.json, compare.md, ranking.svg and
 ranking.png.
@@ -46,35 +49,25 @@ pub struct Compare {
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity)]
     by: Quantity,
 
-    /// Seed of all random numbers: the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
     #[command(flatten)]
     options: AssessmentOptions,
 
-    /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    work: WorkOptions,
 
-    /// Print compare.json instead of the tables
-    #[arg(long)]
-    json: bool,
-
-    /// Print neither progress nor the tables
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    print: PrintOptions,
 }
 
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         let designs = self.load()?;
         input::check_folder(&self.out)?;
-        input::use_threads(self.threads)?;
+        self.work.use_threads()?;
         interrupt::prepare()?;
 
         let settings = self.options.settings();
-        let progress = Progress::new(self.quiet);
+        let progress = self.print.progress();
         let assessments: Vec<Assessment> = designs
             .iter()
             .enumerate()
@@ -84,7 +77,7 @@ impl Compare {
                     done: k,
                     count: designs.len(),
                 };
-                comparison::assess(design, &settings, self.seed, &observer)
+                comparison::assess(design, &settings, self.work.seed, &observer)
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);
@@ -105,17 +98,12 @@ impl Compare {
                 .try_for_each(|(name, content)| writer::write_file(&self.out.join(name), content))
         })?;
         progress.finish();
-        if self.json {
-            print(&json)?;
-        } else if !self.quiet {
+        self.print.results(&json, || {
             let folder = self.out.display();
             let names =
                 "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
-            print(&format!(
-                "{}results in {folder}: {names}\n",
-                comparison.summary()
-            ))?;
-        }
+            format!("{}results in {folder}: {names}\n", comparison.summary())
+        })?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));
         tell_refuted(&named.collect::<Vec<_>>())
     }

@@ -68,17 +68,6 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
 }
 
-/// Sets the number of threads, all cores where `None`.
-pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else {
-        return Ok(());
-    };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
-}
-
 /// Refuses a folder that cannot be one, before any work is done.
 pub fn check_folder(folder: &Path) -> Result<(), Failure> {
     let existing = folder.ancestors().find(|path| path.exists());

@@ -13,6 +13,7 @@ mod failure;
 pub mod init;
 mod input;
 mod interrupt;
+mod options;
 mod progress;
 pub mod schema;
 pub mod sweep;
