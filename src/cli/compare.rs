@@ -92,11 +92,7 @@ impl Compare {
             ("ranking.png", picture.png),
             ("compare.json", json.clone().into_bytes()),
         ];
-        interrupt::without(|| {
-            files
-                .iter()
-                .try_for_each(|(name, content)| writer::write_file(&self.out.join(name), content))
-        })?;
+        interrupt::without(|| writer::write_each(&self.out, &files))?;
         progress.finish();
         self.print.results(&json, || {
             let folder = self.out.display();

@@ -169,11 +169,7 @@ impl Dock {
             files.push(("chances.png", chances.png));
             files.push(("trajectories.svg", paths.svg.into_bytes()));
             files.push(("trajectories.png", paths.png));
-            interrupt::without(|| {
-                files
-                    .iter()
-                    .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
-            })?;
+            interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
         let summary = || report::summary(&design, &docking, &map);
@@ -236,12 +232,7 @@ fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
                         0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
                         often a second";
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect::<Option<_>>()
-        .ok_or(FORM)?;
-    match numbers[..] {
+    match input::numbers(text).ok_or(FORM)?[..] {
         [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
         [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
             amplitude,

@@ -35,13 +35,16 @@ pub fn model(text: &str) -> Result<MagnetModel, String> {
 /// A pose as `X,Y,THETA` (m, m, rad).
 pub fn pose(text: &str) -> Result<Configuration, String> {
     const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0";
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect::<Option<_>>()
-        .ok_or(FORM)?;
+    let numbers = numbers(text).ok_or(FORM)?;
     let numbers: [f64; 3] = numbers.try_into().map_err(|_| FORM)?;
     Ok(numbers.into())
+}
+
+/// Finite numbers with commas between them.
+pub fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect()
 }
 
 /// A positive number.

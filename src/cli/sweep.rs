@@ -229,9 +229,7 @@ impl Sweep {
         files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
         interrupt::without(|| {
             store.tidy();
-            files
-                .iter()
-                .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
+            writer::write_each(folder, &files)
         })?;
         self.print.results(&json, || {
             let folder = folder.display();
