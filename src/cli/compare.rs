@@ -16,6 +16,7 @@ use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
+use super::word::Word;
 use super::{Failure, input, interrupt};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
@@ -38,7 +39,8 @@ pub struct Compare {
     designs: Vec<PathBuf>,
 
     /// Model of the magnets, dipole or cuboid [default: each design's own]
-    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
     model: Option<MagnetModel>,
 
     /// Folder for the results; made if need be
@@ -46,7 +48,8 @@ pub struct Compare {
     out: PathBuf,
 
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
-    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity)]
+    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
+          hide_possible_values = true)]
     by: Quantity,
 
     #[command(flatten)]
@@ -140,10 +143,8 @@ impl Observer for Part<'_> {
 }
 
 /// A figure by its name in the tables.
-fn quantity(text: &str) -> Result<Quantity, String> {
-    let known = || Quantity::ALL.map(Quantity::key).join(", ");
-    Quantity::ALL
-        .into_iter()
-        .find(|quantity| quantity.key() == text)
-        .ok_or_else(|| format!("known: {}", known()))
+fn quantity() -> Word<Quantity> {
+    let known = Quantity::ALL.map(Quantity::key).join(", ");
+    let names = Quantity::ALL.map(|quantity| (quantity.key(), quantity));
+    Word::new(&names, format!("known: {known}"))
 }

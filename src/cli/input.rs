@@ -6,6 +6,7 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::Failure;
+use super::word::Word;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
@@ -24,12 +25,9 @@ pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failur
 }
 
 /// A magnet model by the name that design files use.
-pub fn model(text: &str) -> Result<MagnetModel, String> {
-    MagnetModel::NAMES
-        .into_iter()
-        .find(|(name, _)| *name == text)
-        .map(|(_, model)| model)
-        .ok_or_else(|| "a model is dipole or cuboid".to_owned())
+pub fn model() -> Word<MagnetModel> {
+    let wrong = "a model is dipole or cuboid".to_owned();
+    Word::new(&MagnetModel::NAMES, wrong)
 }
 
 /// A pose as `X,Y,THETA` (m, m, rad).

@@ -18,6 +18,7 @@ mod progress;
 pub mod schema;
 pub mod sweep;
 mod sweep_progress;
+mod word;
 
 pub use failure::Failure;
 
