@@ -11,7 +11,9 @@ pub const STARTER: &str = include_str!("starter.toml");
 
 #[cfg(test)]
 mod tests {
-    use serde_json::Value;
+    use std::collections::BTreeSet;
+
+    use serde_json::{Value, json};
 
     use super::super::face::FACE_KEYS;
     use super::super::magnet::{ListedMagnet, MAGNET_KEYS};
@@ -57,7 +59,7 @@ mod tests {
         assert_keys(of("outline"), &OUTLINE_KEYS);
         assert_keys(of("potential"), &["model"]);
         let mut constants = CONSTANTS.map(|(name, _)| name).to_vec();
-        assert_keys(of("shield_constants"), &constants);
+        assert_keys(of("own_shield"), &constants);
         constants.push("rule");
         assert_keys(of("shield"), &constants);
     }
@@ -65,15 +67,25 @@ mod tests {
     #[test]
     fn it_has_every_profile_with_its_keys() {
         let schema = schema();
-        let mut read = 0;
+        let definitions = &schema["$defs"];
+        let mut keys_of_all = BTreeSet::new();
+        let mut conditions = vec![json!({ "$ref": "#/$defs/profile_keys" })];
         for (shape, keys) in profile::shapes() {
-            let of_shape = &schema["$defs"][shape];
+            let of_shape = &definitions[shape];
             assert_keys(of_shape, keys);
             assert_eq!(of_shape["properties"]["shape"]["const"], shape);
-            read += 1;
+            keys_of_all.extend(keys.iter().copied());
+            conditions.push(json!({
+                "if": { "properties": { "shape": { "const": shape } }, "required": ["shape"] },
+                "then": { "$ref": format!("#/$defs/{shape}") },
+            }));
         }
-        let offered = schema["$defs"]["profile"]["oneOf"].as_array().unwrap();
-        assert_eq!(offered.len(), read);
+        assert_eq!(definitions["profile"]["allOf"], json!(conditions));
+        let offered = &definitions["profile_keys"]["properties"];
+        let shapes: Vec<_> = profile::shapes().map(|(shape, _)| shape).collect();
+        assert_eq!(offered["shape"]["enum"], json!(shapes));
+        let offered = offered.as_object().unwrap().keys().map(String::as_str);
+        assert_eq!(offered.collect::<BTreeSet<_>>(), keys_of_all);
     }
 
     #[test]
