@@ -4,7 +4,8 @@
 //!
 //! The portable instruction set is used, so that they are the same on every machine.
 
-use std::path::Path;
+#[path = "shared/designs.rs"]
+mod designs;
 
 use tilebind::Configuration;
 use tilebind::design::Design;
@@ -21,8 +22,7 @@ use tilebind::roadmap::{
 };
 
 fn paper_tile() -> Design {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
-    Design::load(&file).expect("the shipped design can be read")
+    designs::load("shapes/paper-tile.toml")
 }
 
 fn portable(design: &Design) -> Problem {

@@ -11,6 +11,7 @@ use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
 
+use super::options::WorkOptions;
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -18,6 +19,8 @@ use super::{Failure, input, interrupt, print};
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
+    mut_arg("seed", |seed| seed.help("Seed of all random numbers")),
+    mut_arg("threads", |threads| threads.help("Threads [default: all cores]")),
     after_help = "\
 The barrier is the lowest possible value of the highest energy on the way, over all ways.
 
@@ -45,10 +48,6 @@ pub struct Barrier {
     #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
     certify_seconds: f64,
 
-    /// Seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
     /// Milestones of the roadmap
     #[arg(long, value_name = "N", default_value_t = 8000,
           value_parser = clap::value_parser!(u32).range(1..))]
@@ -58,9 +57,8 @@ pub struct Barrier {
     #[arg(long, value_name = "FILE")]
     pathway: Option<PathBuf>,
 
-    /// Threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    work: WorkOptions,
 
     /// Print no progress
     #[arg(long)]
@@ -97,7 +95,7 @@ enum EndEntry {
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
-        input::use_threads(self.threads)?;
+        self.work.use_threads()?;
         interrupt::prepare()?;
         let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
@@ -120,7 +118,7 @@ impl Barrier {
             from: self.from,
             to: self.to,
             settings: Settings {
-                seed: self.seed,
+                seed: self.work.seed,
                 milestones: self.milestones as usize,
                 ..Settings::default()
             },

@@ -32,7 +32,8 @@ pub struct Calibrate {
     table: PathBuf,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
     model: Option<MagnetModel>,
 
     /// Of so many rows one is held out of the fit

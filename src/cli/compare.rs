@@ -14,13 +14,17 @@ use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
+use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
-use super::{Failure, input, interrupt, print};
+use super::word::Word;
+use super::{Failure, input, interrupt};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
+    mut_arg("json", |json| json.help("Print compare.json instead of the tables")),
+    mut_arg("quiet", |quiet| quiet.help("Print neither progress nor the tables")),
     after_help = "\
 Writes report.html to look at, compare.csv, compare.json, compare.md, ranking.svg and
 ranking.png.
@@ -35,7 +39,8 @@ pub struct Compare {
     designs: Vec<PathBuf>,
 
     /// Model of the magnets, dipole or cuboid [default: each design's own]
-    #[arg(long, value_name = "MODEL", value_parser = input::model)]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
     model: Option<MagnetModel>,
 
     /// Folder for the results; made if need be
@@ -43,38 +48,29 @@ pub struct Compare {
     out: PathBuf,
 
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
-    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity)]
+    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
+          hide_possible_values = true)]
     by: Quantity,
-
-    /// Seed of all random numbers: the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
 
     #[command(flatten)]
     options: AssessmentOptions,
 
-    /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    work: WorkOptions,
 
-    /// Print compare.json instead of the tables
-    #[arg(long)]
-    json: bool,
-
-    /// Print neither progress nor the tables
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    print: PrintOptions,
 }
 
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         let designs = self.load()?;
         input::check_folder(&self.out)?;
-        input::use_threads(self.threads)?;
+        self.work.use_threads()?;
         interrupt::prepare()?;
 
         let settings = self.options.settings();
-        let progress = Progress::new(self.quiet);
+        let progress = self.print.progress();
         let assessments: Vec<Assessment> = designs
             .iter()
             .enumerate()
@@ -84,7 +80,7 @@ impl Compare {
                     done: k,
                     count: designs.len(),
                 };
-                comparison::assess(design, &settings, self.seed, &observer)
+                comparison::assess(design, &settings, self.work.seed, &observer)
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);
@@ -99,23 +95,14 @@ impl Compare {
             ("ranking.png", picture.png),
             ("compare.json", json.clone().into_bytes()),
         ];
-        interrupt::without(|| {
-            files
-                .iter()
-                .try_for_each(|(name, content)| writer::write_file(&self.out.join(name), content))
-        })?;
+        interrupt::without(|| writer::write_each(&self.out, &files))?;
         progress.finish();
-        if self.json {
-            print(&json)?;
-        } else if !self.quiet {
+        self.print.results(&json, || {
             let folder = self.out.display();
             let names =
                 "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
-            print(&format!(
-                "{}results in {folder}: {names}\n",
-                comparison.summary()
-            ))?;
-        }
+            format!("{}results in {folder}: {names}\n", comparison.summary())
+        })?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));
         tell_refuted(&named.collect::<Vec<_>>())
     }
@@ -156,10 +143,8 @@ impl Observer for Part<'_> {
 }
 
 /// A figure by its name in the tables.
-fn quantity(text: &str) -> Result<Quantity, String> {
-    let known = || Quantity::ALL.map(Quantity::key).join(", ");
-    Quantity::ALL
-        .into_iter()
-        .find(|quantity| quantity.key() == text)
-        .ok_or_else(|| format!("known: {}", known()))
+fn quantity() -> Word<Quantity> {
+    let known = Quantity::ALL.map(Quantity::key).join(", ");
+    let names = Quantity::ALL.map(|quantity| (quantity.key(), quantity));
+    Word::new(&names, format!("known: {known}"))
 }

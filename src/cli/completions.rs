@@ -1,9 +1,12 @@
 //! `tilebind completions`.
 
-use clap::{Args, CommandFactory};
+use clap::{Arg, Args, Command, CommandFactory, ValueHint};
 use clap_complete::Shell;
 
 use super::{Failure, print};
+
+/// Bash alone is given options where a file is meant.
+const FILES_BEFORE_OPTIONS: &[u8] = include_bytes!("completions.bash");
 
 /// Print completions for a shell
 #[derive(Args)]
@@ -18,7 +21,27 @@ pub struct Completions {
 impl Completions {
     pub fn run<C: CommandFactory>(self) -> Result<(), Failure> {
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut C::command(), "tilebind", &mut text);
+        let mut program = hinted(C::command());
+        clap_complete::generate(self.shell, &mut program, "tilebind", &mut text);
+        if self.shell == Shell::Bash {
+            text.extend(FILES_BEFORE_OPTIONS);
+        }
         print(&String::from_utf8_lossy(&text))
     }
+}
+
+/// The program with a hint at every value, so that a shell offers files for paths, folders for
+/// results, and nothing for numbers.
+fn hinted(program: Command) -> Command {
+    let hint = |argument: Arg| {
+        let hint = match argument.get_value_hint() {
+            _ if !argument.get_action().takes_values() => return argument,
+            ValueHint::AnyPath if argument.get_id() == "out" => ValueHint::DirPath,
+            ValueHint::AnyPath => ValueHint::FilePath,
+            ValueHint::Unknown => ValueHint::Other,
+            known => known,
+        };
+        argument.value_hint(hint)
+    };
+    program.mut_subcommands(|command| command.mut_args(hint))
 }

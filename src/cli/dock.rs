@@ -12,13 +12,18 @@ use tilebind::report::plots::dock;
 use tilebind::report::{docking as report, writer};
 
 use super::docking_starts::StartOptions;
-use super::progress::Progress;
-use super::{Failure, input, interrupt, print};
+use super::options::{PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
+
+const SEED: &str =
+    "Seed of all random numbers; a trajectory depends on it and on its own number only";
 
 /// Send the moving tile towards the fixed one many times and count how it ends
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
+    mut_arg("seed", |seed| seed.help(SEED)),
+    mut_arg("json", |json| json.help("Print dock.json instead of the summary")),
     after_help = "\
 Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
 one, speed, and the velocity's direction about that to the fixed tile. Without --engine the table
@@ -44,10 +49,6 @@ pub struct Dock {
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-
-    /// Seed of all random numbers; a trajectory depends on it and on its own number only
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
 
     /// How long each trajectory lasts (s)
     #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = input::positive)]
@@ -95,17 +96,11 @@ pub struct Dock {
     #[arg(long, value_name = "N")]
     trajectory: Option<u32>,
 
-    /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    work: WorkOptions,
 
-    /// Print dock.json instead of the summary
-    #[arg(long)]
-    json: bool,
-
-    /// Print neither progress nor the summary
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    print: PrintOptions,
 }
 
 /// Cells of the map along the orientation and the speed.
@@ -118,7 +113,7 @@ const INTERVAL: f64 = 0.02;
 impl Dock {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
-        input::use_threads(self.threads)?;
+        self.work.use_threads()?;
         interrupt::prepare()?;
         let settings = self.settings();
         if let Some(index) = self.trajectory.filter(|index| *index >= self.runs) {
@@ -127,7 +122,7 @@ impl Dock {
                 self.runs
             )));
         }
-        let progress = Progress::new(self.quiet);
+        let progress = self.print.progress();
         let done = std::sync::atomic::AtomicUsize::new(0);
         let step = || {
             let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
@@ -174,20 +169,11 @@ impl Dock {
             files.push(("chances.png", chances.png));
             files.push(("trajectories.svg", paths.svg.into_bytes()));
             files.push(("trajectories.png", paths.png));
-            interrupt::without(|| {
-                files
-                    .iter()
-                    .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
-            })?;
+            interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
-        if self.json {
-            print(&json)
-        } else if self.quiet {
-            Ok(())
-        } else {
-            print(&report::summary(&design, &docking, &map))
-        }
+        let summary = || report::summary(&design, &docking, &map);
+        self.print.results(&json, summary)
     }
 
     fn settings(&self) -> DockingSettings {
@@ -208,7 +194,7 @@ impl Dock {
         settings.starts = self.starts.starts(settings.starts);
         settings.threshold = self.threshold;
         settings.runs = self.runs as usize;
-        settings.seed = self.seed;
+        settings.seed = self.work.seed;
         settings
     }
 
@@ -246,12 +232,7 @@ fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
                         0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
                         often a second";
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect::<Option<_>>()
-        .ok_or(FORM)?;
-    match numbers[..] {
+    match input::numbers(text).ok_or(FORM)?[..] {
         [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
         [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
             amplitude,

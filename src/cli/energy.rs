@@ -1,13 +1,11 @@
 //! `tilebind energy`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use serde::Serialize;
-use tilebind::design::MagnetModel;
 use tilebind::report::json;
 use tilebind::{Configuration, Problem, pipeline};
 
+use super::options::DesignOptions;
 use super::{Failure, input, print};
 
 /// Print energy, force, torque and clearance at given poses, as JSON
@@ -16,12 +14,8 @@ use super::{Failure, input, print};
 Example:
   tilebind energy shapes/paper-tile.toml --pose 0.43,0,0 --pose 0.43,-0.04,0")]
 pub struct Energy {
-    /// The design file
-    design: PathBuf,
-
-    /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = input::model)]
-    model: Option<MagnetModel>,
+    #[command(flatten)]
+    design: DesignOptions,
 
     /// Pose of the moving tile in the fixed tile's frame (m, m, rad); may be repeated
     #[arg(
@@ -51,7 +45,7 @@ struct Entry {
 
 impl Energy {
     pub fn run(self) -> Result<(), Failure> {
-        let design = input::load_as(&self.design, self.model)?;
+        let design = self.design.load()?;
         let problem = pipeline::problem(&design);
         let entries: Vec<Entry> = self.poses.iter().map(|q| entry(&problem, q)).collect();
         print(&json::text(&entries))

@@ -6,6 +6,7 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::Failure;
+use super::word::Word;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
@@ -24,24 +25,24 @@ pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failur
 }
 
 /// A magnet model by the name that design files use.
-pub fn model(text: &str) -> Result<MagnetModel, String> {
-    MagnetModel::NAMES
-        .into_iter()
-        .find(|(name, _)| *name == text)
-        .map(|(_, model)| model)
-        .ok_or_else(|| "a model is dipole or cuboid".to_owned())
+pub fn model() -> Word<MagnetModel> {
+    let wrong = "a model is dipole or cuboid".to_owned();
+    Word::new(&MagnetModel::NAMES, wrong)
 }
 
 /// A pose as `X,Y,THETA` (m, m, rad).
 pub fn pose(text: &str) -> Result<Configuration, String> {
     const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0";
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect::<Option<_>>()
-        .ok_or(FORM)?;
+    let numbers = numbers(text).ok_or(FORM)?;
     let numbers: [f64; 3] = numbers.try_into().map_err(|_| FORM)?;
     Ok(numbers.into())
+}
+
+/// Finite numbers with commas between them.
+pub fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect()
 }
 
 /// A positive number.
@@ -66,17 +67,6 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x| *x < 1.0)
         .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
-}
-
-/// Sets the number of threads, all cores where `None`.
-pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else {
-        return Ok(());
-    };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }
 
 /// Refuses a folder that cannot be one, before any work is done.

@@ -13,10 +13,12 @@ mod failure;
 pub mod init;
 mod input;
 mod interrupt;
+mod options;
 mod progress;
 pub mod schema;
 pub mod sweep;
 mod sweep_progress;
+mod word;
 
 pub use failure::Failure;
 

@@ -15,20 +15,8 @@ pub struct Progress(ProgressBar);
 impl Progress {
     /// A bar where standard error is a terminal and `quiet` is not asked for.
     pub fn new(quiet: bool) -> Self {
-        let shown = !quiet && std::io::stderr().is_terminal();
-        let target = if shown {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {elapsed:>4}  {msg}") {
-            bar.set_style(style);
-        }
-        if shown {
-            bar.enable_steady_tick(Duration::from_millis(200));
-        }
-        Self(bar)
+        let template = "{bar:30} {elapsed:>4}  {msg}";
+        Self(bar(STEPS, template, Duration::from_millis(200), quiet))
     }
 
     /// Shows what is being done and which share of it (0 to 1) is behind.
@@ -52,4 +40,23 @@ impl Observer for Progress {
         self.0
             .set_message(format!("{name}, {done} of {count} done"));
     }
+}
+
+/// A bar of `steps` on standard error, drawn anew every `tick`; hidden where standard error is no
+/// terminal or `quiet` is asked for.
+pub fn bar(steps: u64, template: &str, tick: Duration, quiet: bool) -> ProgressBar {
+    let shown = !quiet && std::io::stderr().is_terminal();
+    let target = if shown {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let bar = ProgressBar::with_draw_target(Some(steps), target);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    if shown {
+        bar.enable_steady_tick(tick);
+    }
+    bar
 }

@@ -13,16 +13,22 @@ use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Sh
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
+use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, print};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
 
+const THREADS: &str = "\
+Points worked on at the same time [default: all cores]; the results do not depend on it";
+
 /// Vary keys of a design and assess every design that comes of it
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
+    mut_arg("seed", |seed| seed.help("Seed that all points' seeds come from")),
+    mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
 Writes report.html to look at, sweep.csv, sweep.json and pictures: curves over one varied number,
 maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
@@ -55,10 +61,6 @@ pub struct Sweep {
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
 
-    /// Seed that all points' seeds come from
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
     #[command(flatten)]
     options: AssessmentOptions,
 
@@ -83,17 +85,11 @@ pub struct Sweep {
     #[arg(long, value_name = "PLAN", conflicts_with_all = ["designs", "vary"])]
     status: Option<PathBuf>,
 
-    /// Points worked on at the same time [default: all cores]; the results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    work: WorkOptions,
 
-    /// Print JSON instead of text
-    #[arg(long)]
-    json: bool,
-
-    /// Print neither progress nor the summary
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    print: PrintOptions,
 }
 
 impl Sweep {
@@ -121,7 +117,7 @@ impl Sweep {
             &self.designs,
             self.vary.clone(),
             self.options.settings(),
-            self.seed,
+            self.work.seed,
         )
         .map_err(usage)?;
         let file = self.plan_file()?;
@@ -131,7 +127,7 @@ impl Sweep {
         let text = plan.to_text();
         interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
         if self.plan.is_some() {
-            if self.quiet {
+            if self.print.quiet {
                 return Ok(());
             }
             let count = plan.points().len();
@@ -172,9 +168,8 @@ impl Sweep {
         let mine = plan.points().into_iter().filter(|p| shard.contains(p));
         let (known, missing): (Vec<Point>, Vec<Point>) =
             mine.partition(|point| store.load(point).is_some());
-        let threads = self.threads.map_or_else(cores, usize::from);
-        let bar = PointBar::new(known.len(), missing.len(), self.quiet);
-        sweep::run(plan, &missing, threads, |point, outcome| {
+        let bar = PointBar::new(known.len(), missing.len(), self.print.quiet);
+        sweep::run(plan, &missing, self.work.threads(), |point, outcome| {
             interrupt::without(|| store.save(point, outcome))?;
             bar.finished_one();
             Ok(())
@@ -186,7 +181,7 @@ impl Sweep {
             ))
         })?;
         bar.finish();
-        if self.run.is_some() && !self.quiet {
+        if self.run.is_some() && !self.print.quiet {
             let (number, of) = (shard.number, shard.of);
             let count = known.len() + missing.len();
             print(&format!(
@@ -204,7 +199,7 @@ impl Sweep {
             .map(|point| store.load(point))
             .collect();
         let progress = Counts::new(outcomes.iter().map(Option::as_ref));
-        if self.json {
+        if self.print.json {
             return print(&json::text(&json!(progress)));
         }
         print(&format!("{}\n", counts(&progress)))
@@ -234,20 +229,13 @@ impl Sweep {
         files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
         interrupt::without(|| {
             store.tidy();
-            files
-                .iter()
-                .try_for_each(|(name, content)| writer::write_file(&folder.join(name), content))
+            writer::write_each(folder, &files)
         })?;
-        if self.json {
-            print(&json)?;
-        } else if !self.quiet {
+        self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
-            print(&format!(
-                "{}results in {folder}: {files}\n",
-                report.summary()
-            ))?;
-        }
+            format!("{}results in {folder}: {files}\n", report.summary())
+        })?;
         match report.progress().failed {
             0 => {
                 let point = |index| Some((format!("point {index}"), report.assessment(index)?));
@@ -266,10 +254,6 @@ fn folder_of(file: &Path) -> PathBuf {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     }
-}
-
-fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 fn usage(error: PlanError) -> Failure {

@@ -152,6 +152,16 @@ pub fn write_file(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     staged.settle()
 }
 
+/// Writes files into a folder, each whole or not at all, in their order.
+///
+/// # Errors
+/// Where the file system refuses; the files before are then in their places.
+pub fn write_each<N: AsRef<Path>>(folder: &Path, files: &[(N, Vec<u8>)]) -> Result<(), WriteError> {
+    files
+        .iter()
+        .try_for_each(|(name, content)| write_file(&folder.join(name), content))
+}
+
 /// Files of an earlier analysis that this one does not write anew.
 fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
     if !folder.join(REPORT).is_file() {

@@ -5,7 +5,9 @@
 //!
 //! `cargo bench --bench certificate`
 
-use std::path::Path;
+#[path = "../shared/designs.rs"]
+mod designs;
+
 use std::time::Instant;
 
 use tilebind::Configuration;
@@ -16,11 +18,7 @@ use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, Shield
 use tilebind::potential::shielding::{Shield, Shields};
 
 fn main() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
-    let design = match Design::load(&file) {
-        Ok(design) => design,
-        Err(error) => return eprintln!("{error}"),
-    };
+    let design = designs::load("shapes/paper-tile.toml");
     let (fixed, moving) = (&design.fixed, &design.moving);
     println!("point dipoles");
     measure(&design, &DipoleBounds::new(fixed, moving), 65.47e-3);

@@ -2,6 +2,8 @@
 
 mod analytic;
 mod caged;
+#[path = "../shared/designs.rs"]
+mod designs;
 mod grid;
 mod paper_tile;
 mod random_designs;

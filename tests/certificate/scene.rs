@@ -1,7 +1,5 @@
 //! What the tests certify: designs shipped and made up.
 
-use std::path::Path;
-
 use nalgebra::Vector2;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -13,6 +11,8 @@ use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, Shield
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{MagnetModel, Potential, of_tiles};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
+
+use crate::designs;
 
 /// A landscape of two tiles with all that is asked of it.
 pub struct Scene {
@@ -70,10 +70,7 @@ impl Scene {
     }
 
     pub fn shipped(name: &str, model: MagnetModel) -> (Self, Design) {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("shapes")
-            .join(format!("{name}.toml"));
-        let design = Design::load(&file).unwrap();
+        let design = designs::load(&format!("shapes/{name}.toml"));
         let half_size = design.table.map(|size| size / 2.0);
         (
             Self::new(

@@ -1,11 +1,13 @@
 //! `tilebind analyse`: files, keys, and the same bytes every time.
 
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{files, numbers, stderr, stdout, tilebind};
+use crate::folder::contents;
+use crate::program::{command, stderr, stdout};
+use crate::{numbers, tilebind};
 
 const DESIGN: &str = "shapes/paper-tile.toml";
 
@@ -36,16 +38,11 @@ fn untimed(mut report: Value) -> Value {
     report
 }
 
-/// Contents of all files but the report.
-fn contents(out: &Path) -> HashMap<String, Vec<u8>> {
-    files(out)
-        .iter()
-        .filter(|name| !name.ends_with("report.json"))
-        .map(|name| {
-            let content = std::fs::read(out.join(name)).unwrap();
-            (name.display().to_string(), content)
-        })
-        .collect()
+/// All files but the report, with their contents.
+fn contents_but_the_report(out: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = contents(out);
+    all.remove("report.json").expect("a report");
+    all
 }
 
 #[test]
@@ -57,7 +54,7 @@ fn everything_but_the_timing_is_the_same_on_one_thread_and_two_and_again() {
     analyse(&again, &["--threads", "2", "--quiet", "--arrays"]);
     for other in [&two, &again] {
         assert_eq!(untimed(report(&one)), untimed(report(other)));
-        let (a, b) = (contents(&one), contents(other));
+        let [a, b] = [&one, other].map(|out| contents_but_the_report(out));
         assert_eq!(a.len(), b.len());
         for (name, content) in a {
             assert!(b[&name] == content, "{name} differs");
@@ -220,20 +217,15 @@ fn tables_pictures_and_the_summary() {
 fn compact_results_leave_out_copies_and_pixels() {
     let folder = tempfile::tempdir().unwrap();
     analyse(folder.path(), &["--compact"]);
-    let names = files(folder.path());
-    assert!(
-        names
-            .iter()
-            .all(|name| name.extension().is_none_or(|kind| kind != "png"))
-    );
-    let bytes = |name: &PathBuf| folder.path().join(name).metadata().unwrap().len();
-    assert!(names.iter().map(bytes).sum::<u64>() < 900_000);
+    let files = contents(folder.path());
+    assert!(!files.keys().any(|name| name.ends_with(".png")));
+    assert!(files.values().map(Vec::len).sum::<usize>() < 900_000);
     let report = report(folder.path());
     for state in report["states"].as_array().unwrap() {
         let pathway = &state["escape"]["pathway"];
         assert_eq!(pathway.is_string(), state["id"] == state["class"]);
         if let Some(name) = pathway.as_str() {
-            assert!(folder.path().join(name).exists());
+            assert!(files.contains_key(name));
         }
     }
 }
@@ -258,8 +250,8 @@ fn results_replace_those_of_an_earlier_analysis_and_nothing_else() {
     std::fs::write(&notes, "mine").unwrap();
     analyse(folder.path(), &["--quiet"]);
     assert!(!stale.exists() && notes.exists());
-    let partial = |name: &Path| name.display().to_string().contains("partial");
-    assert!(!files(folder.path()).iter().any(|name| partial(name)));
+    let mut names = contents(folder.path()).into_keys();
+    assert!(!names.any(|name| name.contains("partial")));
 }
 
 #[cfg(unix)]
@@ -270,10 +262,8 @@ fn an_interrupted_analysis_leaves_nothing() {
 
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("results");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_tilebind"))
-        .args(["analyse", DESIGN, "--milestones", "3000000", "--out"])
+    let mut child = command(&["analyse", DESIGN, "--milestones", "3000000", "--out"])
         .arg(&out)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stderr(Stdio::null())
         .spawn()
         .unwrap();

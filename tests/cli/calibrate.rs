@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{json, numbers, stderr, stdout, tilebind};
+use crate::program::{stderr, stdout};
+use crate::{json, numbers, tilebind};
 
 /// The shielded squares of `shapes`, without the shields.
 fn bare() -> String {

@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use crate::{json, stderr, stdout, tilebind};
+use crate::program::{stderr, stdout};
+use crate::{json, tilebind};
 
 const QUICK: [&str; 6] = [
     "--milestones",

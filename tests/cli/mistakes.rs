@@ -3,7 +3,9 @@
 
 use std::path::Path;
 
-use crate::{files, stderr, tilebind};
+use crate::folder::contents;
+use crate::program::stderr;
+use crate::tilebind;
 
 fn refused(arguments: &[&str], said: &[&str]) {
     let output = tilebind(arguments);
@@ -104,7 +106,7 @@ fn wrong_options() {
     refused(&["analyse", design], &["--out"]);
     refused(&["analyze", design], &["analyse"]);
     refused(&[], &["Usage"]);
-    assert!(files(folder.path()).is_empty());
+    assert!(contents(folder.path()).is_empty());
 }
 
 #[test]

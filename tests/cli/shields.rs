@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use crate::{json, numbers, stderr, stdout, tilebind};
+use crate::program::{stderr, stdout};
+use crate::{json, numbers, tilebind};
 
 const DESIGN: &str = "shapes/shielded-backs.toml";
 const BARE: &str = "tests/designs/good/flat.toml";

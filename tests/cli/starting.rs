@@ -3,7 +3,8 @@
 use std::fs;
 use std::process::Command;
 
-use crate::{json, stderr, stdout, tilebind};
+use crate::program::{stderr, stdout};
+use crate::{json, tilebind};
 
 #[test]
 fn the_starter_is_written_once_and_can_be_used() {

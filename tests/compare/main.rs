@@ -1,9 +1,14 @@
 //! `tilebind compare` as its users see it.
 
+#[path = "../shared/program.rs"]
+mod program;
+
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
+
+use program::{command, stderr, stdout};
 
 const DESIGNS: [&str; 3] = [
     "shapes/wrong-partner.toml",
@@ -12,14 +17,12 @@ const DESIGNS: [&str; 3] = [
 ];
 
 fn compare(designs: &[&str], out: &Path, more: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tilebind"))
-        .arg("compare")
+    command(&["compare"])
         .args(designs)
         .arg("--out")
         .arg(out)
         .args(["--milestones", "1500", "--far-starts", "60"])
         .args(more)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("the program starts")
 }
@@ -36,7 +39,7 @@ fn number(value: &Value) -> f64 {
 fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
     let folder = tempfile::tempdir().unwrap();
     let output = compare(&DESIGNS, folder.path(), &["--threads", "1"]);
-    let message = String::from_utf8_lossy(&output.stderr);
+    let message = stderr(&output);
     assert_eq!(output.status.code(), Some(0), "{message}");
     assert!(message.is_empty(), "silent where nobody watches: {message}");
 
@@ -87,7 +90,7 @@ fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
     let same = number(&designs[0]["quantities"]["unbinding_J"]["lower"]);
     assert!((cell - same).abs() < 1e-9);
     let markdown = read(folder.path(), "compare.md");
-    let summary = String::from_utf8(output.stdout).unwrap();
+    let summary = stdout(&output);
     for said in ["tab-20mm", "selectivity", "certified order"] {
         assert!(markdown.contains(said) && summary.contains(said), "{said}");
     }

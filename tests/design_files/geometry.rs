@@ -11,7 +11,7 @@ use tilebind::potential::{DipolePotential, Potential};
 use tilebind::tile::Tile;
 use tilebind::tile::profile::CHORD_ERROR;
 
-use crate::{changed, files, load, magnets_of_face};
+use crate::{changed, designs, files, magnets_of_face};
 
 /// All designs in which the target faces are exact mates.
 fn exact_mates() -> Vec<Design> {
@@ -156,7 +156,7 @@ fn mated_magnets_face_each_other_head_to_tail() {
 
 #[test]
 fn a_magnet_sits_behind_the_line_at_its_place() {
-    let design = load("shapes/sine-teeth-20mm.toml");
+    let design = designs::load("shapes/sine-teeth-20mm.toml");
     for magnet in &design.fixed.magnets {
         let s = magnet.position.y;
         let surface = 0.215 + 0.010 * (TAU * 4.0 * s / 0.43).sin();

@@ -1,5 +1,7 @@
 //! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
 
+#[path = "../shared/designs.rs"]
+mod designs;
 mod drawing_faults;
 mod drawings;
 mod geometry;
@@ -75,11 +77,6 @@ fn every_bad_design_is_told_where_and_why() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-fn load(path: &str) -> Design {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    Design::load(&path).unwrap_or_else(|error| panic!("{error}"))
-}
-
 /// A design of `tests/designs/good` with the text changed and another pair of target faces.
 fn changed(file: &str, changes: &[(&str, &str)]) -> Design {
     let path = format!("{}/tests/designs/good/{file}", env!("CARGO_MANIFEST_DIR"));
@@ -98,7 +95,7 @@ fn magnets_of_face(tile: &Tile, face: usize) -> Vec<Magnet> {
 
 #[test]
 fn the_paper_s_tile_is_what_its_file_says() {
-    let design = load("tests/designs/good/flat.toml");
+    let design = designs::load("tests/designs/good/flat.toml");
     assert_eq!(
         (design.name.as_str(), design.sha256.as_str()),
         (
@@ -126,18 +123,18 @@ fn the_paper_s_tile_is_what_its_file_says() {
     assert!((outer_pole.y - 0.215).abs() < 1e-15);
     assert_eq!(symmetry::rotations(&design.fixed).len(), 4);
     assert_eq!(
-        symmetry::rotations(&load("shapes/hexagon.toml").moving).len(),
+        symmetry::rotations(&designs::load("shapes/hexagon.toml").moving).len(),
         6
     );
     assert_eq!(
-        symmetry::rotations(&load("shapes/tab-10mm.toml").fixed).len(),
+        symmetry::rotations(&designs::load("shapes/tab-10mm.toml").fixed).len(),
         1
     );
 }
 
 #[test]
 fn a_terse_design_takes_the_defaults() {
-    let design = load("tests/designs/good/terse.toml");
+    let design = designs::load("tests/designs/good/terse.toml");
     assert_eq!(design.name, "terse");
     assert_eq!(
         (design.fixed.magnets.len(), design.moving.magnets.len()),
@@ -149,7 +146,7 @@ fn a_terse_design_takes_the_defaults() {
 
 #[test]
 fn own_keys_go_before_all_and_those_before_the_rest() {
-    let design = load("tests/designs/good/overrides.toml");
+    let design = designs::load("tests/designs/good/overrides.toml");
     let east = magnets_of_face(&design.fixed, 0);
     assert_eq!(east.len(), 3);
     assert!((east[1].position - Vector2::new(0.194, 0.0)).norm() < 1e-15);

@@ -4,7 +4,7 @@ use tilebind::design::Design;
 use tilebind::landscape::symmetry::Symmetry;
 use tilebind::potential::shielding::{Shield, ShieldRule};
 
-use crate::{changed, load};
+use crate::{changed, designs};
 
 const WHOLE: Shield = Shield {
     attenuation: 0.8,
@@ -15,7 +15,7 @@ const WHOLE: Shield = Shield {
 
 #[test]
 fn a_face_goes_before_its_tile_and_the_tile_before_the_rest() {
-    let shields = load("tests/designs/good/shields.toml").shields;
+    let shields = designs::load("tests/designs/good/shields.toml").shields;
     assert_eq!(shields.rule, ShieldRule::Smooth);
     let narrow = Shield {
         width: 0.2,
@@ -60,7 +60,7 @@ fn a_rule_alone_shields_nothing_and_the_nearest_face_rule_wants_no_constants() {
 #[test]
 fn shields_break_the_symmetry_of_tiles() {
     let symmetries = |design: &Design| Symmetry::all(design).len();
-    let bare = load("tests/designs/good/flat.toml");
+    let bare = designs::load("tests/designs/good/flat.toml");
     assert_eq!(symmetries(&bare), 16);
     let shield = "[shield]\nattenuation = 0.8\nlength = 0.03\nwidth = 0.3\n";
     let end = "moving = \"west\"\n";

@@ -85,13 +85,30 @@ def check_playing(check):
     check.that(at == browser.run("Number(document.getElementById('step').value)"), "pause stops it")
 
 
+def check_first_look(check, name, file):
+    """Opens a page: it is small."""
+    check.that(file.stat().st_size < LARGEST, f"{name}: {file.stat().st_size} bytes are under {LARGEST}")
+    check.browser.events.clear()
+    check.browser.open(file.as_uri(), LAPTOP)
+    check.keep(f"{name}-laptop", whole=True)
+
+
+def check_other_looks(check, name, file):
+    """A page in the dark and on a phone; nothing was complained of since its first look."""
+    browser = check.browser
+    browser.open(file.as_uri(), LAPTOP, dark=True)
+    check.keep(f"{name}-dark", whole=True)
+    browser.open(file.as_uri(), PHONE, touch=True)
+    check.keep(f"{name}-phone", whole=True)
+    check.that(browser.run("document.documentElement.scrollWidth <= 390"), f"{name}: the page fits a phone's width")
+    for complaint in browser.complaints():
+        check.that(False, complaint)
+
+
 def check_docking(check, file):
     """The page of docking runs, which plays trajectories in time."""
     browser = check.browser
-    check.that(file.stat().st_size < LARGEST, f"docking: {file.stat().st_size} bytes are under {LARGEST}")
-    browser.events.clear()
-    browser.open(file.as_uri(), LAPTOP)
-    check.keep("docking-laptop", whole=True)
+    check_first_look(check, "docking", file)
     check.that(not browser.run("document.getElementById('merging').offsetHeight"), "no empty disconnectivity graph is shown")
     check.that(browser.run("world.pathways.length") >= 4, "several trajectories can be chosen")
     check.changes(["around", "tiles", "profile"], set_slider("step", 0.9), "the place on the trajectory")
@@ -106,21 +123,12 @@ def check_docking(check, file):
                   " p.dispatchEvent(new Event('change')); })()", "another trajectory")
     check_playing(check)
     check.that(browser.run("document.querySelectorAll('#pictures img').length") == 2, "the chances and the trajectories are shown")
-    browser.open(file.as_uri(), LAPTOP, dark=True)
-    check.keep("docking-dark", whole=True)
-    browser.open(file.as_uri(), PHONE, touch=True)
-    check.keep("docking-phone", whole=True)
-    check.that(browser.run("document.documentElement.scrollWidth <= 390"), "docking: the page fits a phone's width")
-    for complaint in browser.complaints():
-        check.that(False, complaint)
+    check_other_looks(check, "docking", file)
 
 
 def check_page(check, name, file):
     browser = check.browser
-    check.that(file.stat().st_size < LARGEST, f"{name}: {file.stat().st_size} bytes are under {LARGEST}")
-    browser.events.clear()
-    browser.open(file.as_uri(), LAPTOP)
-    check.keep(f"{name}-laptop", whole=True)
+    check_first_look(check, name, file)
 
     check.changes(["around"], set_slider("theta", 3), "the slider over theta")
     check.changes(["in-front"], set_slider("gap", 12), "the slider over the gap")
@@ -157,13 +165,7 @@ def check_page(check, name, file):
                       " worst = Math.max(worst, Math.abs(p - positionOf(dipoleEnergy([x[i], y[j], t[n]])))); } return worst; })()")
     check.that(off < 5e-4, f"the map's energies against the formula (positions off by {off})")
 
-    browser.open(file.as_uri(), LAPTOP, dark=True)
-    check.keep(f"{name}-dark", whole=True)
-    browser.open(file.as_uri(), PHONE, touch=True)
-    check.keep(f"{name}-phone", whole=True)
-    check.that(browser.run("document.documentElement.scrollWidth <= 390"), "the page fits a phone's width")
-    for complaint in browser.complaints():
-        check.that(False, complaint)
+    check_other_looks(check, name, file)
     if check.pictures:
         import base64
         pdf = browser.call("Page.printToPDF", printBackground=True)["data"]
@@ -173,18 +175,9 @@ def check_page(check, name, file):
 def check_table_page(check, name, file, use):
     """A page of tables and pictures: `use` tries what is its own."""
     browser = check.browser
-    check.that(file.stat().st_size < LARGEST, f"{name}: {file.stat().st_size} bytes are under {LARGEST}")
-    browser.events.clear()
-    browser.open(file.as_uri(), LAPTOP)
-    check.keep(f"{name}-laptop", whole=True)
+    check_first_look(check, name, file)
     use(browser)
-    browser.open(file.as_uri(), LAPTOP, dark=True)
-    check.keep(f"{name}-dark", whole=True)
-    browser.open(file.as_uri(), PHONE, touch=True)
-    check.keep(f"{name}-phone", whole=True)
-    check.that(browser.run("document.documentElement.scrollWidth <= 390"), "the page fits a phone's width")
-    for complaint in browser.complaints():
-        check.that(False, complaint)
+    check_other_looks(check, name, file)
 
 
 def column(k, table=0):

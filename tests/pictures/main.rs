@@ -1,5 +1,7 @@
 //! The pictures of an analysis, drawn from data put together by hand.
 
+#[path = "../shared/designs.rs"]
+mod designs;
 mod grids;
 mod paper_tile;
 

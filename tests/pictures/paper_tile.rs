@@ -1,6 +1,5 @@
 //! The paper's tiles with states and pathways put together by hand.
 
-use std::path::Path;
 use std::sync::OnceLock;
 
 use tilebind::contact::Contact;
@@ -10,6 +9,8 @@ use tilebind::landscape::minimum::descend;
 use tilebind::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
 use tilebind::potential::{DipolePotential, Potential};
 use tilebind::{Configuration, ConfigurationSpace, Problem};
+
+use crate::designs;
 
 const SIDE: f64 = 0.43;
 /// Turns that map the square onto itself.
@@ -35,8 +36,7 @@ pub fn pair() -> &'static Pair {
 
 impl Pair {
     fn new() -> Self {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
-        let design = Design::load(&file).unwrap();
+        let design = designs::load("shapes/paper-tile.toml");
         let mut pair = Self {
             contact: Contact::new(&design.fixed.outline, &design.moving.outline),
             potential: DipolePotential::new(&design.fixed.magnets, &design.moving.magnets),

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::{DEPTH, DESIGN, QUICK, assert_same, done, stderr, sweep, text};
+use crate::program::stderr;
+use crate::{DEPTH, DESIGN, QUICK, assert_same, done, sweep, text};
 
 const POINTS: usize = 8;
 

@@ -1,6 +1,7 @@
 //! Mistakes on the command line: found before anything is written.
 
-use crate::{DEPTH, DESIGN, done, run, stderr, text};
+use crate::program::stderr;
+use crate::{DEPTH, DESIGN, done, run, text};
 
 #[test]
 fn wrong_axes_designs_and_parts_are_refused() {

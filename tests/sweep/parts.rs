@@ -1,6 +1,8 @@
 //! A sweep in parts and a sweep in one go.
 
-use crate::{DEPTH, DESIGN, QUICK, assert_same, done, files, run, stderr, text};
+use crate::folder::contents;
+use crate::program::stderr;
+use crate::{DEPTH, DESIGN, QUICK, assert_same, done, run, text};
 
 #[test]
 fn parts_merged_are_the_sweep_of_one_process_byte_for_byte() {
@@ -42,7 +44,7 @@ fn parts_merged_are_the_sweep_of_one_process_byte_for_byte() {
     assert_eq!(status["impossible"], 2);
     done(&["--merge", plan]);
     assert_same(&whole, &parts);
-    assert!(files(&whole).contains_key("pictures/curves.svg"));
+    assert!(contents(&whole).contains_key("pictures/curves.svg"));
 }
 
 #[test]
@@ -67,7 +69,7 @@ fn a_manifest_names_its_points_and_needs_no_design_file_any_more() {
         serde_json::from_slice(&std::fs::read(out.join("plan.json")).unwrap()).unwrap();
     // The folder of a manifest stands for it.
     done(&["--run", text(&out), "--threads", "2", "--quiet"]);
-    let names: Vec<String> = files(&out).into_keys().collect();
+    let names: Vec<String> = contents(&out).into_keys().collect();
     for point in plan["points"].as_array().unwrap() {
         let name = point["point"].as_str().unwrap();
         let seed = u64::from_str_radix(&name[..12], 16).unwrap();

@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use crate::{DEPTH, DESIGN, QUICK, done, files, run, stderr, text};
+use crate::folder::contents;
+use crate::program::stderr;
+use crate::{DEPTH, DESIGN, QUICK, done, run, text};
 
 #[test]
 fn every_point_is_a_row_and_an_impossible_one_says_why() {
@@ -17,7 +19,7 @@ fn every_point_is_a_row_and_an_impossible_one_says_why() {
         "magnet.remanence=0.6,1.2",
     ];
     done(&[&what[..], &QUICK, &["--out", text(&out)]].concat());
-    let json: Value = serde_json::from_slice(&files(&out)["sweep.json"]).unwrap();
+    let json: Value = serde_json::from_slice(&contents(&out)["sweep.json"]).unwrap();
     let points = json["points"].as_array().unwrap();
     let expected = [(0.01, 0.6), (0.01, 1.2), (0.4, 0.6), (0.4, 1.2)];
     assert_eq!(points.len(), expected.len());
@@ -33,7 +35,7 @@ fn every_point_is_a_row_and_an_impossible_one_says_why() {
         let reason = point["reason"].as_str().unwrap();
         assert!(reason.contains("sides"), "{reason}");
     }
-    let table = String::from_utf8(files(&out)["sweep.csv"].clone()).unwrap();
+    let table = String::from_utf8(contents(&out)["sweep.csv"].clone()).unwrap();
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 5);
     assert!(lines[0].starts_with(&format!(
@@ -46,7 +48,7 @@ fn every_point_is_a_row_and_an_impossible_one_says_why() {
         lines[4]
     );
     // Two varied numbers make a map.
-    assert!(files(&out).contains_key("pictures/map.svg"));
+    assert!(contents(&out).contains_key("pictures/map.svg"));
 }
 
 #[test]
@@ -70,7 +72,7 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
     ];
     let output = run(&[&designs[..], &vary, &few, &["--out", text(&out)]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let json: Value = serde_json::from_slice(&files(&out)["sweep.json"]).unwrap();
+    let json: Value = serde_json::from_slice(&contents(&out)["sweep.json"]).unwrap();
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 8);
     assert_eq!(points[4]["design"], "alternating");
@@ -79,7 +81,7 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
     assert!(figure(0, "bond_depth_J") > figure(2, "bond_depth_J"));
     assert!(figure(1, "bond_depth_J") > figure(0, "bond_depth_J"));
     assert_eq!(points[0]["quantities"]["captured"]["value"], Value::Null);
-    let pictures: Vec<String> = files(&out).into_keys().collect();
+    let pictures: Vec<String> = contents(&out).into_keys().collect();
     for name in ["curves-NNNS", "curves-N"] {
         assert!(
             pictures.contains(&format!("pictures/{name}.png")),

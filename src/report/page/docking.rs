@@ -8,7 +8,6 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Sample;
 use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
-use crate::landscape::map::Pair;
 use crate::landscape::{Proportion, State, StateKind};
 use crate::pipeline;
 use crate::report::plots::Scene;
@@ -27,26 +26,12 @@ impl Page {
     ) -> Self {
         let problem = pipeline::problem(design);
         let states = states(design, docking, problem.energy(&design.bound));
-        let landscape = problem.contact.as_ref().map(|contact| {
-            let scene = Scene {
-                name: &design.name,
-                pair: Pair {
-                    fixed: &design.fixed,
-                    moving: &design.moving,
-                    potential: problem.potential(),
-                    contact,
-                },
-                shields: &design.shields,
-                space: &problem.space,
-                bound: design.bound,
-                target: design.target,
-                states: &states,
-                escapes: &[],
-                barriers: &[],
-            };
-            let played = trajectories
-                .iter()
-                .map(|(run, samples)| Played::of_trajectory(name(docking, run), samples, contact));
+        let landscape = Scene::before_analysis(design, &problem).map(|scene| {
+            let states = &states;
+            let scene = Scene { states, ..scene };
+            let played = trajectories.iter().map(|(run, samples)| {
+                Played::of_trajectory(name(docking, run), samples, scene.pair.contact)
+            });
             Landscape::new(design, &scene, played.collect())
         });
         Self {
@@ -198,14 +183,5 @@ fn settings(design: &Design, docking: &Docking) -> Table {
         ("fans", json!(motion.fans.len())),
         ("match within", json!(si(docking.threshold, "m", 3))),
     ];
-    Table {
-        title: "How it was computed".to_owned(),
-        note: String::new(),
-        columns: vec![Column::new("quantity", ""), Column::new("value", "")],
-        rows: rows
-            .into_iter()
-            .map(|(name, value)| vec![json!(name), value])
-            .collect(),
-        states: Vec::new(),
-    }
+    Table::of_settings(rows)
 }

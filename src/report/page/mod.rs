@@ -95,6 +95,22 @@ pub struct Column {
     pub unit: &'static str,
 }
 
+impl Table {
+    /// What reproduces a result: quantities by their names.
+    fn of_settings(settings: impl IntoIterator<Item = (&'static str, Value)>) -> Self {
+        Self {
+            title: "How it was computed".to_owned(),
+            note: String::new(),
+            columns: vec![Column::new("quantity", ""), Column::new("value", "")],
+            rows: settings
+                .into_iter()
+                .map(|(name, value)| vec![Value::from(name), value])
+                .collect(),
+            states: Vec::new(),
+        }
+    }
+}
+
 impl Column {
     pub fn new(name: &str, unit: &'static str) -> Self {
         Self {

@@ -216,14 +216,5 @@ pub fn settings(design: &Design, analysis: &Analysis) -> Table {
         ("far starts", json!(settings.far_starts)),
         ("runs", json!(settings.repeats)),
     ];
-    Table {
-        title: "How it was computed".to_owned(),
-        note: String::new(),
-        columns: vec![Column::new("quantity", ""), Column::new("value", "")],
-        rows: rows
-            .into_iter()
-            .map(|(name, value)| vec![json!(name), value])
-            .collect(),
-        states: Vec::new(),
-    }
+    Table::of_settings(rows)
 }

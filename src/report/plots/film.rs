@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::heat::{POLE_KEYS, keys};
-use super::marks::{View, polyline, tile};
+use super::marks::{Box4, View, outline, tile};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::{EnergyScale, minus};
 use super::scene::Scene;
@@ -63,18 +63,12 @@ fn draw_frame(
     scene: &Scene,
     scale: &EnergyScale,
     view: &View,
-    [left, top, right, bottom]: [f64; 4],
+    frame: Box4,
     number: usize,
     point: &PathwayPoint,
 ) -> Result<(), PictureError> {
-    let corners = [
-        (left, top),
-        (right, top),
-        (right, bottom),
-        (left, bottom),
-        (left, top),
-    ];
-    polyline(root, &corners, GRID, 1.0)?;
+    let [left, _, right, bottom] = frame;
+    outline(root, frame, GRID)?;
     let origin = Configuration::new(0.0, 0.0, 0.0);
     tile(root, view, scene.pair.fixed, &origin, FIXED_FILL)?;
     tile(

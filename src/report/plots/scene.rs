@@ -41,6 +41,16 @@ impl<'a> Scene<'a> {
     /// What an analysis found; `None` for a problem without contact, which is no pair of tiles.
     pub fn new(design: &'a Design, problem: &'a Problem, analysis: &'a Analysis) -> Option<Self> {
         Some(Self {
+            states: &analysis.states,
+            escapes: &analysis.escapes,
+            barriers: &analysis.barriers,
+            ..Self::before_analysis(design, problem)?
+        })
+    }
+
+    /// The tiles alone, without states; `None` for a problem without contact.
+    pub fn before_analysis(design: &'a Design, problem: &'a Problem) -> Option<Self> {
+        Some(Self {
             name: &design.name,
             pair: Pair {
                 fixed: &design.fixed,
@@ -52,9 +62,9 @@ impl<'a> Scene<'a> {
             space: &problem.space,
             bound: design.bound,
             target: design.target,
-            states: &analysis.states,
-            escapes: &analysis.escapes,
-            barriers: &analysis.barriers,
+            states: &[],
+            escapes: &[],
+            barriers: &[],
         })
     }
 

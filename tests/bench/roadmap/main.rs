@@ -10,13 +10,14 @@
 //! CSV; `--neighbours K` for other than the default number. `--draw results/scale.csv` draws such
 //! a table beside it.
 
+#[path = "../../shared/designs.rs"]
+mod designs;
 mod figure;
 
 use std::path::Path;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use tilebind::design::Design;
 use tilebind::pipeline;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
@@ -27,11 +28,7 @@ use tilebind::roadmap::{
 const ROUNDS: usize = 7;
 
 fn main() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/paper-tile.toml");
-    let design = match Design::load(&file) {
-        Ok(design) => design,
-        Err(error) => return eprintln!("{error}"),
-    };
+    let design = designs::load("shapes/paper-tile.toml");
     let problem = pipeline::problem(&design);
     let depth = pipeline::energy_scale(&design, &problem);
     let arguments: Vec<String> = std::env::args().collect();

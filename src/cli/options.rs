@@ -1,0 +1,137 @@
+//! Options that several commands have, and what is done with them.
+//!
+//! A command that means something of its own by one of them says so with `mut_arg`; not by an
+//! argument without a name, which `mut_arg` would move behind the others.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::design::{Design, MagnetModel};
+
+use super::progress::Progress;
+use super::{Failure, input, print};
+
+/// A design, and how its magnets are to be modelled.
+#[derive(Args)]
+pub struct DesignOptions {
+    /// The design file
+    design: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
+    model: Option<MagnetModel>,
+}
+
+impl DesignOptions {
+    /// Reads the design; its warnings go to standard error.
+    pub fn load(&self) -> Result<Design, Failure> {
+        input::load_as(&self.design, self.model)
+    }
+}
+
+/// How thoroughly the landscape is surveyed.
+#[derive(Args)]
+pub struct SurveyOptions {
+    /// Milestones of the roadmap
+    #[arg(long, value_name = "N", default_value_t = 8000,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    milestones: u32,
+
+    /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
+    neighbours: Option<u32>,
+
+    /// A barrier is settled when it moves by less than this fraction
+    #[arg(long, value_name = "F", default_value_t = 0.005, value_parser = input::fraction)]
+    pub settled: f64,
+
+    /// Far starts from which capture shares are counted
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    far_starts: u32,
+
+    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
+    #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
+          default_missing_value = "1000", value_parser = clap::value_parser!(u32).range(1..))]
+    dynamics: Option<u32>,
+}
+
+impl SurveyOptions {
+    pub fn milestones(&self) -> usize {
+        self.milestones as usize
+    }
+
+    pub fn neighbours(&self) -> Option<usize> {
+        self.neighbours.map(|k| k as usize)
+    }
+
+    pub fn far_starts(&self) -> usize {
+        self.far_starts as usize
+    }
+
+    /// Trajectories below each barrier; 0 for no check.
+    pub fn dynamics_runs(&self) -> usize {
+        self.dynamics.unwrap_or(0) as usize
+    }
+}
+
+/// What the work starts from, and on how many threads it is done.
+#[derive(Args)]
+pub struct WorkOptions {
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Threads [default: all cores]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl WorkOptions {
+    /// The number of threads asked for, or else that of cores.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.map_or_else(cores, usize::from)
+    }
+
+    /// Has the library work on the number of threads asked for.
+    pub fn use_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else {
+            return Ok(());
+        };
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
+    }
+}
+
+/// What is printed.
+#[derive(Args)]
+pub struct PrintOptions {
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    /// Print neither progress nor the summary
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl PrintOptions {
+    /// The bar that shows progress, unless all is to be quiet.
+    pub fn progress(&self) -> Progress {
+        Progress::new(self.quiet)
+    }
+
+    /// Prints results in the form asked for.
+    pub fn results(&self, json: &str, summary: impl FnOnce() -> String) -> Result<(), Failure> {
+        if self.json {
+            print(json)
+        } else if self.quiet {
+            Ok(())
+        } else {
+            print(&summary())
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! A word out of a few, which shells complete.
+
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Arg, Command, Error};
+
+/// Reads one of several names as what it stands for.
+#[derive(Clone)]
+pub struct Word<T> {
+    names: Vec<(&'static str, T)>,
+    /// What is said of any other word.
+    wrong: String,
+}
+
+impl<T: Clone> Word<T> {
+    pub fn new(names: &[(&'static str, T)], wrong: String) -> Self {
+        Self {
+            names: names.to_vec(),
+            wrong,
+        }
+    }
+
+    fn read(&self, text: &str) -> Result<T, String> {
+        self.names
+            .iter()
+            .find(|(name, _)| *name == text)
+            .map(|(_, meaning)| meaning.clone())
+            .ok_or_else(|| self.wrong.clone())
+    }
+}
+
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for Word<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<T, Error> {
+        let word = self.clone();
+        (move |text: &str| word.read(text)).parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(
+            self.names.iter().map(|(name, _)| PossibleValue::new(name)),
+        ))
+    }
+}

@@ -1,0 +1,55 @@
+//! What an analysis was asked for.
+
+use serde::Serialize;
+
+use crate::analysis::{Counts, Settings};
+use crate::design::Design;
+use crate::pipeline;
+use crate::roadmap::neighbour;
+
+/// All that decides the result, besides the design and the seed.
+#[derive(Debug, Serialize)]
+#[allow(non_snake_case)]
+pub struct SettingsEntry {
+    pub model: &'static str,
+    /// The rule by which shields act; null for bare magnets.
+    pub shields: Option<&'static str>,
+    pub milestones: usize,
+    /// Neighbours of each milestone.
+    pub neighbours: usize,
+    /// Energy of Boltzmann's acceptance rule; null for the linear rule.
+    pub boltzmann_J: Option<f64>,
+    pub thermal_energy_J: f64,
+    pub settled: f64,
+    pub least_depth: f64,
+    pub far_starts: usize,
+    pub repeats: usize,
+    /// Width to which certified bounds are narrowed; null for a hundredth of the bond or a twentieth
+    /// of the barrier, whichever is less.
+    pub tolerance_J: Option<f64>,
+    pub certify_s: f64,
+}
+
+impl SettingsEntry {
+    pub(super) fn new(design: &Design, settings: &Settings, counts: &Counts) -> Self {
+        let problem = pipeline::problem(design);
+        Self {
+            model: design.model.name(),
+            shields: (!design.shields.is_none()).then(|| design.shields.rule.name()),
+            milestones: settings.milestones,
+            neighbours: settings
+                .neighbours
+                .unwrap_or_else(|| neighbour::neighbours_per_milestone(counts.milestones)),
+            boltzmann_J: settings.boltzmann,
+            thermal_energy_J: settings
+                .thermal_energy
+                .unwrap_or_else(|| 0.01 * pipeline::energy_scale(design, &problem)),
+            settled: settings.settled,
+            least_depth: settings.least_depth,
+            far_starts: settings.far_starts,
+            repeats: settings.repeats,
+            tolerance_J: settings.tolerance,
+            certify_s: settings.certify_seconds,
+        }
+    }
+}

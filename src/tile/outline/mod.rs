@@ -1,0 +1,194 @@
+//! A tile's outline: a simple, closed, counter-clockwise polygon and its convex parts.
+
+mod convex_part;
+mod plane;
+mod validity;
+
+use nalgebra::Vector2;
+use parry2d_f64::math::Vector;
+use parry2d_f64::transformation::convex_hull;
+
+pub use convex_part::{Bounds, ConvexPart};
+use plane::outward_normal;
+pub use plane::{contains, cross, distance_to_segment};
+pub(super) use plane::{segments_meet, signed_area};
+pub use validity::OutlineError;
+
+use super::edge_grid::EdgeGrid;
+
+/// A simple closed polygon, counter-clockwise, in the tile's frame (m).
+#[derive(Clone, Debug)]
+pub struct Outline {
+    vertices: Vec<Vector2<f64>>,
+    normals: Vec<Vector2<f64>>,
+    convex: Vec<bool>,
+    parts: Vec<ConvexPart>,
+    circumradius: f64,
+    grid: EdgeGrid,
+}
+
+impl Outline {
+    /// An outline from its vertices (m), counter-clockwise. Vertices on the straight line between
+    /// their neighbours are dropped.
+    ///
+    /// # Errors
+    /// Where the vertices do not form a simple counter-clockwise polygon.
+    pub fn new(vertices: Vec<Vector2<f64>>) -> Result<Self, OutlineError> {
+        validity::check(&vertices)?;
+        let vertices = validity::without_collinear(vertices);
+        let n = vertices.len();
+        let normals: Vec<_> = (0..n)
+            .map(|i| outward_normal(vertices[i], vertices[(i + 1) % n]))
+            .collect();
+        let convex = (0..n)
+            .map(|i| cross(normals[(i + n - 1) % n], normals[i]) > 0.0)
+            .collect();
+        let parts = convex_part::fill(&vertices).ok_or(OutlineError::NotDecomposable)?;
+        let grid = EdgeGrid::new(&vertices);
+        let circumradius = vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        Ok(Self {
+            vertices,
+            normals,
+            convex,
+            parts,
+            circumradius,
+            grid,
+        })
+    }
+
+    pub fn vertices(&self) -> &[Vector2<f64>] {
+        &self.vertices
+    }
+
+    /// Outward unit normal of each edge; edge i runs from vertex i to vertex i + 1.
+    pub fn normals(&self) -> &[Vector2<f64>] {
+        &self.normals
+    }
+
+    /// Whether each vertex is convex (its inner angle below pi).
+    pub fn convex_vertices(&self) -> &[bool] {
+        &self.convex
+    }
+
+    /// Convex polygons that fill the outline exactly and share no inner point.
+    pub fn parts(&self) -> &[ConvexPart] {
+        &self.parts
+    }
+
+    /// The convex hull.
+    pub fn hull(&self) -> ConvexPart {
+        let points: Vec<Vector> = self
+            .vertices
+            .iter()
+            .map(|v| Vector::new(v.x, v.y))
+            .collect();
+        let hull = convex_hull(&points);
+        ConvexPart::new(hull.iter().map(|p| Vector2::new(p.x, p.y)).collect())
+    }
+
+    /// Finds the edges near a point.
+    pub fn grid(&self) -> &EdgeGrid {
+        &self.grid
+    }
+
+    /// Largest distance of a point of the outline from the reference point (m).
+    pub fn circumradius(&self) -> f64 {
+        self.circumradius
+    }
+
+    /// The ends of edge i.
+    pub fn edge(&self, i: usize) -> (Vector2<f64>, Vector2<f64>) {
+        (
+            self.vertices[i],
+            self.vertices[(i + 1) % self.vertices.len()],
+        )
+    }
+
+    /// Area (m^2).
+    pub fn area(&self) -> f64 {
+        signed_area(&self.vertices)
+    }
+
+    /// Centre of mass of the evenly filled outline (m).
+    pub fn centroid(&self) -> Vector2<f64> {
+        self.edges()
+            .map(|(a, b)| (a + b) * cross(a, b))
+            .sum::<Vector2<f64>>()
+            / (6.0 * self.area())
+    }
+
+    /// Integral of the squared distance from the centroid over the area (m^4).
+    pub fn second_moment_about_centroid(&self) -> f64 {
+        let about_origin: f64 = self
+            .edges()
+            .map(|(a, b)| cross(a, b) * (a.dot(&a) + a.dot(&b) + b.dot(&b)) / 12.0)
+            .sum();
+        about_origin - self.area() * self.centroid().norm_squared()
+    }
+
+    /// Whether a point lies inside (on the boundary either answer may come).
+    pub fn contains(&self, p: Vector2<f64>) -> bool {
+        contains(&self.vertices, &p)
+    }
+
+    /// Distance of a point to the boundary, positive outside, negative inside (m).
+    pub fn signed_distance(&self, p: Vector2<f64>) -> f64 {
+        let distance = self
+            .edges()
+            .map(|(a, b)| distance_to_segment(p, a, b))
+            .fold(f64::INFINITY, f64::min);
+        if self.contains(p) {
+            -distance
+        } else {
+            distance
+        }
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+        (0..self.vertices.len()).map(|i| self.edge(i))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub fn outline(points: &[[f64; 2]]) -> Result<Outline, OutlineError> {
+        Outline::new(points.iter().map(|p| Vector2::new(p[0], p[1])).collect())
+    }
+
+    #[test]
+    fn a_square_has_the_textbook_area_and_moments() {
+        let square = outline(&[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]).unwrap();
+        assert!((square.area() - 4.0).abs() < 1e-14);
+        assert!((square.centroid() - Vector2::new(2.0, 2.0)).norm() < 1e-14);
+        // Polar second moment of a square of side a: a^4 / 6.
+        assert!((square.second_moment_about_centroid() - 16.0 / 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_saw_blade_keeps_its_notches() {
+        let mut points = vec![[0.0, 0.0], [4.0, 0.0]];
+        for k in 0..4 {
+            points.push([4.0 - k as f64, 2.0]);
+            points.push([3.5 - k as f64, 1.0]);
+        }
+        points.push([0.0, 2.0]);
+        let saw = outline(&points).unwrap();
+        assert!(!saw.contains(Vector2::new(3.5, 1.5)));
+        let in_parts = |p: Vector2<f64>| {
+            saw.parts().iter().any(|part| {
+                part.points
+                    .iter()
+                    .zip(&part.normals)
+                    .all(|(q, n)| n.dot(&(p - q)) <= 0.0)
+            })
+        };
+        for i in 0..80 {
+            for j in 0..40 {
+                let p = Vector2::new(0.0251 + i as f64 * 0.05, 0.0249 + j as f64 * 0.05);
+                assert_eq!(in_parts(p), saw.contains(p), "{p}");
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Which lists of vertices are outlines.
+
+use nalgebra::Vector2;
+
+use super::{cross, segments_meet, signed_area};
+
+/// Why a list of vertices is no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OutlineError {
+    #[error("an outline needs at least three vertices, this one has {0}")]
+    TooFewVertices(usize),
+    #[error("vertices {0} and {1} coincide")]
+    RepeatedVertex(usize, usize),
+    #[error("the outline runs clockwise; list its vertices counter-clockwise")]
+    Clockwise,
+    #[error("the edge from vertex {0} crosses or touches the edge from vertex {1}")]
+    SelfCrossing(usize, usize),
+    #[error("the outline could not be split into convex parts; is it a simple polygon?")]
+    NotDecomposable,
+}
+
+/// Whether vertices form a simple, counter-clockwise polygon.
+pub(super) fn check(vertices: &[Vector2<f64>]) -> Result<(), OutlineError> {
+    let n = vertices.len();
+    if n < 3 {
+        return Err(OutlineError::TooFewVertices(n));
+    }
+    if let Some(i) = (0..n).find(|&i| vertices[i] == vertices[(i + 1) % n]) {
+        return Err(OutlineError::RepeatedVertex(i, (i + 1) % n));
+    }
+    for i in 0..n {
+        for j in i + 1..n {
+            if edges_cross(vertices, i, j) {
+                return Err(OutlineError::SelfCrossing(i, j));
+            }
+        }
+    }
+    if signed_area(vertices) <= 0.0 {
+        return Err(OutlineError::Clockwise);
+    }
+    Ok(())
+}
+
+/// Whether edges i < j share a point they should not: any point for edges that are not
+/// neighbours, a second point for neighbours.
+fn edges_cross(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
+    let n = vertices.len();
+    let (a, b) = (vertices[i], vertices[(i + 1) % n]);
+    let (c, d) = (vertices[j], vertices[(j + 1) % n]);
+    let folds_back = |corner: Vector2<f64>, before: Vector2<f64>, after: Vector2<f64>| {
+        let (u, v) = (before - corner, after - corner);
+        cross(u, v).abs() <= 1e-12 * u.norm() * v.norm() && u.dot(&v) > 0.0
+    };
+    if j == i + 1 {
+        return folds_back(b, a, d);
+    }
+    if i == 0 && j == n - 1 {
+        return folds_back(a, b, c);
+    }
+    segments_meet([a, b], [c, d], 0.0)
+}
+
+/// The vertices that do not lie on the straight line between their neighbours.
+pub(super) fn without_collinear(vertices: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    let n = vertices.len();
+    (0..n)
+        .filter(|&i| {
+            let (a, b, c) = (
+                vertices[(i + n - 1) % n],
+                vertices[i],
+                vertices[(i + 1) % n],
+            );
+            cross(b - a, c - b).abs() > 1e-12 * (b - a).norm() * (c - b).norm()
+        })
+        .map(|i| vertices[i])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::OutlineError;
+    use crate::tile::outline::tests::outline;
+
+    #[test]
+    fn wrong_outlines_are_refused() {
+        let clockwise = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+        assert_eq!(outline(&clockwise).unwrap_err(), OutlineError::Clockwise);
+        let bow_tie = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        assert!(matches!(
+            outline(&bow_tie).unwrap_err(),
+            OutlineError::SelfCrossing(..)
+        ));
+        let spike = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        assert!(matches!(
+            outline(&spike).unwrap_err(),
+            OutlineError::SelfCrossing(..)
+        ));
+    }
+
+    #[test]
+    fn points_on_straight_lines_are_dropped() {
+        let square = outline(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(square.unwrap().vertices().len(), 4);
+    }
+}
