@@ -102,8 +102,11 @@ fn chain(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::Settings;
     use crate::configuration::Configuration;
+    use crate::design::Design;
     use crate::landscape::{PathwayPoint, State, StateKind};
+    use crate::pipeline;
 
     fn at(x: f64) -> Configuration {
         Configuration::new(x, 0.0, 0.0)
@@ -207,5 +210,25 @@ mod tests {
         second.pathway[0].configuration.y = 1e-3;
         let before = vec![barrier(0, None, 5.0), barrier(0, Some(1), 1.0), second];
         assert_eq!(taken_over(before.clone()), before);
+    }
+
+    #[test]
+    fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
+        let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
+        let analysis = pipeline::analyse(&design, &Settings::default(), &pipeline::Silent);
+        let barriers = &analysis.barriers;
+        let mut compared = 0;
+        for first in barriers {
+            for second in barriers.iter().filter(|b| b.from == first.to) {
+                let direct = |b: &&Barrier| b.from == first.from && b.to == second.to;
+                for direct in barriers.iter().filter(direct) {
+                    let upper = |barrier: &Barrier| barrier.upper.unwrap();
+                    let chain = upper(first).max(upper(second));
+                    assert!(upper(direct) <= chain + 1e-6 * 65.5e-3, "{direct:?}");
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 10, "{compared}");
     }
 }

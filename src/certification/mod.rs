@@ -13,7 +13,8 @@ use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Barrier, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
 use crate::potential::MagnetModel;
-use crate::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
+use crate::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use crate::potential::shielding::ShieldRule;
 use crate::problem::Problem;
 
 /// Cells spent on narrowing the bounds of a small barrier further.
@@ -33,8 +34,10 @@ const LEAST_GAIN: f64 = 1e-6;
 pub enum Uncertified {
     #[error("no time was given to the certificate")]
     NoTime,
-    #[error("bounds over cells are not known for magnets with shields")]
-    Shields,
+    #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]
+    ShieldedBlocks,
+    #[error("the energy jumps where the nearest-face rule changes faces")]
+    NearestFace,
 }
 
 /// The bounds over cells of a design's energy.
@@ -42,10 +45,13 @@ pub enum Uncertified {
 /// # Errors
 /// Where no such bounds are known for the way its magnets are modelled.
 pub fn bounds(design: &Design) -> Result<Box<dyn CellBounds>, Uncertified> {
+    let (fixed, moving, shields) = (&design.fixed, &design.moving, &design.shields);
     match design.model {
-        _ if !design.shields.is_none() => Err(Uncertified::Shields),
-        MagnetModel::Dipole => Ok(Box::new(DipoleBounds::new(&design.fixed, &design.moving))),
-        MagnetModel::Cuboid => Ok(Box::new(CuboidBounds::new(&design.fixed, &design.moving))),
+        _ if shields.rule == ShieldRule::NearestFace => Err(Uncertified::NearestFace),
+        MagnetModel::Dipole if shields.is_none() => Ok(Box::new(DipoleBounds::new(fixed, moving))),
+        MagnetModel::Dipole => Ok(Box::new(ShieldedBounds::new(fixed, moving, shields))),
+        MagnetModel::Cuboid if shields.is_none() => Ok(Box::new(CuboidBounds::new(fixed, moving))),
+        MagnetModel::Cuboid => Err(Uncertified::ShieldedBlocks),
     }
 }
 

@@ -16,7 +16,8 @@ use super::{Failure, input, interrupt};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
-1000 take some two seconds of a core for each barrier (the paper's tile has 23)";
+1000 take some two seconds of a core for each barrier (the paper's tile has 23), for finely curved \
+shapes up to twenty";
 
 /// Find the states, traps, barriers and pathways of a design, and draw them
 #[derive(Args)]

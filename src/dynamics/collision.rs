@@ -11,6 +11,9 @@ use rapier2d_f64::pipeline::PhysicsWorld;
 use super::body::{Body, Phase};
 use crate::tile::Outline;
 
+/// Half the width (m) of the bars that the rim is made of.
+const BAR: f64 = 0.5;
+
 /// What happens where surfaces touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
@@ -65,14 +68,16 @@ impl Collision {
         };
         world.insert(RigidBodyBuilder::fixed(), collider(shape(outlines.0)));
         if let Some([x, y]) = rim {
-            for (at, normal) in [
-                (Vector::new(x, 0.0), Vector::new(-1.0, 0.0)),
-                (Vector::new(-x, 0.0), Vector::new(1.0, 0.0)),
-                (Vector::new(0.0, y), Vector::new(0.0, -1.0)),
-                (Vector::new(0.0, -y), Vector::new(0.0, 1.0)),
+            // Thick bars, not half planes: those would be near every part of the tile everywhere.
+            let (length, width) = (x.max(y) + 2.0 * BAR, BAR);
+            for (half, at) in [
+                ([width, length], Vector::new(x + width, 0.0)),
+                ([width, length], Vector::new(-x - width, 0.0)),
+                ([length, width], Vector::new(0.0, y + width)),
+                ([length, width], Vector::new(0.0, -y - width)),
             ] {
-                let wall = collider(SharedShape::halfspace(normal)).translation(at);
-                world.insert(RigidBodyBuilder::fixed(), wall);
+                let bar = collider(SharedShape::cuboid(half[0], half[1])).translation(at);
+                world.insert(RigidBodyBuilder::fixed(), bar);
             }
         }
         let centre = Vector::new(body.centre.x, body.centre.y);

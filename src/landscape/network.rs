@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use petgraph::algo::astar;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::unionfind::UnionFind;
-use petgraph::visit::{EdgeFiltered, EdgeRef};
+use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
 use super::slide::Point;
@@ -235,6 +235,16 @@ impl Network {
             };
         }
         merges
+    }
+
+    /// For each node whether links lead there from `node`, over whatever others.
+    pub fn joined_to(&self, node: usize) -> Vec<bool> {
+        let mut joined = vec![false; self.nodes.len()];
+        let mut walk = Dfs::new(&self.graph, NodeIndex::new(node));
+        while let Some(node) = walk.next(&self.graph) {
+            joined[node.index()] = true;
+        }
+        joined
     }
 
     /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's

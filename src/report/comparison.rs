@@ -14,6 +14,14 @@ use crate::landscape::certificate::Ordering;
 /// Figures whose order may be proved.
 const ORDERED: [Quantity; 3] = [Quantity::Unbinding, Quantity::Binding, Quantity::TrapEscape];
 
+/// Columns of what moving tiles say of the barriers: how many they checked, contradict, and show to
+/// be estimated too high.
+const CHECKED: [&str; 3] = [
+    "barriers_checked",
+    "barriers_contradicted",
+    "barriers_overestimated",
+];
+
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]
 pub struct Comparison {
@@ -51,7 +59,7 @@ impl Comparison {
         if self.designs.iter().any(misses_head_on) {
             let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
         }
-        out
+        out + &checked(self.designs.iter())
     }
 
     /// The same for people, as Markdown.
@@ -237,6 +245,29 @@ impl Comparison {
     }
 }
 
+/// A line on what moving tiles say of all barriers that they checked; empty where they were not
+/// asked.
+pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> String {
+    let mut sums: Option<[usize; 3]> = None;
+    for design in designs {
+        if let Some(count) = design.barriers_checked {
+            let refuted = [&design.contradictions, &design.overestimates].map(Vec::len);
+            let [checked, contradicted, high] = sums.unwrap_or_default();
+            sums = Some([
+                checked + count,
+                contradicted + refuted[0],
+                high + refuted[1],
+            ]);
+        }
+    }
+    sums.map_or_else(String::new, |[checked, contradicted, high]| {
+        format!(
+            "moving tiles checked {checked} barriers: {contradicted} contradicted, {high} estimated \
+             too high\n"
+        )
+    })
+}
+
 fn named(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::TrapEscape => "escape from the deepest trap",
@@ -296,6 +327,7 @@ pub fn columns() -> Vec<String> {
         columns.extend(parts(quantity.bounds()).iter().map(|p| quantity.column(p)));
     }
     columns.extend(["caged", "target_energy_J", "seed", "sha256"].map(str::to_owned));
+    columns.extend(CHECKED.map(str::to_owned));
     columns
 }
 
@@ -321,6 +353,11 @@ pub fn cells(design: &Assessment) -> Vec<String> {
         design.seed.to_string(),
         design.sha256.clone(),
     ]);
+    let counts = design.barriers_checked.map(|checked| {
+        let refuted = [&design.contradictions, &design.overestimates].map(Vec::len);
+        [checked, refuted[0], refuted[1]].map(|count| count.to_string())
+    });
+    cells.extend(counts.unwrap_or_default());
     cells
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::comparison::{capture_settings, cells, columns, merge, quantities};
+use super::comparison::{capture_settings, cells, checked, columns, merge, quantities};
 use super::csv::text;
 use super::json;
 use crate::comparison::Assessment;
@@ -148,7 +148,8 @@ impl<'a> Sweep<'a> {
             let more = refused.len() - REASONS;
             let _ = writeln!(out, "  and {more} more, see sweep.csv");
         }
-        out
+        let designs = (0..self.outcomes.len()).filter_map(|index| self.assessment(index));
+        out + &checked(designs)
     }
 
     /// A point by its values: `depth = 0.05, model = dipole`.

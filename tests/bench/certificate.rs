@@ -1,7 +1,7 @@
 //! What certified barriers cost: widths, cells, times, and cells per second.
 //!
-//! The paper's tile with both models of magnets, no pathway known, each bracket by a certifier of its own; time to set it up
-//! included.
+//! The paper's tile with point dipoles, dipoles behind shields and blocks; no pathway known, each
+//! bracket by a certifier of its own, the time to set it up included.
 //!
 //! `cargo bench --bench certificate`
 
@@ -14,13 +14,28 @@ use tilebind::Configuration;
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Certifier, Effort, End};
-use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
+use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use tilebind::potential::shielding::{Shield, Shields};
 
 fn main() {
     let design = designs::load("shapes/paper-tile.toml");
     let (fixed, moving) = (&design.fixed, &design.moving);
     println!("point dipoles");
     measure(&design, &DipoleBounds::new(fixed, moving), 65.47e-3);
+    let shield = Shield {
+        attenuation: 0.8,
+        length: 0.03,
+        width: 0.3,
+        front_gain: 1.0,
+    };
+    let shields = Shields {
+        fixed: vec![Some(shield); 4],
+        moving: vec![Some(shield); 4],
+        ..Shields::default()
+    };
+    println!("\npoint dipoles behind shields");
+    let bounds = ShieldedBounds::new(fixed, moving, &shields);
+    measure(&design, &bounds, 65.47e-3);
     println!("\nblocks");
     measure(&design, &CuboidBounds::new(fixed, moving), 118.64e-3);
 }

@@ -25,8 +25,18 @@ impl Case {
     fn new(seed: u64, model: MagnetModel) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let scene = Scene::random(&mut rng, model);
+        Self::of(scene, &mut rng)
+    }
+
+    fn shielded(seed: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let scene = Scene::random_shielded(&mut rng);
+        Self::of(scene, &mut rng)
+    }
+
+    fn of(scene: Scene, rng: &mut ChaCha8Rng) -> Self {
         let mut free: Vec<Configuration> = (0..400)
-            .map(|_| scene.random_configuration(&mut rng))
+            .map(|_| scene.random_configuration(rng))
             .filter(|q| scene.contact.is_free(q))
             .collect();
         free.sort_by(|a, b| {
@@ -55,12 +65,24 @@ impl Case {
     }
 }
 
+fn of_dipoles(seed: u64) -> Case {
+    Case::new(seed, MagnetModel::Dipole)
+}
+
+fn of_blocks(seed: u64) -> Case {
+    Case::new(seed, MagnetModel::Cuboid)
+}
+
 /// Checks designs against the grid; returns on how many both sides said something.
-fn against_the_grid(model: MagnetModel, seeds: std::ops::Range<u64>, counts: [usize; 3]) -> usize {
+fn against_the_grid(
+    case: fn(u64) -> Case,
+    seeds: std::ops::Range<u64>,
+    counts: [usize; 3],
+) -> usize {
     seeds
         .into_par_iter()
         .map(|seed| {
-            let case = Case::new(seed, model);
+            let case = case(seed);
             let bracket = case.bracket();
             let grid = Grid::new(&case.scene, counts);
             let (lower, upper) = grid.bracket(&case.from, &case.to);
@@ -79,20 +101,26 @@ fn against_the_grid(model: MagnetModel, seeds: std::ops::Range<u64>, counts: [us
 
 #[test]
 fn no_bracket_contradicts_a_dense_grid() {
-    let informative = against_the_grid(MagnetModel::Dipole, 0..24, [30, 30, 28]);
+    let informative = against_the_grid(of_dipoles, 0..24, [30, 30, 28]);
     assert!(informative >= 18, "{informative}");
 }
 
 #[test]
 fn no_bracket_of_blocks_contradicts_a_dense_grid() {
-    let informative = against_the_grid(MagnetModel::Cuboid, 0..8, [24, 24, 22]);
+    let informative = against_the_grid(of_blocks, 0..8, [24, 24, 22]);
     assert!(informative >= 5, "{informative}");
+}
+
+#[test]
+fn no_bracket_of_shielded_dipoles_contradicts_a_dense_grid() {
+    let informative = against_the_grid(Case::shielded, 0..24, [30, 30, 28]);
+    assert!(informative >= 18, "{informative}");
 }
 
 /// The first of the hundreds below.
 #[test]
 fn no_bracket_contradicts_a_finer_grid() {
-    let informative = against_the_grid(MagnetModel::Dipole, 1000..1006, [40, 40, 36]);
+    let informative = against_the_grid(of_dipoles, 1000..1006, [40, 40, 36]);
     assert!(informative >= 4, "{informative}");
 }
 
@@ -100,7 +128,7 @@ fn no_bracket_contradicts_a_finer_grid() {
 #[test]
 #[ignore = "takes minutes"]
 fn no_bracket_of_hundreds_contradicts_a_dense_grid() {
-    let informative = against_the_grid(MagnetModel::Dipole, 1000..1400, [40, 40, 36]);
+    let informative = against_the_grid(of_dipoles, 1000..1400, [40, 40, 36]);
     assert!(informative >= 300, "{informative}");
 }
 
@@ -109,7 +137,7 @@ fn no_random_free_path_stays_below_the_lower_bound() {
     let tried: usize = (100..130)
         .into_par_iter()
         .map(|seed| {
-            let case = Case::new(seed, MagnetModel::Dipole);
+            let case = of_dipoles(seed);
             let bracket = case.bracket();
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let mut tried = 0;
@@ -183,7 +211,7 @@ fn relabelled_tiles_have_consistent_brackets() {
         (200..220)
             .into_par_iter()
             .map(|seed| {
-                let case = Case::new(seed, MagnetModel::Dipole);
+                let case = of_dipoles(seed);
                 // A round table would turn with the tiles; on a large square one the rim is far from
                 // every saddle.
                 let [fixed, moving] = &case.scene.tiles;

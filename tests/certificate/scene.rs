@@ -7,10 +7,10 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Bracket, Certifier, Effort, End};
-use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds};
-use tilebind::potential::shielding::Shields;
+use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{MagnetModel, Potential, of_tiles};
-use tilebind::tile::{Magnet, Outline, Tile};
+use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 use crate::designs;
 
@@ -32,7 +32,30 @@ pub fn effort(tolerance: f64, cells: usize) -> Effort {
 }
 
 impl Scene {
+    /// With magnets that no shield covers.
     pub fn new(fixed: Tile, moving: Tile, half_size: [f64; 2], model: MagnetModel) -> Self {
+        let bounds: Box<dyn CellBounds> = match model {
+            MagnetModel::Dipole => Box::new(DipoleBounds::new(&fixed, &moving)),
+            MagnetModel::Cuboid => Box::new(CuboidBounds::new(&fixed, &moving)),
+        };
+        let potential = of_tiles(model, &fixed, &moving, &Shields::default());
+        Self::of(fixed, moving, half_size, potential, bounds)
+    }
+
+    /// With dipoles behind shields.
+    pub fn shielded(fixed: Tile, moving: Tile, half_size: [f64; 2], shields: &Shields) -> Self {
+        let bounds = Box::new(ShieldedBounds::new(&fixed, &moving, shields));
+        let potential = of_tiles(MagnetModel::Dipole, &fixed, &moving, shields);
+        Self::of(fixed, moving, half_size, potential, bounds)
+    }
+
+    fn of(
+        fixed: Tile,
+        moving: Tile,
+        half_size: [f64; 2],
+        potential: Box<dyn Potential + Send>,
+        bounds: Box<dyn CellBounds>,
+    ) -> Self {
         Self {
             space: ConfigurationSpace {
                 half_size,
@@ -40,11 +63,8 @@ impl Scene {
                 free_distance: fixed.outline.circumradius() + moving.outline.circumradius(),
             },
             contact: Contact::new(&fixed.outline, &moving.outline),
-            potential: of_tiles(model, &fixed, &moving, &Shields::default()),
-            bounds: match model {
-                MagnetModel::Dipole => Box::new(DipoleBounds::new(&fixed, &moving)),
-                MagnetModel::Cuboid => Box::new(CuboidBounds::new(&fixed, &moving)),
-            },
+            potential,
+            bounds,
             tiles: [fixed, moving],
         }
     }
@@ -83,13 +103,36 @@ impl Scene {
 
     /// Two tiles with a few magnets each, of random shapes, convex or not.
     pub fn random(rng: &mut ChaCha8Rng, model: MagnetModel) -> Self {
-        let mut tile = || loop {
+        let [fixed, moving] = random_tiles(rng, model);
+        Self::new(fixed, moving, [0.4, 0.4], model)
+    }
+
+    /// The same of dipoles behind shields.
+    pub fn random_shielded(rng: &mut ChaCha8Rng) -> Self {
+        let [fixed, moving] = random_tiles(rng, MagnetModel::Dipole);
+        let mut shield = || Shield {
+            attenuation: rng.random_range(0.2..0.95),
+            length: rng.random_range(0.01..0.06),
+            width: rng.random_range(0.1..0.6),
+            front_gain: rng.random_range(0.9..1.2),
+        };
+        let shields = Shields {
+            rule: ShieldRule::Smooth,
+            fixed: vec![Some(shield())],
+            moving: vec![Some(shield())],
+        };
+        Self::shielded(fixed, moving, [0.4, 0.4], &shields)
+    }
+}
+
+fn random_tiles(rng: &mut ChaCha8Rng, model: MagnetModel) -> [Tile; 2] {
+    std::array::from_fn(|_| {
+        loop {
             if let Some(tile) = random_tile(rng, model) {
                 return tile;
             }
-        };
-        Self::new(tile(), tile(), [0.4, 0.4], model)
-    }
+        }
+    })
 }
 
 fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
@@ -122,9 +165,12 @@ fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
             face: 0,
         });
     }
+    // The face that all magnets are said to sit on.
+    let [start, end] = [0, 1].map(|k| outline.vertices()[k]);
+    let name = "0".to_owned();
     (!magnets.is_empty()).then(|| Tile {
         outline,
-        faces: Vec::new(),
+        faces: vec![Face { name, start, end }],
         magnets,
         mass: 0.1,
         thickness: 0.01,

@@ -322,11 +322,11 @@ impl<'a> Checker<'a> {
             };
             let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
             let ended = self.settled_place(settling, &start, steps);
-            let is_on = |side: usize| ended.is_some_and(|place| on[side].contains(&place));
-            let verdict = match (is_on(side), is_on(1 - side)) {
-                (true, _) => SideVerdict::OnThePathway,
-                (false, true) => SideVerdict::Opposite,
-                (false, false) => SideVerdict::Elsewhere,
+            let other = [*to, *from][side];
+            let verdict = match ended {
+                Some(place) if on[side].contains(&place) => SideVerdict::OnThePathway,
+                Some(place) if place == other => SideVerdict::Opposite,
+                _ => SideVerdict::Elsewhere,
             };
             Some(Side { ended, verdict })
         })

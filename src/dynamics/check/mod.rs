@@ -97,7 +97,8 @@ pub enum SideVerdict {
     OnThePathway,
     /// In another place. From there the saddle is no lower: nothing is refuted.
     Elsewhere,
-    /// On the pathway, but on the other side of the saddle.
+    /// At the pathway's other end, which lies behind the barrier. (States that it passes on the way
+    /// there need not: there may be a lower way to them.)
     Opposite,
 }
 

@@ -11,8 +11,8 @@
 //!
 //! **Lower bound.** The configuration space is covered by closed cells. For each cell either no
 //! configuration of it is free, or a number is known that the energy of no free configuration of it
-//! falls below: a second-order Taylor form with a bound of its remainder, minimised over the part
-//! of the cell that contact leaves. A path is covered by a chain of touching cells, so if every
+//! falls below: a Taylor form with a bound of its remainder (of second order, behind shields of
+//! first order), minimised over the part of the cell that contact leaves. A path is covered by a chain of touching cells, so if every
 //! chain of cells from end to end has one with a lower bound above E, the barrier is above E.
 //!
 //! **Search.** Two floods rise from the two ends over the cells with lower bounds of at most E, the
@@ -31,7 +31,7 @@
 //!   [`TOUCH`](crate::contact::TOUCH) (1e-9 m), which counts as touching;
 //! - rounding errors are included, see [`crate::potential::bounds`], [`crate::cell`] and
 //!   [`crate::contact::cells`]. Assumed is that f64 arithmetic is IEEE 754's, and that the
-//!   platform's sine, cosine and arc functions are right to 8 units in the last place.
+//!   platform's sine, cosine, arc and exponential functions are right to 8 units in the last place.
 //!
 //! The same query to the same certifier gives the same bracket on any number of threads, unless
 //! the limit of time cuts it short. A bracket that was cut short is as true, only wider.

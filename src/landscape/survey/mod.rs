@@ -10,9 +10,11 @@
 //!    with new milestones on the contact surface wherever they would overlap.
 //!
 //! until every meeting place is a transition state, or its energy moves by less than a set
-//! fraction of the barrier from round to round.
+//! fraction of the barrier from round to round. Before that, states that nothing joins to `free`
+//! are withdrawn straight from what they touch.
 
 mod densify;
+mod withdraw;
 
 use std::collections::{HashMap, HashSet};
 
@@ -78,6 +80,8 @@ impl Survey {
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
         survey.find_states(problem, guesses, settings);
+        survey.network.span();
+        survey.withdraw(problem, settings);
         survey.network.span();
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {

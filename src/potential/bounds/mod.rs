@@ -1,11 +1,14 @@
 //! Guaranteed bounds of the energy over cells of configurations: of point dipoles
-//! ([`DipoleBounds`]) and of blocks ([`CuboidBounds`]).
+//! ([`DipoleBounds`]), also behind shields ([`ShieldedBounds`]), and of blocks ([`CuboidBounds`]).
 
 mod cuboid;
 mod dipole;
+mod near;
 
+pub use super::shielding::ShieldedBounds;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
+pub(super) use near::{Interval, NearPair};
 
 use crate::cell::{Cell, Quadratic};
 

@@ -1,12 +1,11 @@
 //! A pair of uniformly magnetised blocks: four pairs of charge sheets.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
-use super::panel::Panels;
-use super::quadrature::Corner;
-use super::sheet::{first_moment, potential};
+use super::panel::Quadrature;
+use super::quadrature::{Corner, Fineness, NO_CORNER};
 use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::potential::batch::lanes::{Lanes, Task};
 use crate::tile::Magnet;
 use crate::units::MU0;
 
@@ -92,6 +91,8 @@ pub(super) struct BlockPair {
     pub direction: Vector2<f64>,
     pub cos: f64,
     pub sin: f64,
+    /// 1 / sin, infinite where the faces are parallel.
+    pub inverse_sin: f64,
     /// The second block's centre, seen from the point about which it turns (m).
     pub arm: Vector2<f64>,
     /// Way from the first block's centre to the second one's (m).
@@ -116,15 +117,30 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    /// Where the first face's edge at `sign w_1 / 2` projects onto the second face's line, and its
-    /// distance from that line.
+    /// Where the first face's edges project onto the second face's line, and their distances from
+    /// that line; and where that line passes through the first face, if it does.
     #[inline(always)]
-    pub fn corner(&self, pair: &BlockPair, sign: f64) -> Corner {
-        let (dx, dh) = (sign * pair.widths[0] / 2.0 - self.x, -self.h);
-        (
-            dx * pair.cos + dh * pair.sin,
-            (dh * pair.cos - dx * pair.sin).abs(),
-        )
+    pub fn corners(&self, pair: &BlockPair) -> [Corner; 3] {
+        let half = pair.widths[0] / 2.0;
+        let edge = |place: f64| {
+            let (dx, dh) = (place - self.x, -self.h);
+            (
+                dx * pair.cos + dh * pair.sin,
+                (dh * pair.cos - dx * pair.sin).abs(),
+            )
+        };
+        [
+            edge(-half),
+            edge(half),
+            self.passage(pair).map_or(NO_CORNER, |t| (t, 0.0)),
+        ]
+    }
+
+    /// Where the second face's line passes through the first face, if it does.
+    #[inline(always)]
+    pub fn passage(&self, pair: &BlockPair) -> Option<f64> {
+        let t = -self.h * pair.inverse_sin;
+        ((self.x + t * pair.cos).abs() < pair.widths[0] / 2.0).then_some(t)
     }
 }
 
@@ -145,6 +161,7 @@ impl BlockPair {
             direction: second.across(),
             cos: first.axis.dot(&second.axis),
             sin: first.axis.perp(&second.axis),
+            inverse_sin: 1.0 / first.axis.perp(&second.axis),
             arm: second.position - centre,
             way: second.position - first.position,
             half_lengths: [first.size[0] / 2.0, second.size[0] / 2.0],
@@ -152,9 +169,15 @@ impl BlockPair {
         }
     }
 
+    /// The four pairs of pole faces.
+    #[inline(always)]
+    pub fn all_faces(&self) -> [Faces; 4] {
+        [self.faces(0), self.faces(1), self.faces(2), self.faces(3)]
+    }
+
     /// The pair of pole faces number 0 to 3.
     #[inline(always)]
-    pub fn faces(&self, number: usize) -> Faces {
+    fn faces(&self, number: usize) -> Faces {
         let sign1 = if number < 2 { 1.0 } else { -1.0 };
         let sign2 = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
         let offset = self.second_axis * (sign2 * self.half_lengths[1]);
@@ -179,121 +202,14 @@ impl BlockPair {
         self.sin.abs() > std::f64::consts::FRAC_1_SQRT_2
     }
 
-    /// The part of the gradient, by the second block's place and by its angle about the turning
-    /// point, that needs no quadrature: the forces along x and, where the faces are steep, those
-    /// along h less `by_energy` times the energy.
-    #[inline(always)]
-    pub fn closed_gradient<L: Lanes>(&self, l: L) -> Vector3<f64> {
-        let halves = [self.widths[0] / 2.0, self.widths[1] / 2.0];
-        let faces: [Faces; 4] = std::array::from_fn(|number| self.faces(number));
-        let corners: [[Corner; 2]; 4] =
-            std::array::from_fn(|number| [-1.0, 1.0].map(|sign| faces[number].corner(self, sign)));
-        // The second face's potential at the first one's edges, and the moments of g between the
-        // first one's edges and the second one's ends.
-        let mut edges = Points::NONE;
-        let mut squares = [1.0; 16];
-        for (i, (foot, height)) in corners.as_flattened().iter().enumerate() {
-            edges.put(i, *foot, *height, halves[1]);
-            squares[2 * i] = (foot + halves[1]).powi(2) + height * height;
-            squares[2 * i + 1] = (foot - halves[1]).powi(2) + height * height;
-        }
-        let psi = edges.potentials(l, self.heights);
-        let mut moments = [0.0; 16];
-        for from in (0..16).step_by(L::WIDTH) {
-            let n = first_moment(l, l.load(&squares[from..]), self.heights);
-            l.store(n, &mut moments[from..]);
-        }
-        let phi = if self.is_steep() {
-            // The first face's potential at the second one's ends.
-            let mut ends = Points::NONE;
-            for (i, face) in faces.iter().enumerate() {
-                for (k, t) in [-halves[1], halves[1]].into_iter().enumerate() {
-                    let (x, h) = (face.x + t * self.cos, face.h + t * self.sin);
-                    ends.put(2 * i + k, x, h, halves[0]);
-                }
-            }
-            ends.potentials(l, self.heights)
-        } else {
-            [0.0; MAX_WIDTH]
-        };
-
-        let along = Vector2::new(-self.axis.y, self.axis.x);
-        let mut gradient = Vector3::zeros();
-        for (i, face) in faces.iter().enumerate() {
-            let arm = self.arm + face.offset;
-            let strength = 2.0 * face.sign * self.strength;
-            let [start, end] = [0, 1].map(|k| {
-                let (foot, at) = (corners[i][k].0, 2 * i + k);
-                let zeroth = psi[at];
-                [
-                    zeroth,
-                    foot * zeroth + moments[2 * at + 1] - moments[2 * at],
-                ]
-            });
-            let x = [start[0] - end[0], start[1] - end[1]];
-            gradient += force(along, x, arm, -self.sin) * strength;
-            if self.is_steep() {
-                let [start, end] = [phi[2 * i], phi[2 * i + 1]];
-                let h = [
-                    ((end - start) - self.cos * x[0]) / self.sin,
-                    (halves[1] * (end + start) - self.cos * x[1]) / self.sin,
-                ];
-                gradient += force(-self.axis, h, arm, self.cos) * strength;
-            }
-        }
-        gradient
-    }
-
     /// What the energy adds to the derivative by the angle, where the faces are steep.
     #[inline(always)]
     pub fn by_energy(&self) -> f64 {
         if self.is_steep() {
-            -self.cos / self.sin
+            -self.cos * self.inverse_sin
         } else {
             0.0
         }
-    }
-}
-
-/// The gradient that derivatives along `direction` add up to, given their moments 0 and 1 along a
-/// face whose middle is at `arm` from the turning point; `turn` is the vector product of the
-/// face's direction with `direction`.
-#[inline(always)]
-fn force(direction: Vector2<f64>, moments: [f64; 2], arm: Vector2<f64>, turn: f64) -> Vector3<f64> {
-    let place = direction * moments[0];
-    Vector3::new(place.x, place.y, arm.perp(&place) + turn * moments[1])
-}
-
-/// Points at which potentials of faces are wanted.
-struct Points {
-    s: [[f64; MAX_WIDTH]; 2],
-    h: [f64; MAX_WIDTH],
-}
-
-impl Points {
-    const NONE: Self = Self {
-        s: [[-1.0; MAX_WIDTH], [1.0; MAX_WIDTH]],
-        h: [1.0; MAX_WIDTH],
-    };
-
-    /// The point (x, h) in the coordinates of a face of the given half width.
-    #[inline(always)]
-    fn put(&mut self, at: usize, x: f64, h: f64, half: f64) {
-        self.s[0][at] = x - half;
-        self.s[1][at] = x + half;
-        self.h[at] = h;
-    }
-
-    /// Half the potentials.
-    #[inline(always)]
-    fn potentials<L: Lanes>(&self, l: L, heights: [f64; 2]) -> [f64; MAX_WIDTH] {
-        let mut out = [0.0; MAX_WIDTH];
-        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-            let s = [l.load(&self.s[0][from..]), l.load(&self.s[1][from..])];
-            let (phi, _) = potential(l, s, l.load(&self.h[from..]), heights);
-            l.store(phi, &mut out[from..]);
-        }
-        out
     }
 }
 
@@ -315,9 +231,10 @@ pub fn exact(first: &Block, second: &Block) -> PairEnergy {
 /// [`exact`] in vectors; the derivatives are zero where not asked for.
 #[inline(always)]
 pub(super) fn near<L: Lanes, const SLOPE: bool>(l: L, first: &Block, second: &Block) -> PairEnergy {
-    let mut panels = Panels::default();
-    panels.append::<L, SLOPE>(l, &BlockPair::new(first, second, second.position));
-    let (energy, gradient) = panels.sum::<L, SLOPE>(l);
+    let pair = BlockPair::new(first, second, second.position);
+    let mut quadrature = Quadrature::new(l, &pair, Fineness::NORMAL);
+    quadrature.add::<L, SLOPE>(l, &pair);
+    let (energy, gradient) = quadrature.sum::<L, SLOPE>(l);
     PairEnergy {
         energy,
         gradient: gradient.xy(),

@@ -9,9 +9,6 @@ use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 use crate::units::MU0;
 
-/// How many terms are summed for pairs far apart.
-const FEW: usize = 3;
-
 /// The multipole series without its first term, the point dipole, and its gradient (J), over the
 /// pairs that a mask selects. Right to the hand-over's 1e-9 of `mu0 m1 m2 / (4 pi r^3)` a pair
 /// where the pairs are at least the [hand-over](CuboidPotential::hand_over) apart.
@@ -38,7 +35,7 @@ impl Task for Correction<'_> {
                 let into = fixed.axis.conj();
                 let turn = moving.axis * Complex::new(cos, sin) * into;
                 far.series
-                    .evaluate::<L, true>(l, turn, TERMS, &mut coefficients);
+                    .evaluate::<L, true>(l, turn, 0..TERMS, &mut coefficients);
                 // Without the dipole.
                 for at in 0..index(1, 0) {
                     coefficients.re[at] = 0.0;
@@ -59,11 +56,8 @@ impl Task for Correction<'_> {
                         let near = l.splat(far.near());
                         let outside = l.sub(pairs.rr, near);
                         pairs.rr = l.select(outside, pairs.rr, near);
-                        if l.least(pairs.rr) >= far.squares[FEW] {
-                            far::add::<L, FEW, true>(l, &coefficients, &pairs, &mut sums);
-                        } else {
-                            far::add::<L, TERMS, true>(l, &coefficients, &pairs, &mut sums);
-                        }
+                        let terms = far.terms(l.least(pairs.rr));
+                        far::add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
                     }
                 }
                 total.add::<L, true>(l, &sums, fixed.axis);

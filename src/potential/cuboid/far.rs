@@ -2,7 +2,9 @@
 
 use nalgebra::{Complex, Vector2};
 
-use super::multipole::{Coefficients, ROOM, index};
+use super::SizedBlock;
+use super::block::Block;
+use super::multipole::{Coefficients, ROOM, TERMS, index};
 use crate::potential::batch::lanes::Lanes;
 
 /// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
@@ -82,12 +84,33 @@ impl<F: Copy> Pairs<F> {
     }
 }
 
-/// Adds the first `TERMS` terms of the series to the sums.
+/// How many terms may be summed, rising.
+pub const STEPS: [usize; 5] = [3, 4, 5, 6, TERMS];
+
+/// Adds the first `terms` terms of the series, one of [`STEPS`], to the sums.
+#[inline(always)]
+pub fn add_terms<L: Lanes, const SLOPE: bool>(
+    l: L,
+    terms: usize,
+    c: &Coefficients,
+    pairs: &Pairs<L::F>,
+    sums: &mut Sums<L::F>,
+) {
+    match terms {
+        3 => add::<L, 3, SLOPE>(l, c, pairs, sums),
+        4 => add::<L, 4, SLOPE>(l, c, pairs, sums),
+        5 => add::<L, 5, SLOPE>(l, c, pairs, sums),
+        6 => add::<L, 6, SLOPE>(l, c, pairs, sums),
+        _ => add::<L, TERMS, SLOPE>(l, c, pairs, sums),
+    }
+}
+
+/// Adds the first `N` terms of the series to the sums.
 ///
 /// With `v = e^(-2 i phi)` the terms are polynomials `P_k(v) = sum_l C_kl v^(l/2)` over powers of
 /// r.
 #[inline(always)]
-pub fn add<L: Lanes, const TERMS: usize, const SLOPE: bool>(
+fn add<L: Lanes, const N: usize, const SLOPE: bool>(
     l: L,
     c: &Coefficients,
     pairs: &Pairs<L::F>,
@@ -104,7 +127,7 @@ pub fn add<L: Lanes, const TERMS: usize, const SLOPE: bool>(
     ];
     let zero = l.splat(0.0);
     let (mut energy, mut radial, mut angular, mut turning) = (zero, zero, zero, zero);
-    for k in (0..TERMS).rev() {
+    for k in (0..N).rev() {
         let p = polynomial::<L, SLOPE>(l, &c.re, &c.im, k, v);
         energy = l.mul_add(energy, q, p.value);
         if SLOPE {
@@ -209,6 +232,17 @@ impl Group {
         self.moment.push(moment);
     }
 
+    /// Block number `at` of the group, of the tile's blocks: with the group's axis and the moment
+    /// along it.
+    #[inline(always)]
+    pub fn block(&self, blocks: &[SizedBlock], at: usize) -> Block {
+        Block {
+            axis: Vector2::new(self.axis.re, self.axis.im),
+            moment: self.moment[at],
+            ..blocks[self.members[at]].block
+        }
+    }
+
     /// Fills up to a multiple of `width`.
     pub fn fill(&mut self, width: usize) {
         let length = self.members.len().next_multiple_of(width);
@@ -221,8 +255,8 @@ impl Group {
 
 #[cfg(test)]
 mod tests {
-    use super::super::block::{Block, PairEnergy};
-    use super::super::multipole::{Multipole, TERMS};
+    use super::super::block::PairEnergy;
+    use super::super::multipole::Multipole;
     use super::*;
     use crate::potential::batch::Level;
     use crate::potential::batch::lanes::Task;
@@ -246,7 +280,7 @@ mod tests {
             group.fill(L::WIDTH);
             let mut coefficients = Coefficients::NONE;
             let turn = complex(second.axis) * axis.conj();
-            series.evaluate::<L, true>(l, turn, N, &mut coefficients);
+            series.evaluate::<L, true>(l, turn, 0..N, &mut coefficients);
             let place = complex(second.position) * axis.conj();
             let pairs = Pairs::new(l, &group, 0, place, second.moment);
             let (mut own, mut total) = (Sums::zero(l), Sums::zero(l));

@@ -6,14 +6,15 @@
 //! thicknesses of the two need not be equal.
 //!
 //! * Near by, three of the four integrals over a pair of sheets are closed and the last is a Gauss
-//!   quadrature (`sheet`, `panel`, `quadrature`).
+//!   quadrature (`sheet`, `panel`, `quadrature`), with what steps in the gradient's integrands taken out
+//!   (`closed`).
 //! * From some three block sizes on, where closed forms lose digits, the multipole series takes
-//!   over (`multipole`, `far`), eight terms at first, five and three farther out. The bound of the
+//!   over (`multipole`, `far`), eight terms at first and down to three farther out. The bound of the
 //!   terms left out decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`.
 //!
 //! # Accuracy
 //! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7
-//! at worst in the tests) and 1e-4 closer, contact and sliding contact included (3e-5 at worst),
+//! at worst in the tests) and 1e-4 closer, contact and sliding contact included (4e-6 at worst),
 //! for blocks of about 1 cm; it scales with the blocks' width. Where sliding takes the energy
 //! through zero, read: relative to 1 mm times the force. At the hand-over to the far form energies
 //! step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)`.
@@ -25,6 +26,7 @@
 //! differences is only as good as the energy: at contact use steps of 0.1 mm or so.
 
 pub mod block;
+mod closed;
 #[cfg(test)]
 mod cloud;
 pub(in crate::potential) mod correction;
@@ -46,7 +48,7 @@ use super::{DipolePotential, Potential};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};
-use far::Group;
+use far::{Group, STEPS};
 use limits::Limits;
 use multipole::{Multipole, TERMS};
 use sum::{Each, Sum};
@@ -97,6 +99,15 @@ impl Far {
             limits: Limits::new(&Block::new(1.0, first), &Block::new(1.0, second)),
             series,
         }
+    }
+
+    /// How many terms are summed at this squared distance (m^2).
+    #[inline(always)]
+    fn terms(&self, square: f64) -> usize {
+        let enough = STEPS
+            .into_iter()
+            .find(|&terms| square >= self.squares[terms]);
+        enough.unwrap_or(TERMS)
     }
 
     /// The squared distance below which the pole faces are summed.

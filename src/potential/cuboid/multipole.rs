@@ -29,6 +29,8 @@
 //! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the
 //! error of leaving terms out is bounded by the A_k left out.
 
+use std::ops::Range;
+
 use nalgebra::Complex;
 
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
@@ -178,24 +180,32 @@ impl Multipole {
         high
     }
 
-    /// Works out the coefficients of the terms below `terms` for `turn` = e^(i beta), and their
-    /// derivatives if asked for.
+    /// Works out the coefficients of some terms for `turn` = e^(i beta), and their derivatives if
+    /// asked for.
     #[inline(always)]
     pub fn evaluate<L: Lanes, const SLOPE: bool>(
         &self,
         l: L,
         turn: Complex<f64>,
-        terms: usize,
+        terms: Range<usize>,
         known: &mut Coefficients,
     ) {
         let step = turn * turn;
-        let mut i = 0;
-        while i < index(terms, 0) {
+        let mut phases = [turn; TERMS];
+        for j in 1..TERMS {
+            phases[j] = phases[j - 1] * step;
+        }
+        let mut i = index(terms.start, 0) / L::WIDTH * L::WIDTH;
+        // Term k has the orders up to k.
+        let mut orders = 1;
+        while i < index(terms.end, 0) {
+            while orders < TERMS && index(orders, 0) < i + L::WIDTH {
+                orders += 1;
+            }
             let zero = l.splat(0.0);
             let (mut re, mut im) = (zero, zero);
             let (mut turn_re, mut turn_im) = (zero, zero);
-            let mut phase = turn;
-            for j in 0..terms {
+            for (j, phase) in phases[..orders].iter().enumerate() {
                 let (cos, sin) = (l.splat(phase.re), l.splat(phase.im));
                 let sum = l.load(&self.sums[j][i..]);
                 let difference = l.load(&self.differences[j][i..]);
@@ -206,7 +216,6 @@ impl Multipole {
                     turn_re = l.neg_mul_add(l.mul(sum, order), sin, turn_re);
                     turn_im = l.mul_add(l.mul(difference, order), cos, turn_im);
                 }
-                phase *= step;
             }
             l.store(re, &mut known.re[i..]);
             l.store(im, &mut known.im[i..]);

@@ -1,190 +1,230 @@
-//! The quadrature over a pair of blocks: panels on the second block's pole faces.
+//! The quadrature over pairs of blocks: nodes on the second blocks' pole faces.
 
 use nalgebra::{Vector2, Vector3};
 
-use super::block::BlockPair;
-use super::quadrature::{Fineness, Rule, Rules, panels};
-use super::sheet::potential;
-use crate::potential::batch::lanes::Lanes;
+use super::block::{BlockPair, Faces};
+use super::quadrature::{Fineness, MOST, Panel, Rules, panels};
+use super::sheet::{potential, subtended};
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
 
-/// Distances from a sheet below this share of its width count as touching.
-const TOUCHING: f64 = 1e-10;
+/// Nodes that are waited for before they are evaluated.
+const BATCH: usize = 64;
 
-/// The panels for the energy: cut at the corners' feet only. The integrand is of the kind
-/// `s^2 ln s` there at worst, for which sixteen nodes give some 1e-7.
-const FOR_ENERGY: Fineness = Fineness::new(1.0);
+/// Room for a batch, for the rule that completes it, and for filling the last vector.
+const ROOM: usize = BATCH + MOST + MAX_WIDTH;
 
-/// The panels for the gradient, whose integrand has a step near the first sheet's edges.
-const FOR_GRADIENT: Fineness = Fineness::new(0.02);
-
-/// A piece of a pole face of the second block, in the coordinates of a pole face of the first.
-/// What varies along it is linear in a coordinate u in [-1, 1].
-#[derive(Clone, Copy, Debug)]
-pub struct Panel {
-    rule: Rule,
-    /// Place (m) at u = 0, and its change with u.
-    x: [f64; 2],
-    h: [f64; 2],
-    /// Half the first sheet's width (m), and half the sum and half the difference of the heights.
+/// The quadrature over pairs of blocks that have the same sizes and stand at the same angle to
+/// each other, in the coordinates of a pole face of the first block (see [`super::sheet`]).
+///
+/// Nodes of all panels follow each other without gaps, so that vectors are full whatever the
+/// rules' lengths.
+pub struct Quadrature<F> {
+    fineness: Fineness,
+    rules: &'static Rules,
+    panels: Vec<Panel>,
+    /// Half the width of the first blocks' pole faces (m), and half the sum and half the
+    /// difference of the thicknesses.
     half_width: f64,
     heights: [f64; 2],
-    /// The sign of h where the second block's body lies.
-    side: f64,
-    /// The product of the charge densities and half the panel's width (J/m^2).
-    weight: f64,
     /// The direction of h.
     normal: Vector2<f64>,
-    /// The lever of a force along h about the moving tile's reference point (m), and its change
-    /// with u.
-    lever: [f64; 2],
-    /// What the energy adds to the derivative by theta.
+    /// Whether the gradient comes from the energy and closed forms alone, and what the energy
+    /// then adds to the derivative by theta.
+    is_steep: bool,
     by_energy: f64,
-}
-
-/// The panels of pairs of blocks, by what they are for, and the part of the gradient that needs
-/// none.
-#[derive(Debug, Default)]
-pub struct Panels {
-    energy: Vec<Panel>,
-    gradient: Vec<Panel>,
-    both: Vec<Panel>,
-    closed: Vector3<f64>,
-}
-
-impl Panels {
-    /// Adds a pair of blocks.
-    #[inline(always)]
-    pub fn append<L: Lanes, const SLOPE: bool>(&mut self, l: L, pair: &BlockPair) {
-        if !SLOPE {
-            append(pair, FOR_ENERGY, &mut self.energy);
-            return;
-        }
-        self.closed += pair.closed_gradient(l);
-        if pair.is_steep() {
-            append(pair, FOR_ENERGY, &mut self.energy);
-            return;
-        }
-        let before = self.both.len();
-        if append(pair, FOR_ENERGY, &mut self.both) {
-            self.energy.extend(self.both.drain(before..));
-            append(pair, FOR_GRADIENT, &mut self.gradient);
-        }
-    }
-
-    /// The energy and, if asked for, the gradient.
-    #[inline(always)]
-    pub fn sum<L: Lanes, const SLOPE: bool>(&self, l: L) -> (f64, Vector3<f64>) {
-        let mut sums = Sums::zero(l);
-        add::<L, true, false>(l, &self.energy, &mut sums);
-        if SLOPE {
-            add::<L, true, true>(l, &self.both, &mut sums);
-            add::<L, false, true>(l, &self.gradient, &mut sums);
-        }
-        let [x, y, turn] = sums.gradient;
-        let gradient = if SLOPE {
-            self.closed + Vector3::new(l.sum(x), l.sum(y), l.sum(turn))
-        } else {
-            Vector3::zeros()
-        };
-        (l.sum(sums.energy), gradient)
-    }
-}
-
-/// Appends the panels of all four pairs of pole faces. Returns whether some are coarser than the
-/// gradient wants.
-#[inline(always)]
-fn append(pair: &BlockPair, fineness: Fineness, list: &mut Vec<Panel>) -> bool {
-    let mut coarse = false;
-    for number in 0..4 {
-        let face = pair.faces(number);
-        let half = pair.widths[1] / 2.0;
-        let corners = [face.corner(pair, -1.0), face.corner(pair, 1.0)];
-        let normal = -pair.axis;
-        let lever = (pair.arm + face.offset).perp(&normal);
-        let turn = pair.direction.perp(&normal);
-        coarse |= panels(half, corners, fineness, &mut |start, end, rule| {
-            let (middle, half) = ((start + end) / 2.0, (end - start) / 2.0);
-            list.push(Panel {
-                rule,
-                x: [face.x + middle * pair.cos, half * pair.cos],
-                h: [face.h + middle * pair.sin, half * pair.sin],
-                half_width: pair.widths[0] / 2.0,
-                heights: pair.heights,
-                side: face.side,
-                // Phi is twice what `potential` gives.
-                weight: 2.0 * face.sign * pair.strength * half,
-                normal,
-                lever: [lever + middle * turn, half * turn],
-                by_energy: pair.by_energy(),
-            });
-        });
-    }
-    coarse
-}
-
-/// Sums over panels: energy, gradient by the second block's place, and by theta.
-#[derive(Clone, Copy)]
-struct Sums<F> {
+    /// How many nodes wait, their places (m), weights (J/m^2), and the levers of a force along h
+    /// about the moving tile's reference point (m).
+    count: usize,
+    x: [f64; ROOM],
+    h: [f64; ROOM],
+    weight: [f64; ROOM],
+    lever: [f64; ROOM],
     energy: F,
     gradient: [F; 3],
 }
 
-impl<F: Copy> Sums<F> {
+impl<F: Copy> Quadrature<F> {
+    /// For pairs like this one.
     #[inline(always)]
-    fn zero<L: Lanes<F = F>>(l: L) -> Self {
+    pub fn new<L: Lanes<F = F>>(l: L, pair: &BlockPair, fineness: Fineness) -> Self {
         Self {
+            fineness,
+            rules: Rules::get(),
+            panels: Vec::with_capacity(8),
+            half_width: pair.widths[0] / 2.0,
+            heights: pair.heights,
+            normal: -pair.axis,
+            is_steep: pair.is_steep(),
+            by_energy: pair.by_energy(),
+            count: 0,
+            x: [0.0; ROOM],
+            h: [0.0; ROOM],
+            weight: [0.0; ROOM],
+            lever: [0.0; ROOM],
             energy: l.splat(0.0),
             gradient: [l.splat(0.0); 3],
         }
     }
-}
 
-/// Adds the panels' energy or the share of the gradient that comes from forces along h, or both.
-#[inline(always)]
-fn add<L: Lanes, const ENERGY: bool, const SLOPE: bool>(
-    l: L,
-    list: &[Panel],
-    sums: &mut Sums<L::F>,
-) {
-    let rules = Rules::get();
-    for panel in list {
-        let (nodes, weights): (&[f64], &[f64]) = match panel.rule {
-            Rule::Eight => (&rules.eight[0], &rules.eight[1]),
-            Rule::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
-            Rule::CrowdedEight => (&rules.crowded_eight[0], &rules.crowded_eight[1]),
-            Rule::CrowdedSixteen => (&rules.crowded_sixteen[0], &rules.crowded_sixteen[1]),
-        };
-        let mut from = 0;
-        while from < nodes.len() {
-            let u = l.load(&nodes[from..]);
-            let weight = l.mul(l.load(&weights[from..]), l.splat(panel.weight));
-            let x = l.mul_add(u, l.splat(panel.x[1]), l.splat(panel.x[0]));
-            let h = l.mul_add(u, l.splat(panel.h[1]), l.splat(panel.h[0]));
-            let half = l.splat(panel.half_width);
-            let (phi, slope) = potential(l, [l.sub(x, half), l.add(x, half)], h, panel.heights);
-            if ENERGY {
-                let energy = l.mul(weight, phi);
-                sums.energy = l.add(sums.energy, energy);
-                let turn = &mut sums.gradient[2];
-                *turn = l.mul_add(energy, l.splat(panel.by_energy), *turn);
+    /// Adds a pair of blocks.
+    #[inline(always)]
+    pub fn add<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L, pair: &BlockPair) {
+        let faces = pair.all_faces();
+        if SLOPE {
+            pair.add_closed_gradient(l, &faces, &mut self.gradient);
+        }
+        let axes = self.axes(l, pair, &faces);
+        let half = pair.widths[1] / 2.0;
+        for (face, axis) in faces.iter().zip(axes) {
+            if let Some(rule) = self.fineness.rule(axis) {
+                let (start, end) = (-half, half);
+                self.put::<L, SLOPE>(l, pair, face, Panel { start, end, rule });
+                continue;
             }
+            self.panels.clear();
+            panels(half, &face.corners(pair), &self.fineness, &mut self.panels);
+            for i in 0..self.panels.len() {
+                self.put::<L, SLOPE>(l, pair, face, self.panels[i]);
+            }
+        }
+    }
+
+    /// The long axes of the four pole faces as panels (see [`panels`]).
+    #[inline(always)]
+    fn axes<L: Lanes<F = F>>(&self, l: L, pair: &BlockPair, faces: &[Faces; 4]) -> [f64; 4] {
+        let (mut x, mut h) = ([0.0; MAX_WIDTH], [0.0; MAX_WIDTH]);
+        for (i, face) in faces.iter().enumerate() {
+            x[2 * i] = face.x + self.half_width;
+            x[2 * i + 1] = face.x - self.half_width;
+            (h[2 * i], h[2 * i + 1]) = (face.h, face.h);
+        }
+        let half = l.splat(pair.widths[1] / 2.0);
+        let mut sums = [0.0; MAX_WIDTH];
+        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
+            let [foot, height] = pair.foot(l, [l.load(&x[from..]), l.load(&h[from..])]);
+            let square = l.mul(height, height);
+            let (a, b) = (l.sub(foot, half), l.add(foot, half));
+            let start = l.sqrt(l.mul_add(a, a, square));
+            let end = l.sqrt(l.mul_add(b, b, square));
+            l.store(l.add(start, end), &mut sums[from..]);
+        }
+        let width = 1.0 / pair.widths[1];
+        let mut axes = [0.0; 4];
+        for (i, face) in faces.iter().enumerate() {
+            axes[i] = sums[2 * i].min(sums[2 * i + 1]) * width;
+            if let Some(t) = face.passage(pair) {
+                axes[i] = axes[i].min((2.0 * t.abs() * width).max(1.0));
+            }
+        }
+        axes
+    }
+
+    /// Appends the nodes of a panel on a pole face of the second block.
+    #[inline(always)]
+    fn put<L: Lanes<F = F>, const SLOPE: bool>(
+        &mut self,
+        l: L,
+        pair: &BlockPair,
+        face: &Faces,
+        panel: Panel,
+    ) {
+        let (middle, half) = (
+            (panel.start + panel.end) / 2.0,
+            (panel.end - panel.start) / 2.0,
+        );
+        // Phi is twice what `potential` gives.
+        let weight = l.splat(2.0 * face.sign * pair.strength * half);
+        let lever = (pair.arm + face.offset).perp(&self.normal);
+        let turn = pair.direction.perp(&self.normal);
+        let rule = &self.rules.numbered[panel.rule];
+        for from in (0..rule.count).step_by(L::WIDTH) {
+            let at = self.count + from;
+            let t = l.mul_add(l.load(&rule.nodes[from..]), l.splat(half), l.splat(middle));
+            let x = l.mul_add(t, l.splat(pair.cos), l.splat(face.x));
+            let h = l.mul_add(t, l.splat(pair.sin), l.splat(face.h));
+            l.store(x, &mut self.x[at..]);
+            l.store(h, &mut self.h[at..]);
+            l.store(
+                l.mul(l.load(&rule.weights[from..]), weight),
+                &mut self.weight[at..],
+            );
             if SLOPE {
-                let above = l.select(h, h, l.sub(l.splat(0.0), h));
-                let clear = l.sub(above, l.splat(2.0 * TOUCHING * panel.half_width));
-                let sign = l.select(clear, h, l.splat(panel.side));
-                let weighted = l.mul(weight, slope);
-                // Phi_h has the opposite sign of h.
-                let weighted = l.select(sign, l.sub(l.splat(0.0), weighted), weighted);
-                let lever = l.mul_add(u, l.splat(panel.lever[1]), l.splat(panel.lever[0]));
-                let [x, y, turn] = sums.gradient;
-                sums.gradient = [
-                    l.mul_add(weighted, l.splat(panel.normal.x), x),
-                    l.mul_add(weighted, l.splat(panel.normal.y), y),
-                    l.mul_add(weighted, lever, turn),
+                let lever = l.mul_add(t, l.splat(turn), l.splat(lever));
+                l.store(lever, &mut self.lever[at..]);
+            }
+        }
+        self.count += rule.count;
+        if self.count >= BATCH {
+            self.evaluate::<L, SLOPE>(l);
+        }
+    }
+
+    /// Adds up the nodes that wait, but for those that do not fill a vector.
+    #[inline(always)]
+    fn evaluate<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L) {
+        let whole = self.count / L::WIDTH * L::WIDTH;
+        if SLOPE && self.is_steep {
+            self.evaluate_vectors::<L, true, false>(l, whole);
+        } else {
+            self.evaluate_vectors::<L, false, SLOPE>(l, whole);
+        }
+        for list in [&mut self.x, &mut self.h, &mut self.weight, &mut self.lever] {
+            l.store(l.load(&list[whole..]), list);
+        }
+        self.count -= whole;
+    }
+
+    /// Adds up the energy and, from it (`TURN`) or from the forces along h (`FORCE`), the gradient.
+    #[inline(always)]
+    fn evaluate_vectors<L: Lanes<F = F>, const TURN: bool, const FORCE: bool>(
+        &mut self,
+        l: L,
+        count: usize,
+    ) {
+        let half = l.splat(self.half_width);
+        for from in (0..count).step_by(L::WIDTH) {
+            let (x, h) = (l.load(&self.x[from..]), l.load(&self.h[from..]));
+            let weight = l.load(&self.weight[from..]);
+            let s = [l.sub(x, half), l.add(x, half)];
+            let (phi, slope) = potential(l, s, h, self.heights);
+            let energy = l.mul(weight, phi);
+            self.energy = l.add(self.energy, energy);
+            let [x, y, turn] = self.gradient;
+            if TURN {
+                let turn = l.mul_add(energy, l.splat(self.by_energy), turn);
+                self.gradient = [x, y, turn];
+            }
+            if FORCE {
+                // What the closed form has is left out, and Phi_h has the opposite sign of h.
+                let high = l.splat(self.heights[0] - self.heights[1]);
+                let rest = l.mul(weight, l.neg_mul_add(high, subtended(l, s, h), slope));
+                let rest = l.select(h, l.sub(l.splat(0.0), rest), rest);
+                let lever = l.load(&self.lever[from..]);
+                self.gradient = [
+                    l.mul_add(rest, l.splat(self.normal.x), x),
+                    l.mul_add(rest, l.splat(self.normal.y), y),
+                    l.mul_add(rest, lever, turn),
                 ];
             }
-            from += L::WIDTH;
         }
+    }
+
+    /// The energy and, if asked for, the gradient of all that was added.
+    #[inline(always)]
+    pub fn sum<L: Lanes<F = F>, const SLOPE: bool>(mut self, l: L) -> (f64, Vector3<f64>) {
+        // Nodes of no weight fill the last vector.
+        l.store(l.splat(0.0), &mut self.weight[self.count..]);
+        l.store(l.splat(0.0), &mut self.x[self.count..]);
+        l.store(l.splat(self.half_width), &mut self.h[self.count..]);
+        self.count = self.count.next_multiple_of(L::WIDTH);
+        self.evaluate::<L, SLOPE>(l);
+        let [x, y, turn] = self.gradient;
+        let gradient = if SLOPE {
+            Vector3::new(l.sum(x), l.sum(y), l.sum(turn))
+        } else {
+            Vector3::zeros()
+        };
+        (l.sum(self.energy), gradient)
     }
 }
 
@@ -197,39 +237,33 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    struct Job<'a>(&'a BlockPair, Option<Fineness>);
+    struct Job<'a>(&'a BlockPair, Fineness);
 
     impl Task for Job<'_> {
         type Output = (f64, Vector3<f64>);
 
         #[inline(always)]
         fn run<L: Lanes>(self, l: L) -> Self::Output {
-            let mut panels = Panels::default();
-            match self.1 {
-                None => panels.append::<L, true>(l, self.0),
-                Some(fineness) => {
-                    panels.closed = self.0.closed_gradient(l);
-                    let steep = self.0.is_steep();
-                    append(
-                        self.0,
-                        fineness,
-                        if steep {
-                            &mut panels.energy
-                        } else {
-                            &mut panels.both
-                        },
-                    );
-                }
-            }
-            panels.sum::<L, true>(l)
+            let mut quadrature = Quadrature::new(l, self.0, self.1);
+            quadrature.add::<L, true>(l, self.0);
+            quadrature.sum::<L, true>(l)
         }
     }
 
     /// Panels so fine that nothing is left to gain.
     const FINE: Fineness = Fineness {
         finest: 1e-9,
-        eight: 11.0,
-        sixteen: 1.9,
+        axes: [
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::INFINITY,
+            11.0,
+            11.0,
+            11.0,
+            11.0,
+            1.9,
+        ],
     };
 
     /// A block at the origin and one whose nearest corner or side is `gap` beyond the first one's
@@ -262,8 +296,8 @@ mod tests {
                     let size = [[0.010, 0.010, 0.003], [0.008, 0.007, 0.005]][trial / 3 % 2];
                     let pair = pair(size, gap, sign * tilt + turn, slide);
                     let level = Level::best();
-                    let (energy, gradient) = level.run(Job(&pair, None));
-                    let (fine, slope) = level.run(Job(&pair, Some(FINE)));
+                    let (energy, gradient) = level.run(Job(&pair, Fineness::NORMAL));
+                    let (fine, slope) = level.run(Job(&pair, FINE));
                     // Relative to the force where sliding takes the energy through zero.
                     let force = slope.xy().norm();
                     let scale = fine.abs().max(0.001 * force);

@@ -2,24 +2,58 @@
 
 use std::sync::LazyLock;
 
+/// The most nodes a rule has.
+pub const MOST: usize = 16;
+
+/// A rule over [-1, 1], filled up to the most nodes a rule has with nodes of no weight.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    pub count: usize,
+    pub nodes: [f64; MOST],
+    pub weights: [f64; MOST],
+}
+
+impl Rule {
+    fn new<const N: usize>([nodes, weights]: [[f64; N]; 2]) -> Self {
+        let filled =
+            |values: [f64; N]| std::array::from_fn(|i| if i < N { values[i] } else { 0.0 });
+        Self {
+            count: N,
+            nodes: filled(nodes),
+            weights: filled(weights),
+        }
+    }
+
+    fn gauss<const N: usize>() -> Self {
+        Self::new(gauss_legendre::<N>())
+    }
+
+    /// The rule after the substitution `x = (3 v - v^3) / 2`, whose derivative is 0 at both ends:
+    /// it takes the singularities there from `s^2 ln s` to `v^5 ln v`.
+    fn crowded<const N: usize>() -> Self {
+        let [nodes, weights] = gauss_legendre::<N>();
+        Self::new([
+            nodes.map(|v| (3.0 * v - v * v * v) / 2.0),
+            std::array::from_fn(|i| weights[i] * 1.5 * (1.0 - nodes[i] * nodes[i])),
+        ])
+    }
+}
+
+/// How many nodes the rules for analytic integrands have.
+const COUNTS: [usize; 9] = [4, 5, 6, 7, 8, 10, 12, 14, 16];
+
+/// The numbers of the rules whose nodes crowd towards both ends.
+const CROWDED_EIGHT: usize = COUNTS.len();
+const CROWDED_SIXTEEN: usize = COUNTS.len() + 1;
+
 /// Nodes in [-1, 1] and weights of the rules in use.
 #[derive(Debug)]
 pub struct Rules {
     pub four: [[f64; 4]; 2],
     pub eight: [[f64; 8]; 2],
     pub sixteen: [[f64; 16]; 2],
-    /// Nodes that crowd towards both ends.
-    pub crowded_eight: [[f64; 8]; 2],
-    pub crowded_sixteen: [[f64; 16]; 2],
-}
-
-/// The rule after the substitution `x = (3 v - v^3) / 2`, whose derivative is 0 at both ends: it
-/// takes the singularities there from `s^2 ln s` to `v^5 ln v`.
-fn crowded<const N: usize>(rule: [[f64; N]; 2]) -> [[f64; N]; 2] {
-    [
-        rule[0].map(|v| (3.0 * v - v * v * v) / 2.0),
-        std::array::from_fn(|i| rule[1][i] * 1.5 * (1.0 - rule[0][i] * rule[0][i])),
-    ]
+    /// By the numbers that [`panels`] gives.
+    pub numbered: [Rule; COUNTS.len() + 2],
 }
 
 impl Rules {
@@ -29,8 +63,19 @@ impl Rules {
             four: gauss_legendre(),
             eight: gauss_legendre(),
             sixteen: gauss_legendre(),
-            crowded_eight: crowded(gauss_legendre()),
-            crowded_sixteen: crowded(gauss_legendre()),
+            numbered: [
+                Rule::gauss::<4>(),
+                Rule::gauss::<5>(),
+                Rule::gauss::<6>(),
+                Rule::gauss::<7>(),
+                Rule::gauss::<8>(),
+                Rule::gauss::<10>(),
+                Rule::gauss::<12>(),
+                Rule::gauss::<14>(),
+                Rule::gauss::<16>(),
+                Rule::crowded::<8>(),
+                Rule::crowded::<16>(),
+            ],
         });
         &RULES
     }
@@ -79,45 +124,48 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 pub struct Fineness {
     /// Panels shorter than this share of the interval are not graded further.
     pub finest: f64,
-    /// The long axes (see [`panels`]) from which on eight and sixteen nodes are enough.
-    pub eight: f64,
-    pub sixteen: f64,
-}
-
-/// Which rule a panel takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    Eight,
-    Sixteen,
-    CrowdedEight,
-    CrowdedSixteen,
+    /// The long axes (see [`panels`]) from which on each of the rules for analytic integrands is
+    /// enough, falling.
+    pub axes: [f64; COUNTS.len()],
 }
 
 impl Fineness {
-    #[inline(always)]
-    fn rule(&self, axis: f64) -> Rule {
-        if axis >= self.eight {
-            Rule::Eight
-        } else {
-            Rule::Sixteen
-        }
-    }
+    /// The panels are cut at the corners' feet only. The integrand is of the kind `s^2 ln s` there
+    /// at worst, for which sixteen crowded nodes give some 1e-7.
+    ///
+    /// From eight nodes on the axes are cosh(6 / (n - 1.5)) for n nodes, so that rho^(-2n) is
+    /// exp(-12) / rho^3, which the weakness of the singularities (of the kind s^2 ln s) brings to
+    /// some 1e-8. Fewer nodes serve faces farther apart, of which the four pairs cancel: there
+    /// rho^(2n + 3) is exp(31) for four and five nodes, exp(29) for six, exp(25.9) for seven.
+    pub const NORMAL: Self = Self {
+        finest: 1.0,
+        axes: [
+            8.403, 5.473, 3.528, 2.403, 1.457_2, 1.259_7, 1.167_8, 1.117_4, 1.086_9,
+        ],
+    };
 
-    /// By the length of panels alone: the axes are cosh(6 / (n - 1.5)) for n nodes, so that
-    /// rho^(-2n) is exp(-12) / rho^3, which the weakness of the singularities (of the kind
-    /// s^2 ln s) brings to some 1e-8.
-    pub const fn new(finest: f64) -> Self {
-        Self {
-            finest,
-            eight: 1.457_0,
-            sixteen: 1.086_9,
-        }
+    /// The number of the rule with the fewest nodes, if any is enough.
+    #[inline(always)]
+    pub fn rule(&self, axis: f64) -> Option<usize> {
+        let number = self.axes.iter().filter(|least| axis < **least).count();
+        (number < COUNTS.len()).then_some(number)
     }
+}
+
+/// A part of an interval, and the number of the rule it takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Panel {
+    pub start: f64,
+    pub end: f64,
+    pub rule: usize,
 }
 
 /// A point off the interval at which the integrand is not analytic: its foot on the interval's
 /// line, and its distance from that line.
 pub type Corner = (f64, f64);
+
+/// In place of a corner where there is none.
+pub const NO_CORNER: Corner = (f64::INFINITY, 0.0);
 
 /// The share of a panel that is cut off at the end next to a corner.
 const GRADING: f64 = 0.2;
@@ -129,92 +177,72 @@ const SHORT: f64 = 0.5;
 /// Cuts nearer to an end than this share of the panel are not made at the foot.
 const MARGIN: f64 = 0.001;
 
-/// Cuts the interval from `-half` to `half` into panels and calls `visit(start, end, eight)` for
-/// each, `eight` saying whether eight nodes are enough (else it takes sixteen). Returns whether
-/// some panels had to be taken although they are too long for the corners next to them.
+/// Cuts the interval from `-half` to `half` into panels, which it appends to the list.
 ///
 /// An n-point rule applied to a function that is analytic within the ellipse with the interval's
 /// ends as foci converges like `rho^(-2n)`, where the ellipse's long axis is
 /// `(rho + 1 / rho) / 2` interval lengths (Trefethen, *Is Gauss quadrature better than
 /// Clenshaw-Curtis?*, theorem 4.5, doi:10.1137/060659831). Each panel's ellipse is the largest
-/// that stays clear of the two corners; where it is too small the panel is cut at the corner's
-/// foot or, where that is at or beyond an end, near that end.
-#[inline(always)]
-pub fn panels(
-    half: f64,
-    corners: [Corner; 2],
-    fineness: Fineness,
-    visit: &mut impl FnMut(f64, f64, Rule),
-) -> bool {
-    let axis = axes(&corners, -half, half);
-    if axis.0 >= fineness.sixteen {
-        visit(-half, half, fineness.rule(axis.0));
-        return false;
-    }
-    cut(half, corners, fineness, visit)
-}
-
-fn cut(
-    half: f64,
-    corners: [Corner; 2],
-    fineness: Fineness,
-    visit: &mut impl FnMut(f64, f64, Rule),
-) -> bool {
+/// that stays clear of the corners; where it is too small the panel is cut at such a corner's
+/// foot or, where those are all at or beyond an end, near the nearest one's end.
+pub fn panels(half: f64, corners: &[Corner; 3], fineness: &Fineness, list: &mut Vec<Panel>) {
     const DEPTH: usize = 32;
     let longest = 2.0 * half * fineness.finest;
     let mut stack = [(-half, half); DEPTH];
     let mut waiting = 1;
-    let mut coarse = false;
     while waiting > 0 {
         waiting -= 1;
         let (start, end) = stack[waiting];
-        let (axis, foot) = axes(&corners, start, end);
+        let (axis, foot) = axes(corners, start, end);
+        if let Some(rule) = fineness.rule(axis) {
+            list.push(Panel { start, end, rule });
+            continue;
+        }
         let length = end - start;
         let margin = MARGIN * length;
-        let at = if foot > start + margin && foot < end - margin {
-            foot
+        // The nearest of the corners that project into the panel, if it is too near.
+        let inside = corners.map(|(foot, height)| {
+            let inside = foot > start + margin && foot < end - margin;
+            if inside { (foot, height) } else { NO_CORNER }
+        });
+        let (axis, inner) = axes(&inside, start, end);
+        let is_foot = fineness.rule(axis).is_none();
+        let at = if is_foot {
+            inner
         } else if foot < (start + end) / 2.0 {
             start + GRADING * length
         } else {
             end - GRADING * length
         };
-        if axis >= fineness.sixteen {
-            visit(start, end, fineness.rule(axis));
-        } else if (at != foot && length <= longest) || waiting + 2 > DEPTH {
-            coarse = true;
-            visit(
-                start,
-                end,
-                if length < SHORT * half {
-                    Rule::CrowdedEight
-                } else {
-                    Rule::CrowdedSixteen
-                },
-            );
+        if (!is_foot && length <= longest) || waiting + 2 > DEPTH {
+            let rule = if length < SHORT * half {
+                CROWDED_EIGHT
+            } else {
+                CROWDED_SIXTEEN
+            };
+            list.push(Panel { start, end, rule });
         } else {
             stack[waiting] = (start, at);
             stack[waiting + 1] = (at, end);
             waiting += 2;
         }
     }
-    coarse
 }
 
 /// The long axis, in lengths of the interval, of the largest ellipse around it that is clear of
 /// the corners, and the foot of the corner it touches.
 #[inline(always)]
-fn axes(corners: &[Corner; 2], start: f64, end: f64) -> (f64, f64) {
-    let sums = corners.map(|(foot, height)| {
+fn axes(corners: &[Corner; 3], start: f64, end: f64) -> (f64, f64) {
+    let (mut least, mut nearest) = (f64::INFINITY, 0.0);
+    for &(foot, height) in corners {
         let squared = height * height;
         let (a, b) = (foot - start, foot - end);
-        (a * a + squared).sqrt() + (b * b + squared).sqrt()
-    });
-    let (sum, foot) = if sums[0] < sums[1] {
-        (sums[0], corners[0].0)
-    } else {
-        (sums[1], corners[1].0)
-    };
-    (sum / (end - start), foot)
+        let sum = (a * a + squared).sqrt() + (b * b + squared).sqrt();
+        if sum < least {
+            (least, nearest) = (sum, foot);
+        }
+    }
+    (least / (end - start), nearest)
 }
 
 #[cfg(test)]
@@ -246,16 +274,13 @@ mod tests {
     #[test]
     fn the_panels_cover_the_interval_once() {
         for corner in [(0.3, 0.0), (-1.0, 1e-4), (1.5, 0.0), (0.999, 1e-9)] {
-            let fineness = Fineness::new(0.01);
+            let fineness = Fineness {
+                finest: 0.01,
+                ..Fineness::NORMAL
+            };
             let mut list = Vec::new();
-            panels(
-                1.0,
-                [corner, (-0.2, 0.3)],
-                fineness,
-                &mut |start, end, _| {
-                    list.push((start, end));
-                },
-            );
+            panels(1.0, &[corner, (-0.2, 0.3), NO_CORNER], &fineness, &mut list);
+            let mut list: Vec<_> = list.iter().map(|panel| (panel.start, panel.end)).collect();
             list.sort_by(|a, b| a.0.total_cmp(&b.0));
             assert_eq!(list[0].0, -1.0);
             assert_eq!(list[list.len() - 1].1, 1.0);

@@ -37,10 +37,13 @@
 //! **The gradient** needs the moments 0 and 1 (in t) of `Phi_x` and `Phi_h` along the second
 //! sheet. Those of `Phi_x = g(p_-) - g(p_+)`, with `p_-+` the distances from the first sheet's two
 //! edges, are closed: the zeroth is the second sheet's potential at those edges and the first
-//! uses `N(p, z) = z p^2/2 asinh(z / p) + z^2 r / 2 - r^3 / 3`, for which `N_p = p f(p, z)`. Those
-//! of `Phi_h` take the quadrature's nodes where the sheets are nearly parallel; where the angle
-//! is large they follow from `d Phi / dt = cos(gamma) Phi_x + sin(gamma) Phi_h`, integrated.
-//! So no integrand with a singularity is ever left to quadrature.
+//! uses `N(p, z) = z p^2/2 asinh(z / p) + z^2 r / 2 - r^3 / 3`, for which `N_p = p f(p, z)`. Where
+//! the angle is large, those of `Phi_h` follow from
+//! `d Phi / dt = cos(gamma) Phi_x + sin(gamma) Phi_h`, integrated. Where the sheets are nearly
+//! parallel they take the quadrature's nodes, but for the part that steps at the first sheet's
+//! edges: `atan(s z / (h r)) - atan(s / h)` is analytic at `p = 0`, and the angle left,
+//! `theta = arg(s + i h)` between the edges, has closed moments along a line ([`angle_moments`]).
+//! So no integrand with a step is ever left to quadrature.
 //!
 //! # Edges
 //! The energy is finite and continuous everywhere, contact and overlap included. The gradient is
@@ -59,6 +62,15 @@ const TINY: f64 = 1e-30;
 pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L::F, L::F) {
     let [upper, lower] = both_heights(l, s, h, heights);
     (l.sub(upper.k, lower.k), l.sub(upper.slope, lower.slope))
+}
+
+/// The angle (rad), less its sign, that a sheet's segment subtends at the distance `h` from its
+/// line, where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`).
+#[inline(always)]
+pub fn subtended<L: Lanes>(l: L, s: [L::F; 2], h: L::F) -> L::F {
+    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let along = l.mul_add(h, h, l.mul(s[0], s[1]));
+    angle(l, along, l.mul(above, l.sub(s[1], s[0])))
 }
 
 /// Phi and its derivatives by x and h, all halved (m^2, m and 1).
@@ -217,16 +229,55 @@ const FAST_SQRT: bool = true;
 #[inline(always)]
 pub fn first_moment<L: Lanes>(l: L, pp: L::F, heights: [f64; 2]) -> L::F {
     let pp = l.add(pp, l.splat(TINY));
-    let mut sum = l.splat(0.0);
-    for (sign, height) in [(0.5, heights[0]), (-0.5, heights[1])] {
-        let (z, zz) = (l.splat(height), l.splat(height * height));
-        let rr = l.add(pp, zz);
-        let r = sqrt(l, rr);
-        let rise = l.mul(z, ln_ratio(l, l.add(r, z), sqrt(l, pp)));
-        let cubic = l.mul(r, l.neg_mul_add(rr, l.splat(2.0 / 3.0), zz));
-        sum = l.mul_add(l.mul_add(pp, rise, cubic), l.splat(sign), sum);
-    }
-    sum
+    let p = sqrt(l, pp);
+    let upper = moment_at_height(l, pp, p, heights[0]);
+    let lower = if heights[1] > 0.0 {
+        moment_at_height(l, pp, p, heights[1])
+    } else {
+        l.mul(l.mul(p, pp), l.splat(-1.0 / 3.0))
+    };
+    l.sub(upper, lower)
+}
+
+/// `N(p, z)` at the height z.
+#[inline(always)]
+fn moment_at_height<L: Lanes>(l: L, pp: L::F, p: L::F, height: f64) -> L::F {
+    let (z, zz) = (l.splat(height), l.splat(height * height));
+    let rr = l.add(pp, zz);
+    let r = sqrt(l, rr);
+    let rise = l.mul(z, ln_ratio(l, l.add(r, z), p));
+    let cubic = l.mul(r, l.neg_mul_add(rr, l.splat(2.0 / 3.0), zz));
+    l.mul(l.mul_add(pp, rise, cubic), l.splat(0.5))
+}
+
+/// The integrals of 1 and u, along a line, times the angle `theta = arg(s + i h)` in which a
+/// sheet's end sees the place u on the line (m, m^2), but for their constants.
+///
+/// The line's foot is at u = 0: `s + i h = (u + i d) e^(i gamma)` for a line in the direction
+/// gamma, so with `p^2 = u^2 + d^2` and `theta_u = -d / p^2`
+///
+/// ```text
+/// int theta du   = u theta + d ln p
+/// int u theta du = (p^2 theta + d u) / 2
+/// ```
+///
+/// The angle is that of |h|, between 0 and pi, times `sign`.
+#[inline(always)]
+pub fn angle_moments<L: Lanes>(
+    l: L,
+    [u, d]: [L::F; 2],
+    [s, h]: [L::F; 2],
+    sign: L::F,
+) -> [L::F; 2] {
+    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let theta = l.mul(sign, angle(l, s, above));
+    let pp = l.mul_add(u, u, l.mul_add(d, d, l.splat(TINY)));
+    let half = l.splat(0.5);
+    let ln = l.mul(ln_ratio(l, pp, l.splat(1.0)), half);
+    [
+        l.mul_add(u, theta, l.mul(d, ln)),
+        l.mul(half, l.mul_add(pp, theta, l.mul(d, u))),
+    ]
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@ use super::CuboidPotential;
 use super::block::{self, BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
-use super::panel::Panels;
+use super::panel::Quadrature;
+use super::quadrature::Fineness;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 use crate::units::MU0;
@@ -17,81 +18,57 @@ pub struct Sum<'a, const SLOPE: bool> {
     pub q: &'a Configuration,
 }
 
-/// How many terms are summed for pairs far apart and at middle distances.
-const FEW: usize = 3;
-const SOME: usize = 5;
-
-/// What is summed up.
-struct Total {
-    energy: f64,
-    gradient: Vector3<f64>,
-    /// Pairs (fixed block, moving block) that are too close for the far form.
-    near: Vec<(usize, usize)>,
-}
-
 impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     type Output = (f64, Vector3<f64>);
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let (sin, cos) = self.q.theta.sin_cos();
-        let mut total = Total {
-            energy: 0.0,
-            gradient: Vector3::zeros(),
-            near: Vec::new(),
-        };
         let rotation = Complex::new(cos, sin);
         let mut sums = Sums::zero(l);
         let mut coefficients = Coefficients::NONE;
+        let mut near = Vec::new();
+        let (mut energy, mut gradient) = (0.0, Vector3::zeros());
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                self.add_groups(
+                self.add_far(
                     l,
-                    fixed,
-                    moving,
+                    [fixed, moving],
                     rotation,
                     &mut coefficients,
                     &mut sums,
-                    &mut total.near,
+                    &mut near,
                 );
+                if !near.is_empty() {
+                    let sum = self.near(l, [fixed, moving], rotation, &near);
+                    energy += sum.0;
+                    gradient += sum.1;
+                    near.clear();
+                }
             }
         }
         let scale = -MU0 / (4.0 * std::f64::consts::PI);
-        total.energy = scale * l.sum(sums.energy);
+        energy += scale * l.sum(sums.energy);
         if SLOPE {
             let [x, y, turn] = sums.gradient;
-            total.gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
+            gradient += Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         }
-        if !total.near.is_empty() {
-            let mut panels = Panels::default();
-            for &(first, second) in &total.near {
-                let first = &self.potential.fixed[first].block;
-                let second = &self.potential.moving[second].block;
-                let second = second.moved(cos, sin, self.q.position());
-                let pair = BlockPair::new(first, &second, self.q.position());
-                panels.append::<L, SLOPE>(l, &pair);
-            }
-            let (energy, gradient) = panels.sum::<L, SLOPE>(l);
-            total.energy += energy;
-            total.gradient += gradient;
-        }
-        (total.energy, total.gradient)
+        (energy, gradient)
     }
 }
 
 impl<const SLOPE: bool> Sum<'_, SLOPE> {
-    /// Adds the pairs of two groups that are far enough apart, and lists the others.
+    /// Adds the pairs of two groups that are far enough apart, and lists the others by their
+    /// numbers in the groups.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn add_groups<L: Lanes>(
+    fn add_far<L: Lanes>(
         &self,
         l: L,
-        fixed: &Group,
-        moving: &Group,
+        [fixed, moving]: [&Group; 2],
         rotation: Complex<f64>,
         coefficients: &mut Coefficients,
         total: &mut Sums<L::F>,
-        near_pairs: &mut Vec<(usize, usize)>,
+        near_pairs: &mut Vec<[usize; 2]>,
     ) {
         let far = &self.potential.far[fixed.size][moving.size];
         // Everything is in the frame whose x axis is the fixed blocks' axis.
@@ -99,32 +76,19 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         let turn = moving.axis * rotation * into;
         let centre = Complex::new(self.q.x, self.q.y) * into;
         let mut sums = Sums::zero(l);
-        far.series.evaluate::<L, SLOPE>(l, turn, FEW, coefficients);
-        let mut known = FEW;
-        for (j, &second) in moving.members.iter().enumerate() {
+        let mut known = 0;
+        for j in 0..moving.members.len() {
             let arm = turn * Complex::new(moving.x[j], moving.y[j]);
             let place = centre + arm;
             for from in (0..fixed.x.len()).step_by(L::WIDTH) {
                 let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                 pairs.arm = arm;
                 let least = l.least(pairs.rr);
-                if least >= far.squares[FEW] {
-                    far::add::<L, FEW, SLOPE>(l, coefficients, &pairs, &mut sums);
-                    continue;
-                }
-                let terms = if least >= far.squares[SOME] {
-                    SOME
-                } else {
-                    TERMS
-                };
+                let terms = far.terms(least);
                 if known < terms {
                     far.series
-                        .evaluate::<L, SLOPE>(l, turn, terms, coefficients);
+                        .evaluate::<L, SLOPE>(l, turn, known..terms, coefficients);
                     known = terms;
-                }
-                if terms == SOME {
-                    far::add::<L, SOME, SLOPE>(l, coefficients, &pairs, &mut sums);
-                    continue;
                 }
                 if least < far.near() {
                     let near = l.splat(far.near());
@@ -132,17 +96,40 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     l.store(pairs.rr, &mut squares);
                     for (lane, square) in squares[..L::WIDTH].iter().enumerate() {
                         if *square < far.near() {
-                            near_pairs.push((fixed.members[from + lane], second));
+                            near_pairs.push([from + lane, j]);
                         }
                     }
                     let outside = l.sub(pairs.rr, near);
                     pairs.moments = l.select(outside, pairs.moments, l.splat(0.0));
                     pairs.rr = l.select(outside, pairs.rr, near);
                 }
-                far::add::<L, TERMS, SLOPE>(l, coefficients, &pairs, &mut sums);
+                far::add_terms::<L, SLOPE>(l, terms, coefficients, &pairs, &mut sums);
             }
         }
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
+    }
+
+    /// The pairs, of the blocks with these numbers in two groups, by their pole faces.
+    #[inline(always)]
+    fn near<L: Lanes>(
+        &self,
+        l: L,
+        [fixed, moving]: [&Group; 2],
+        rotation: Complex<f64>,
+        pairs: &[[usize; 2]],
+    ) -> (f64, Vector3<f64>) {
+        let centre = self.q.position();
+        let pair = |[i, j]: [usize; 2]| {
+            let first = fixed.block(&self.potential.fixed, i);
+            let second = moving.block(&self.potential.moving, j);
+            let second = second.moved(rotation.re, rotation.im, centre);
+            BlockPair::new(&first, &second, centre)
+        };
+        let mut quadrature = Quadrature::new(l, &pair(pairs[0]), Fineness::NORMAL);
+        for numbers in pairs {
+            quadrature.add::<L, SLOPE>(l, &pair(*numbers));
+        }
+        quadrature.sum::<L, SLOPE>(l)
     }
 }
 
@@ -168,17 +155,14 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
                 let turn = moving.axis * Complex::new(cos, sin) * into;
                 let centre = Complex::new(self.q.x, self.q.y) * into;
                 far.series
-                    .evaluate::<L, SLOPE>(l, turn, TERMS, &mut coefficients);
+                    .evaluate::<L, SLOPE>(l, turn, 0..TERMS, &mut coefficients);
                 for (j, &second) in moving.members.iter().enumerate() {
                     let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
                     for from in (0..fixed.x.len()).step_by(L::WIDTH) {
                         let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         let mut sums = Sums::zero(l);
-                        if l.least(pairs.rr) >= far.squares[FEW] {
-                            far::add::<L, FEW, SLOPE>(l, &coefficients, &pairs, &mut sums);
-                        } else {
-                            far::add::<L, TERMS, SLOPE>(l, &coefficients, &pairs, &mut sums);
-                        }
+                        let terms = far.terms(l.least(pairs.rr));
+                        far::add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
                         let lanes = fixed.members.len().min(from + L::WIDTH) - from;
                         let out = Lane::split(l, &sums, pairs.rr, fixed.axis);
                         for (&first, lane) in fixed.members[from..].iter().zip(&out[..lanes]) {

@@ -28,11 +28,13 @@
 //! barriers across such places depend on the jump, and energy is not conserved. The rule is there
 //! for comparison with published results.
 
+mod bounds;
 mod kernel;
 mod potential;
 
 use nalgebra::Vector2;
 
+pub use bounds::ShieldedBounds;
 pub use potential::ShieldedPotential;
 
 /// The constants of a face's shield.

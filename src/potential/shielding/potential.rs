@@ -79,7 +79,7 @@ impl Blocks {
     }
 }
 
-fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<kernel::Magnet> {
+pub(super) fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<kernel::Magnet> {
     let shielded = |magnet: &Magnet| kernel::Magnet {
         position: magnet.position,
         moment: magnet.moment_vector(),

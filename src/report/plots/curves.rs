@@ -140,10 +140,21 @@ impl Panel {
     ) -> Result<(), PictureError> {
         let (low, high) = self.range(group);
         let (unit, name) = self.unit(low, high);
+        let scale = match self.decades(group) {
+            Some(range) => Scale::Decades(range),
+            None => Scale::Linear { unit },
+        };
         let x = variable.axis();
-        let y = Axis::linear(low / unit..high / unit, 5, name);
+        let y = match scale {
+            Scale::Linear { unit } => Axis::linear(low / unit..high / unit, 5, name),
+            Scale::Decades([low, high]) => Axis::decades(low..high, name),
+        };
+        let (low, high) = match scale {
+            Scale::Linear { .. } => (low, high),
+            Scale::Decades(range) => range.map(|power| 10f64.powf(power)).into(),
+        };
         let chart = chart(area, MARGIN, &x, &y, true)?;
-        let at = |x: f64, y: f64| pixel(&chart, x, y / unit);
+        let at = |x: f64, y: f64| pixel(&chart, x, scale.at(y));
         let (left, top) = at(x.range.start, high);
         let (right, bottom) = at(x.range.end, low);
         Text::new(LABEL).bold().write(
@@ -162,7 +173,7 @@ impl Panel {
                 let curve = Curve {
                     root,
                     chart: &chart,
-                    unit,
+                    scale,
                     top,
                     colour,
                     width: width(number, group.series.len()),
@@ -172,7 +183,7 @@ impl Panel {
             for point in &series.points {
                 if point.result.is_none() {
                     let at = (
-                        pixel(&chart, point.x, 0.0).0,
+                        pixel(&chart, point.x, y.range.start).0,
                         bottom - 7.0 - 9.0 * number as f64,
                     );
                     cross(root, at, colour)?;
@@ -218,6 +229,21 @@ impl Panel {
         (range.0 - below, range.1 + 0.08 * span)
     }
 
+    /// The range of a ratio that spans more than two powers of ten, as decimal logarithms.
+    fn decades(&self, group: &Group) -> Option<[f64; 2]> {
+        if self.quantities != [Quantity::Selectivity] {
+            return None;
+        }
+        let points = group.series.iter().flat_map(|series| &series.points);
+        let (low, high) = points
+            .filter_map(|point| Some(Quantity::Selectivity.of(point.result?)?.value.log10()))
+            .filter(|power| power.is_finite())
+            .fold((0.0_f64, 0.0_f64), |(low, high), power| {
+                (low.min(power), high.max(power))
+            });
+        (high - low > 2.0).then_some([low - 0.1, high + 0.1])
+    }
+
     /// What the axis' numbers are multiplied by to be SI, and its name.
     fn unit(&self, low: f64, high: f64) -> (f64, String) {
         let (prefixed, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
@@ -231,11 +257,30 @@ impl Panel {
     }
 }
 
+/// How values stand along a panel's axis.
+#[derive(Clone, Copy)]
+enum Scale {
+    /// In multiples of a unit.
+    Linear { unit: f64 },
+    /// By their decimal logarithms, in this range.
+    Decades([f64; 2]),
+}
+
+impl Scale {
+    /// Where a value stands; one that has no place, at the lower end.
+    fn at(self, value: f64) -> f64 {
+        match self {
+            Self::Linear { unit } => value / unit,
+            Self::Decades([low, _]) => value.log10().max(low),
+        }
+    }
+}
+
 /// A series' figure on a panel.
 struct Curve<'a, 'b, 'c> {
     root: &'a Area<'b>,
     chart: &'a Chart<'c, 'b>,
-    unit: f64,
+    scale: Scale,
     top: f64,
     colour: RGBColor,
     width: f64,
@@ -243,7 +288,7 @@ struct Curve<'a, 'b, 'c> {
 
 impl Curve<'_, '_, '_> {
     fn at(&self, x: f64, y: f64) -> Pixel {
-        pixel(self.chart, x, y / self.unit)
+        pixel(self.chart, x, self.scale.at(y))
     }
 
     /// Whether there was anything to draw.

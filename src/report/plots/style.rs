@@ -143,6 +143,18 @@ impl Axis {
             name: name.into(),
         }
     }
+
+    /// An axis of decimal logarithms with a tick at each power of ten, marked by that power.
+    pub fn decades(range: Range<f64>, name: impl Into<String>) -> Self {
+        let ticks = (range.start.ceil() as i32..=range.end.floor() as i32)
+            .map(|power| (f64::from(power), format!("{}", 10f64.powi(power))))
+            .collect();
+        Self {
+            range,
+            ticks,
+            name: name.into(),
+        }
+    }
 }
 
 impl Ranged for Axis {

@@ -3,11 +3,8 @@
 //! **Far pairs** are bounded together by Taylor's theorem about the cell's centre: value, gradient
 //! and Hessian of their energy, with a bound of the third-order remainder (see [`taylor`]).
 //!
-//! **Near pairs**, closer than a few times the magnet's reach, are bounded one by one from
-//! `U = K / r^3 [-1/2 cos(a - b) - 3/2 cos(a + b - 2 phi)]`, K = mu0 m1 m2 / (4 pi) (a, b
-//! directions of the moments, phi of the separation), over the distances and angles within reach.
-//! As the tiles do not overlap, r is at least the sum of the two magnets' distances to their own
-//! outlines.
+//! **Near pairs**, closer than a few times the magnet's reach, are bounded one by one over the
+//! distances and angles within reach (see [`NearPair`]).
 //!
 //! **Rounding.** A term is a product of at most 60 operations, each correctly rounded or (the
 //! reciprocals) right to 1e-13, on partial results of the size of `K G_n (reach)^n` at most, with
@@ -23,6 +20,7 @@ pub(crate) mod tests;
 
 use std::f64::consts::PI;
 
+use super::near::{Interval, NearPair};
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
@@ -35,10 +33,6 @@ const SCALE: f64 = crate::units::MU0 / (4.0 * PI);
 
 /// Pairs closer than this many times the magnet's reach are bounded one by one.
 pub(super) const NEAR: f64 = 4.0;
-
-/// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
-/// as touching, with room to spare.
-const SLACK: f64 = 1e-8;
 
 /// Cell bounds of the interaction energy of two tiles' dipoles.
 #[derive(Clone, Debug)]
@@ -206,31 +200,21 @@ impl DipoleBounds {
             return;
         }
         let at = cell.centre.transform([moving.x[i], moving.y[i]].into());
-        let (dx, dy) = (at.x - fixed.position[0], at.y - fixed.position[1]);
-        let r = dx.hypot(dy);
-        let reach = cell.reach(moving.lever[i]) + self.rounding;
-        let (a, b) = (fixed.angle, moving.angle[i] + cell.centre.theta);
-        let phi = dy.atan2(dx);
-        let swing = if reach < r { (reach / r).asin() } else { PI };
-        let (turn, across) = (a - b, a + b - 2.0 * phi);
-        let along = cosine_range(turn, cell.half[2]);
-        let beside = cosine_range(across, cell.half[2] + 2.0 * swing);
-        let factor = [
-            -0.5 * along.1 - 1.5 * beside.1,
-            -0.5 * along.0 - 1.5 * beside.0,
-        ];
-        let least = (r - reach).max(fixed.depth + moving.depth[i] - SLACK);
-        if least <= 0.0 {
-            // The magnets may coincide.
+        let pair = NearPair::new(
+            [at.x - fixed.position[0], at.y - fixed.position[1]],
+            strength,
+            [fixed.angle, moving.angle[i] + cell.centre.theta],
+            [cell.reach(moving.lever[i]) + self.rounding, cell.half[2]],
+            fixed.depth + moving.depth[i],
+        );
+        if pair.may_coincide() {
             out.low = f64::NEG_INFINITY;
             out.high = f64::INFINITY;
             return;
         }
-        let cubed = |r: f64| strength / (r * r * r);
-        let margin = self.rounding * cubed(least);
-        let low = factor[0] * cubed(if factor[0] < 0.0 { least } else { r + reach }) - margin;
-        let high = factor[1] * cubed(if factor[1] > 0.0 { least } else { r + reach }) + margin;
-        let here = (-0.5 * turn.cos() - 1.5 * across.cos()) * cubed(r);
+        let margin = self.rounding * pair.greatest_scale();
+        let Interval { low, high } = pair.energy().widened(margin);
+        let here = pair.energy_at_centre();
         let middle = if here >= low && here <= high {
             here
         } else {
@@ -240,25 +224,4 @@ impl DipoleBounds {
         out.low += low - middle - margin;
         out.high += high - middle + margin;
     }
-}
-
-/// Least and largest cosine over angles within `half` of `middle` (rad).
-fn cosine_range(middle: f64, half: f64) -> (f64, f64) {
-    const MARGIN: f64 = 1e-14;
-    if half >= PI {
-        return (-1.0, 1.0);
-    }
-    let middle = crate::configuration::wrap_angle(middle).abs();
-    // cos falls from 0 to pi; the angles run from middle - half to middle + half.
-    let high = if middle <= half {
-        1.0
-    } else {
-        (middle - half).cos() + MARGIN
-    };
-    let low = if middle + half >= PI {
-        -1.0
-    } else {
-        (middle + half).cos() - MARGIN
-    };
-    (low.max(-1.0), high.min(1.0))
 }

@@ -67,7 +67,7 @@ impl Task for Curvature<'_> {
 /// Bounds of the energy of dipoles and its first and second derivatives: see
 /// `Limits::derivative`.
 #[inline(always)]
-fn dipole_limits<L: Lanes>(
+pub(super) fn dipole_limits<L: Lanes>(
     l: L,
     first: &Vectors<L::F>,
     second: &Vectors<L::F>,

@@ -1,5 +1,6 @@
 //! Sums over all pairs of shielded magnets: a moving magnet with several fixed ones at once.
 
+mod cell;
 mod curvature;
 mod factor;
 #[cfg(test)]
@@ -12,6 +13,7 @@ use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task};
 use crate::potential::cuboid::block::PairEnergy;
 use crate::units::MU0;
+pub(super) use cell::Forms;
 pub(super) use curvature::Curvature;
 use factor::pair_factor;
 
@@ -29,7 +31,7 @@ pub(super) struct Magnet {
 
 impl Magnet {
     /// Placed at a configuration of that rotation.
-    fn moved(&self, q: &Configuration, rotation: &Rotation2<f64>) -> Self {
+    pub fn moved(&self, q: &Configuration, rotation: &Rotation2<f64>) -> Self {
         Self {
             position: q.position() + rotation * self.position,
             moment: rotation * self.moment,

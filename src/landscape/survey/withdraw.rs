@@ -1,0 +1,102 @@
+//! Straight ways out of states that the roadmap does not reach.
+
+use nalgebra::Vector2;
+
+use super::{Survey, SurveySettings};
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::landscape::slide;
+use crate::problem::Problem;
+use crate::roadmap::{Milestone, edge};
+
+/// Contacts within this distance (m) count as closed.
+const CLOSED: f64 = 1e-6;
+
+impl Survey {
+    /// Joins states to `free` by straight motions away from what they touch, where nothing else
+    /// does. Shapes that fit without play leave a tile a single direction, which sampled milestones
+    /// cannot meet.
+    pub(super) fn withdraw(&mut self, problem: &Problem, settings: &SurveySettings) {
+        let joined = self.network.joined_to(self.free);
+        for state in 0..self.states.len() {
+            let node = self.states[state].node;
+            if joined[node] {
+                continue;
+            }
+            let here = self.states[state].minimum.point.q;
+            let from = Milestone::new(problem, here);
+            for direction in directions(problem, &here) {
+                let Some(far) = farthest(&problem.space, &here, direction) else {
+                    continue;
+                };
+                if !problem.motion_is_free(&here, &far) {
+                    continue;
+                }
+                let to = Milestone::new(problem, far);
+                let costs = edge::costs(problem, [&from, &to], &settings.edge);
+                let end = self.network.add_node(Some((far, to.energy)));
+                self.network.add_motion(node, end, costs);
+                self.network.add_same(end, self.free, to.energy);
+            }
+        }
+    }
+}
+
+/// Away from each closed contact, and from all of them together.
+fn directions(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
+    let mut normals: Vec<Vector2<f64>> = Vec::new();
+    for constraint in slide::constraints(problem, q, CLOSED) {
+        let normal = constraint.gradient.xy().normalize();
+        let is_same = |known: &Vector2<f64>| (known - normal).norm() < 1e-6;
+        if !normals.iter().any(is_same) {
+            normals.push(normal);
+        }
+    }
+    let sum: Vector2<f64> = normals.iter().sum();
+    normals.extend(sum.try_normalize(1e-6));
+    normals.retain(|normal| normal.iter().all(|x| x.is_finite()));
+    normals
+}
+
+/// The first far configuration in a direction; `None` where it is not on the table.
+fn farthest(
+    space: &ConfigurationSpace,
+    q: &Configuration,
+    direction: Vector2<f64>,
+) -> Option<Configuration> {
+    let p = q.position();
+    let along = p.dot(&direction);
+    let beside = p.norm_squared() - along * along;
+    let radius = space.free_distance * (1.0 + 1e-9);
+    let length = (radius * radius - beside).sqrt() - along;
+    let end = p + direction * length;
+    let far = Configuration::new(end.x, end.y, q.theta);
+    (length > 0.0 && space.contains(&far) && space.is_far(&far)).then_some(far)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::analysis::Settings;
+    use crate::design::Design;
+    use crate::landscape::Place;
+    use crate::pipeline;
+
+    #[test]
+    fn teeth_without_play_are_pulled_out_straight() {
+        let design = Design::load("shapes/square-teeth-10mm.toml".as_ref()).unwrap();
+        let settings = Settings {
+            milestones: 300,
+            certify_seconds: 0.0,
+            far_starts: 1,
+            ..Settings::default()
+        };
+        let analysis = pipeline::analyse(&design, &settings, &pipeline::Silent);
+        let way_out = analysis
+            .barriers
+            .iter()
+            .find(|barrier| barrier.from == Place::State(0) && barrier.to == Place::Free)
+            .unwrap();
+        // It never climbs.
+        assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
+        assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
+    }
+}
