@@ -11,7 +11,7 @@ use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
 
-use super::options::WorkOptions;
+use super::options::{DesignOptions, WorkOptions};
 use super::progress::Progress;
 use super::{Failure, input, interrupt, print};
 
@@ -29,8 +29,8 @@ Examples:
   tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv"
 )]
 pub struct Barrier {
-    /// The design file
-    design: PathBuf,
+    #[command(flatten)]
+    design: DesignOptions,
 
     /// Pose at which the way starts (m, m, rad)
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = input::pose)]
@@ -94,7 +94,7 @@ enum EndEntry {
 
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
-        let design = input::load(&self.design)?;
+        let design = self.design.load()?;
         self.work.use_threads()?;
         interrupt::prepare()?;
         let progress = Progress::new(self.quiet);
