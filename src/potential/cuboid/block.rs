@@ -290,6 +290,36 @@ mod tests {
     }
 
     #[test]
+    fn the_gradient_is_the_derivative_where_faces_pass_through_each_others_lines() {
+        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
+        // Overlapping to both sides, and beside each other.
+        for (x, y, angle) in [
+            (0.009, 0.002, 0.4),
+            (0.008, -0.003, 0.1),
+            (-0.007, 0.004, 0.7),
+            (-0.009, -0.001, 0.3 + 2.9),
+            (-0.004, 0.013, 0.5),
+            (0.004, -0.014, 0.9),
+            (0.003, -0.013, -0.2),
+        ] {
+            let at = |dx: f64, dy: f64, da: f64| {
+                exact(&first, &block(x + dx, y + dy, angle + da, OTHER, 0.9)).energy
+            };
+            let pair = exact(&first, &block(x, y, angle, OTHER, 0.9));
+            let (h, a) = (2e-5, 2e-3);
+            let fd = [
+                (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
+                (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
+                (at(0.0, 0.0, a) - at(0.0, 0.0, -a)) / (2.0 * a),
+            ];
+            let scale = pair.gradient.norm();
+            assert!((pair.gradient.x - fd[0]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.gradient.y - fd[1]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.slope - fd[2]).abs() < 3e-4 * scale * 0.01, "{x} {y}");
+        }
+    }
+
+    #[test]
     fn the_pole_faces_agree_with_a_cloud_of_charges() {
         let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
         for i in 0..60 {
