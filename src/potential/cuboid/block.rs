@@ -259,6 +259,15 @@ mod tests {
     const SIZE: [f64; 3] = [0.010, 0.012, 0.003];
     const OTHER: [f64; 3] = [0.006, 0.008, 0.005];
 
+    /// The derivatives by x, y and the angle, from central differences of the given steps.
+    fn differences(at: impl Fn(f64, f64, f64) -> f64, h: f64, a: f64) -> [f64; 3] {
+        [
+            (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
+            (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
+            (at(0.0, 0.0, a) - at(0.0, 0.0, -a)) / (2.0 * a),
+        ]
+    }
+
     #[test]
     fn the_gradient_is_the_derivative_of_the_energy() {
         let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
@@ -274,18 +283,38 @@ mod tests {
                     exact(&first, &block(x + dx, y + dy, angle + da, size, 0.9)).energy
                 };
                 let pair = exact(&first, &block(x, y, angle, size, 0.9));
-                let (h, a) = (1e-6, 1e-4);
-                let fd = [
-                    (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
-                    (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
-                    (at(0.0, 0.0, a) - at(0.0, 0.0, -a)) / (2.0 * a),
-                ];
+                let fd = differences(at, 1e-6, 1e-4);
                 let scale = pair.gradient.norm();
                 assert!((pair.gradient.x - fd[0]).abs() < 1e-6 * scale);
                 assert!((pair.gradient.y - fd[1]).abs() < 1e-6 * scale);
                 assert!((pair.slope - fd[2]).abs() < 1e-6 * scale * 0.01);
                 assert!((at(0.0, 0.0, 0.0) - pair.energy).abs() < 1e-13 * pair.energy.abs());
             }
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_where_faces_pass_through_each_others_lines() {
+        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
+        // Overlapping to both sides, and beside each other.
+        for (x, y, angle) in [
+            (0.009, 0.002, 0.4),
+            (0.008, -0.003, 0.1),
+            (-0.007, 0.004, 0.7),
+            (-0.009, -0.001, 0.3 + 2.9),
+            (-0.004, 0.013, 0.5),
+            (0.004, -0.014, 0.9),
+            (0.003, -0.013, -0.2),
+        ] {
+            let at = |dx: f64, dy: f64, da: f64| {
+                exact(&first, &block(x + dx, y + dy, angle + da, OTHER, 0.9)).energy
+            };
+            let pair = exact(&first, &block(x, y, angle, OTHER, 0.9));
+            let fd = differences(at, 2e-5, 2e-3);
+            let scale = pair.gradient.norm();
+            assert!((pair.gradient.x - fd[0]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.gradient.y - fd[1]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.slope - fd[2]).abs() < 3e-4 * scale * 0.01, "{x} {y}");
         }
     }
 

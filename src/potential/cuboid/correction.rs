@@ -31,9 +31,9 @@ impl Task for Correction<'_> {
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                let far = &self.potential.far[fixed.size][moving.size];
-                let into = fixed.axis.conj();
-                let turn = moving.axis * Complex::new(cos, sin) * into;
+                let (far, turn, centre) =
+                    self.potential
+                        .facing([fixed, moving], self.q, Complex::new(cos, sin));
                 far.series
                     .evaluate::<L, true>(l, turn, 0..TERMS, &mut coefficients);
                 // Without the dipole.
@@ -46,7 +46,7 @@ impl Task for Correction<'_> {
                 let mut sums = Sums::zero(l);
                 for (j, &second) in moving.members.iter().enumerate() {
                     let arm = turn * Complex::new(moving.x[j], moving.y[j]);
-                    let place = Complex::new(self.q.x, self.q.y) * into + arm;
+                    let place = centre + arm;
                     for from in (0..fixed.x.len()).step_by(L::WIDTH) {
                         let mask = self.mask(fixed, from, second);
                         let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);

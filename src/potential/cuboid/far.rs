@@ -4,7 +4,7 @@ use nalgebra::{Complex, Vector2};
 
 use super::SizedBlock;
 use super::block::Block;
-use super::multipole::{Coefficients, ROOM, TERMS, index};
+use super::multipole::{Coefficients, TERMS, index};
 use crate::potential::batch::lanes::Lanes;
 
 /// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
@@ -125,16 +125,41 @@ fn add<L: Lanes, const N: usize, const SLOPE: bool>(
         l.mul(q, l.neg_mul_add(r[1], r[1], l.mul(r[0], r[0]))),
         l.mul(l.splat(-2.0), xy),
     ];
+    // v^n and, where asked for, n v^n.
     let zero = l.splat(0.0);
+    let mut powers = [[zero; 2]; TERMS + 1];
+    let mut slopes = [[zero; 2]; TERMS + 1];
+    powers[1] = v;
+    for n in 2..=N {
+        powers[n] = product(l, powers[n / 2], powers[n - n / 2]);
+    }
+    if SLOPE {
+        for n in 1..=N {
+            let order = l.splat(n as f64);
+            slopes[n] = [l.mul(order, powers[n][0]), l.mul(order, powers[n][1])];
+        }
+    }
     let (mut energy, mut radial, mut angular, mut turning) = (zero, zero, zero, zero);
     for k in (0..N).rev() {
-        let p = polynomial::<L, SLOPE>(l, &c.re, &c.im, k, v);
-        energy = l.mul_add(energy, q, p.value);
+        let first = index(k, 0);
+        let mut value = l.splat(c.re[first]);
+        let mut turn = l.splat(c.turn_re[first]);
+        let mut slope = zero;
+        for n in 1..k + 2 {
+            let [re, im] = [l.splat(c.re[first + n]), l.splat(c.im[first + n])];
+            value = real(l, powers[n], re, im, value);
+            if SLOPE {
+                // The imaginary part of C n v^n.
+                slope = l.mul_add(re, slopes[n][1], l.mul_add(im, slopes[n][0], slope));
+                let (re, im) = (c.turn_re[first + n], c.turn_im[first + n]);
+                turn = real(l, powers[n], l.splat(re), l.splat(im), turn);
+            }
+        }
+        energy = l.mul_add(energy, q, value);
         if SLOPE {
-            radial = l.mul_add(p.value, l.splat(-((3 + 2 * k) as f64)), l.mul(radial, q));
-            angular = l.mul_add(p.angular, l.splat(2.0), l.mul(angular, q));
-            let turn = polynomial::<L, false>(l, &c.turn_re, &c.turn_im, k, v);
-            turning = l.mul_add(turning, q, turn.value);
+            radial = l.mul_add(value, l.splat(-((3 + 2 * k) as f64)), l.mul(radial, q));
+            angular = l.mul_add(slope, l.splat(2.0), l.mul(angular, q));
+            turning = l.mul_add(turning, q, turn);
         }
     }
     let scale = l.mul(pairs.moments, l.mul(q, inverse));
@@ -152,45 +177,19 @@ fn add<L: Lanes, const N: usize, const SLOPE: bool>(
     }
 }
 
-/// The real part of P_k, and the imaginary part of v times its derivative.
-struct Polynomial<F> {
-    value: F,
-    angular: F,
+/// The product of two complex numbers.
+#[inline(always)]
+fn product<L: Lanes>(l: L, a: [L::F; 2], b: [L::F; 2]) -> [L::F; 2] {
+    [
+        l.neg_mul_add(a[1], b[1], l.mul(a[0], b[0])),
+        l.mul_add(a[1], b[0], l.mul(a[0], b[1])),
+    ]
 }
 
+/// The real part of `(re + i im) v`, and a sum.
 #[inline(always)]
-fn polynomial<L: Lanes, const SLOPE: bool>(
-    l: L,
-    c_re: &[f64; ROOM],
-    c_im: &[f64; ROOM],
-    k: usize,
-    v: [L::F; 2],
-) -> Polynomial<L::F> {
-    let top = index(k, k + 1);
-    let (mut re, mut im) = (l.splat(c_re[top]), l.splat(c_im[top]));
-    let (mut slope_re, mut slope_im) = (l.splat(0.0), l.splat(0.0));
-    for half in (0..=k).rev() {
-        if SLOPE {
-            (slope_re, slope_im) = if half == k {
-                (re, im)
-            } else {
-                (
-                    l.neg_mul_add(slope_im, v[1], l.mul_add(slope_re, v[0], re)),
-                    l.mul_add(slope_im, v[0], l.mul_add(slope_re, v[1], im)),
-                )
-            };
-        }
-        let at = index(k, half);
-        let real = l.neg_mul_add(im, v[1], l.mul_add(re, v[0], l.splat(c_re[at])));
-        if half > 0 {
-            im = l.mul_add(im, v[0], l.mul_add(re, v[1], l.splat(c_im[at])));
-        }
-        re = real;
-    }
-    Polynomial {
-        value: re,
-        angular: l.mul_add(slope_im, v[0], l.mul(slope_re, v[1])),
-    }
+fn real<L: Lanes>(l: L, v: [L::F; 2], re: L::F, im: L::F, sum: L::F) -> L::F {
+    l.neg_mul_add(im, v[1], l.mul_add(re, v[0], sum))
 }
 
 /// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays filled up to

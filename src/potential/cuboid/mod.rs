@@ -200,6 +200,24 @@ impl CuboidPotential {
         all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
     }
 
+    /// The far form of two groups at a configuration with this rotation, e^(i times the angle
+    /// between their axes), and the moving tile's place (m): in the frame whose x axis is the fixed
+    /// blocks' axis.
+    #[inline(always)]
+    fn facing(
+        &self,
+        [fixed, moving]: [&Group; 2],
+        q: &Configuration,
+        rotation: Complex<f64>,
+    ) -> (&Far, Complex<f64>, Complex<f64>) {
+        let into = fixed.axis.conj();
+        (
+            &self.far[fixed.size][moving.size],
+            moving.axis * rotation * into,
+            Complex::new(q.x, q.y) * into,
+        )
+    }
+
     /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
     /// moving tile's block j is number `j * fixed blocks + i`. Derivatives are zero where not asked
     /// for.

@@ -39,12 +39,12 @@ impl Rule {
     }
 }
 
-/// How many nodes the rules for analytic integrands have.
-const COUNTS: [usize; 9] = [4, 5, 6, 7, 8, 10, 12, 14, 16];
+/// How many rules there are for analytic integrands, in the order of their nodes.
+const ANALYTIC: usize = 9;
 
 /// The numbers of the rules whose nodes crowd towards both ends.
-const CROWDED_EIGHT: usize = COUNTS.len();
-const CROWDED_SIXTEEN: usize = COUNTS.len() + 1;
+const CROWDED_EIGHT: usize = ANALYTIC;
+const CROWDED_SIXTEEN: usize = ANALYTIC + 1;
 
 /// Nodes in [-1, 1] and weights of the rules in use.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ pub struct Rules {
     pub eight: [[f64; 8]; 2],
     pub sixteen: [[f64; 16]; 2],
     /// By the numbers that [`panels`] gives.
-    pub numbered: [Rule; COUNTS.len() + 2],
+    pub numbered: [Rule; ANALYTIC + 2],
 }
 
 impl Rules {
@@ -126,7 +126,7 @@ pub struct Fineness {
     pub finest: f64,
     /// The long axes (see [`panels`]) from which on each of the rules for analytic integrands is
     /// enough, falling.
-    pub axes: [f64; COUNTS.len()],
+    pub axes: [f64; ANALYTIC],
 }
 
 impl Fineness {
@@ -148,7 +148,7 @@ impl Fineness {
     #[inline(always)]
     pub fn rule(&self, axis: f64) -> Option<usize> {
         let number = self.axes.iter().filter(|least| axis < **least).count();
-        (number < COUNTS.len()).then_some(number)
+        (number < ANALYTIC).then_some(number)
     }
 }
 

@@ -70,11 +70,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         total: &mut Sums<L::F>,
         near_pairs: &mut Vec<[usize; 2]>,
     ) {
-        let far = &self.potential.far[fixed.size][moving.size];
-        // Everything is in the frame whose x axis is the fixed blocks' axis.
-        let into = fixed.axis.conj();
-        let turn = moving.axis * rotation * into;
-        let centre = Complex::new(self.q.x, self.q.y) * into;
+        let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
         let mut sums = Sums::zero(l);
         let mut known = 0;
         for j in 0..moving.members.len() {
@@ -150,10 +146,9 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                let far = &self.potential.far[fixed.size][moving.size];
-                let into = fixed.axis.conj();
-                let turn = moving.axis * Complex::new(cos, sin) * into;
-                let centre = Complex::new(self.q.x, self.q.y) * into;
+                let (far, turn, centre) =
+                    self.potential
+                        .facing([fixed, moving], self.q, Complex::new(cos, sin));
                 far.series
                     .evaluate::<L, SLOPE>(l, turn, 0..TERMS, &mut coefficients);
                 for (j, &second) in moving.members.iter().enumerate() {
