@@ -193,11 +193,18 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
     if !bracket.improved || !bracket.upper.is_some_and(lower) {
         return;
     }
-    let pathway = pathway::of_configurations(problem, &bracket.pathway, bend);
-    if let Some(highest) = pathway::highest_point(&pathway).copied() {
-        barrier.saddle_energy = highest.energy;
-        barrier.saddle = highest.configuration;
-        barrier.pathway = pathway;
+    // The certificate's own leads through the middles of its cells.
+    let upper = bracket.upper.unwrap_or(f64::INFINITY);
+    let direct = pathway::shortened(problem, &bracket.pathway, upper, 0.1 * bend);
+    for points in [&direct, &bracket.pathway] {
+        let pathway = pathway::of_configurations(problem, points, bend);
+        let highest = pathway::highest_point(&pathway).copied();
+        if let Some(highest) = highest.filter(|highest| highest.energy <= upper) {
+            barrier.saddle_energy = highest.energy;
+            barrier.saddle = highest.configuration;
+            barrier.pathway = pathway;
+            return;
+        }
     }
 }
 

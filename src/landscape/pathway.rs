@@ -102,7 +102,7 @@ pub fn along(
     let mut all: Vec<Configuration> = Vec::new();
     for stretch in stretches(network, route) {
         let points = match stretch {
-            Stretch::Straight(points) => shortened(problem, points, highest),
+            Stretch::Straight(points) => shortened(problem, &points, highest, 1e-3 * highest.abs()),
             Stretch::Way(points) => points,
         };
         let repeated = usize::from(!all.is_empty() && all.last() == points.first());
@@ -208,26 +208,33 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
     all
 }
 
-/// A polyline with the detours cut out that a direct motion below `highest` can replace.
-fn shortened(problem: &Problem, points: Vec<Configuration>, highest: f64) -> Vec<Configuration> {
+/// A polyline with the detours cut out that a direct motion below `highest` (J) can replace, as its
+/// profile tells to within `tolerance` (J): from each point the farthest of those is tried first,
+/// then those half as far along, and so on.
+pub fn shortened(
+    problem: &Problem,
+    points: &[Configuration],
+    highest: f64,
+    tolerance: f64,
+) -> Vec<Configuration> {
     let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
     let tolerance = ProfileTolerance {
         relative: 0.0,
-        absolute: 1e-3 * highest.abs(),
+        absolute: tolerance,
     };
     let direct = |a: &Milestone, b: &Milestone| {
         problem.motion_is_free(&a.configuration, &b.configuration)
             && Profile::new(problem, a, b, &tolerance).peak().energy <= highest
     };
-    let mut kept = vec![points[0]];
+    let mut kept: Vec<Configuration> = points.first().copied().into_iter().collect();
     let mut here = 0;
     while here + 1 < points.len() {
-        let next = (here + 2..points.len())
-            .rev()
-            .find(|&j| direct(&milestones[here], &milestones[j]))
-            .unwrap_or(here + 1);
-        kept.push(points[next]);
-        here = next;
+        let mut ahead = points.len() - 1 - here;
+        while ahead > 1 && !direct(&milestones[here], &milestones[here + ahead]) {
+            ahead /= 2;
+        }
+        here += ahead;
+        kept.push(points[here]);
     }
     kept
 }

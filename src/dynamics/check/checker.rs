@@ -15,6 +15,9 @@ use crate::problem::Problem;
 
 /// A tile this close (m, metric of the space) to a state may be in it.
 const ARRIVED: f64 = 2e-3;
+/// Slow motion from there has come to the state if it ends this close (m) to it: descents are more
+/// exact, and shallow minima may lie side by side.
+const SAME: f64 = 1e-4;
 /// How far (m) a trajectory gets at the speed of a tile with the barrier's energy, and how long (s)
 /// it lasts at most.
 const TRAVEL: f64 = 0.15;
@@ -139,9 +142,10 @@ impl<'a> Checker<'a> {
             steps: 0,
         };
         // A lower bound below the state itself says nothing that a trajectory could contradict.
-        if self.climb > 0.0 {
-            self.run_below(&lossless, seed, &mut result);
+        if self.climb <= 0.0 {
+            return result;
         }
+        self.run_below(&lossless, seed, &mut result);
         if !self.barrier.caged {
             self.run_above(&lossless, seed, &mut result);
             result.sides = self.sides(&settling, &mut result.steps);
@@ -286,8 +290,13 @@ impl<'a> Checker<'a> {
             return Some(Place::Free);
         }
         let minimum = minimum_below(self.problem, q)?;
-        let here = |state: &&State| space.distance(&state.configuration, &minimum) < ARRIVED;
-        Some(Place::State(self.states.iter().find(here)?.id))
+        let distance = |state: &State| space.distance(&state.configuration, &minimum);
+        let nearest = self
+            .states
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let nearest = nearest.filter(|state| distance(state) < SAME)?;
+        Some(Place::State(nearest.id))
     }
 
     /// Released at rest a little before the saddle and a little behind it, where the pathway from
@@ -368,9 +377,6 @@ impl<'a> Checker<'a> {
 
     /// The least kick along the pathway's beginning that leads to its end.
     fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
-        if self.climb <= 0.0 {
-            return None;
-        }
         let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
         let kicked: Vec<Fated> = (0..KICKS.len() * AIMS)
             .into_par_iter()
