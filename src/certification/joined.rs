@@ -100,7 +100,7 @@ fn chain(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::analysis::Settings;
     use crate::configuration::Configuration;
@@ -112,7 +112,7 @@ mod tests {
         Configuration::new(x, 0.0, 0.0)
     }
 
-    fn state(id: usize) -> State {
+    pub fn state(id: usize) -> State {
         State {
             id,
             kind: StateKind::Misbound,
@@ -128,7 +128,7 @@ mod tests {
     }
 
     /// A barrier whose way leads over a point of a height of its own, and through it at `upper`.
-    fn barrier(from: usize, to: Option<usize>, upper: f64) -> Barrier {
+    pub fn barrier(from: usize, to: Option<usize>, upper: f64) -> Barrier {
         let place = to.map_or(Place::Free, Place::State);
         let (start, end) = (from as f64, to.map_or(9.0, |id| id as f64));
         let middle = (start + end) / 2.0;

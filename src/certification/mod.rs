@@ -28,6 +28,8 @@ const LEAST_SHARE: f64 = 1e-5;
 const BEND: f64 = 1e-3;
 /// How much lower a chain of pathways must be than a direct one, as a fraction of the bond's depth.
 const LEAST_GAIN: f64 = 1e-6;
+/// States whose energies differ by less than this share are as deep as each other.
+const SAME_ENERGY: f64 = 1e-6;
 
 /// Why barriers have no certified bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -115,7 +117,7 @@ pub fn certify(
         }
         joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
     }
-    certify_escapes(inventory);
+    certify_escapes(inventory, LEAST_GAIN * depth);
     inventory.copy_escapes(problem, symmetries);
     Ok(certifier.assessed())
 }
@@ -220,16 +222,57 @@ pub(crate) fn either(
     }
 }
 
-/// Gives the certified bounds, and a lower pathway where one was found, to the escapes of the
-/// first state of each class.
-fn certify_escapes(inventory: &mut Inventory) {
+/// Gives the escapes of the first state of each class the certified barriers that they stand for;
+/// or, where the certificate found one lower by more than `gain` (J), another barrier from there to
+/// `free` or to a lower state.
+fn certify_escapes(inventory: &mut Inventory, gain: f64) {
+    let barriers = &inventory.barriers;
     for escape in inventory.escapes.iter_mut().flatten() {
-        let certified = inventory
-            .barriers
+        let below = escape.from_energy - SAME_ENERGY * escape.from_energy.abs();
+        let (from, to) = (escape.from, escape.to);
+        let leads_down = |barrier: &&Barrier| {
+            let is_lower = barrier.to == Place::Free || barrier.to_energy < below;
+            barrier.from == from && is_lower && !barrier.pathway.is_empty()
+        };
+        let certified = barriers.iter().find(|b| b.from == from && b.to == to);
+        let lowest = barriers
             .iter()
-            .find(|barrier| barrier.from == escape.from && barrier.to == escape.to);
-        if let Some(certified) = certified {
-            *escape = certified.clone();
+            .filter(leads_down)
+            .min_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy))
+            .filter(|b| b.saddle_energy < escape.saddle_energy - gain);
+        let lowest = lowest
+            .filter(|b| certified.is_none_or(|known| b.saddle_energy < known.saddle_energy - gain));
+        if let Some(barrier) = lowest.or(certified) {
+            *escape = barrier.clone();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::joined::tests::{barrier, state};
+    use super::*;
+
+    #[test]
+    fn an_escape_is_the_lowest_certified_way_down() {
+        let to_free = barrier(0, None, 5.0);
+        let to_lower = Barrier {
+            to_energy: -2.0,
+            ..barrier(0, Some(1), 3.0)
+        };
+        let to_higher = Barrier {
+            to_energy: -0.5,
+            ..barrier(0, Some(2), 1.0)
+        };
+        let mut inventory = Inventory {
+            states: (0..3).map(state).collect(),
+            escapes: vec![Some(to_free.clone()), None, None],
+            barriers: vec![to_free, to_lower.clone(), to_higher],
+            alternatives: Vec::new(),
+            bound_state: None,
+            shallow: 0,
+        };
+        certify_escapes(&mut inventory, 1e-6);
+        assert_eq!(inventory.escapes[0], Some(to_lower));
     }
 }

@@ -97,16 +97,14 @@ impl Inventory {
         }
     }
 
-    /// Whether a barrier is the bond's way out to `free` or the escape of the deepest trap.
+    /// Whether a barrier is the bond's way out to `free` or one of the ways out of the deepest trap.
     fn is_main(&self, barrier: &Barrier) -> bool {
         let is_from = |kind| {
             let first = self.states.iter().find(|state| state.kind == kind);
             first.is_some_and(|state| barrier.from == Place::State(state.id))
         };
-        let mut escapes = self.escapes.iter().flatten();
-        let is_escape = |escape: &Barrier| (escape.from, escape.to) == (barrier.from, barrier.to);
-        (is_from(StateKind::Bound) && barrier.to == Place::Free)
-            || (is_from(StateKind::Misbound) && escapes.any(is_escape))
+        let is_out_of_the_bond = is_from(StateKind::Bound) && barrier.to == Place::Free;
+        is_out_of_the_bond || is_from(StateKind::Misbound)
     }
 
     /// Counts in which states far starts ended and fills in the capture shares; returns the share
