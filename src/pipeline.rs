@@ -155,10 +155,8 @@ fn check_barriers(
         ..CheckSettings::default()
     };
     let observer = clock.observer;
-    let claimed: Vec<&Barrier> = (0..inventory.barriers.len())
-        .filter(|&number| inventory.is_claimed(number, settings.claims))
-        .map(|number| &inventory.barriers[number])
-        .collect();
+    let is_claimed = |barrier: &&Barrier| inventory.is_claimed(barrier, settings.claims);
+    let claimed: Vec<&Barrier> = inventory.barriers.iter().filter(is_claimed).collect();
     Some(check::check(
         problem,
         Body::of_tile(&design.moving),

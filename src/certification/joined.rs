@@ -4,6 +4,7 @@ use petgraph::algo::{astar, min_spanning_tree};
 use petgraph::data::FromElements;
 use petgraph::graph::{NodeIndex, UnGraph};
 
+use super::lead_along;
 use crate::configuration::ConfigurationSpace;
 use crate::landscape::inventory::Inventory;
 use crate::landscape::{Barrier, Pathway, Place, pathway};
@@ -32,13 +33,11 @@ pub fn take_over_chains(space: &ConfigurationSpace, inventory: &mut Inventory, g
             continue;
         };
         let is_lower = barrier.upper.is_none_or(|known| upper < known - gain);
-        let Some(highest) = pathway::highest_point(&pathway).filter(|_| is_lower) else {
-            continue;
-        };
-        barrier.saddle_energy = highest.energy;
-        barrier.saddle = highest.configuration;
-        barrier.upper = Some(upper);
-        barrier.pathway = pathway;
+        let highest = pathway::highest_point(&pathway).copied();
+        if let Some(highest) = highest.filter(|_| is_lower) {
+            barrier.upper = Some(upper);
+            lead_along(barrier, pathway, &highest);
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::design::Design;
 use crate::landscape::certificate::{Bracket, Certifier, Effort, End};
 use crate::landscape::inventory::Inventory;
 use crate::landscape::symmetry::Symmetry;
-use crate::landscape::{Barrier, Place, StateKind, pathway};
+use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, StateKind, pathway};
 use crate::pipeline::{self, Observer};
 use crate::potential::MagnetModel;
 use crate::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
@@ -98,10 +98,10 @@ pub fn certify(
     for (pass, (cells, width)) in passes.iter().enumerate() {
         for number in 0..count {
             observer.part("certificate", pass * count + number, passes.len() * count);
-            if !inventory.is_claimed(number, settings.claims) {
+            let barrier = &inventory.barriers[number];
+            if !inventory.is_claimed(barrier, settings.claims) {
                 continue;
             }
-            let barrier = &inventory.barriers[number];
             let effort = Effort {
                 tolerance: width(barrier),
                 cells: *cells,
@@ -202,12 +202,17 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
         let pathway = pathway::of_configurations(problem, points, bend);
         let highest = pathway::highest_point(&pathway).copied();
         if let Some(highest) = highest.filter(|highest| highest.energy <= upper) {
-            barrier.saddle_energy = highest.energy;
-            barrier.saddle = highest.configuration;
-            barrier.pathway = pathway;
+            lead_along(barrier, pathway, &highest);
             return;
         }
     }
+}
+
+/// Gives a barrier another pathway with its highest point.
+fn lead_along(barrier: &mut Barrier, pathway: Pathway, highest: &PathwayPoint) {
+    barrier.saddle_energy = highest.energy;
+    barrier.saddle = highest.configuration;
+    barrier.pathway = pathway;
 }
 
 /// The better of two bounds, of which either may be missing.
@@ -238,10 +243,9 @@ fn certify_escapes(inventory: &mut Inventory, gain: f64) {
         let lowest = barriers
             .iter()
             .filter(leads_down)
-            .min_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy))
-            .filter(|b| b.saddle_energy < escape.saddle_energy - gain);
-        let lowest = lowest
-            .filter(|b| certified.is_none_or(|known| b.saddle_energy < known.saddle_energy - gain));
+            .min_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy));
+        let known = certified.map_or(escape.saddle_energy, |b| b.saddle_energy);
+        let lowest = lowest.filter(|b| b.saddle_energy < known - gain);
         if let Some(barrier) = lowest.or(certified) {
             *escape = barrier.clone();
         }

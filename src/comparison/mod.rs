@@ -204,6 +204,13 @@ pub fn assess(
 }
 
 impl Assessment {
+    /// How many barriers moving tiles checked, contradict, and show to be estimated too high; `None`
+    /// where they were not asked.
+    pub fn checks(&self) -> Option<[usize; 3]> {
+        let checked = self.barriers_checked?;
+        Some([checked, self.contradictions.len(), self.overestimates.len()])
+    }
+
     /// What is compared of an analysed design; the capture range is found here.
     pub fn new(design: &Design, analysis: &Analysis) -> Self {
         let first = |kind| analysis.states.iter().find(|state| state.kind == kind);

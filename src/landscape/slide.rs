@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
 use crate::problem::Problem;
+use crate::roadmap::profile::{Sample, inner_extremes};
 
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
 const RESIDUAL: f64 = 1e-12;
@@ -156,23 +157,23 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
 /// through them, rises on the way to a lower end: motion that never climbs does not get there.
 fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
     let step = from.q.step_to(&to.q);
-    let (before, after) = (from.gradient.dot(&step), to.gradient.dot(&step));
     let fall = from.energy - to.energy;
-    // The cubic's slope at t in [0, 1] is before + 2 b t + 3 a t^2.
-    let a = before + after + 2.0 * fall;
-    let b = -3.0 * fall - 2.0 * before - after;
-    let discriminant = b * b - 3.0 * a * before;
-    if after >= 0.0 || a == 0.0 || discriminant <= 0.0 {
+    // Energies from the start on, which differ by less than they amount to.
+    let ends = [(0.0, from, 0.0), (1.0, to, -fall)];
+    let [start, end] = ends.map(|(t, point, energy)| Sample {
+        t,
+        energy,
+        slope: point.gradient.dot(&step),
+    });
+    if end.slope >= 0.0 {
         return false;
     }
-    let at = |t: f64| ((a * t + b) * t + before) * t;
-    let [valley, ridge] = [1.0, -1.0].map(|sign| (-b + sign * discriminant.sqrt()) / (3.0 * a));
-    let lowest = if (0.0..ridge).contains(&valley) {
-        at(valley).min(0.0)
-    } else {
-        0.0
-    };
-    (0.0..1.0).contains(&ridge) && at(ridge) - lowest > RISE * fall
+    let mut lowest = start.energy;
+    inner_extremes(&start, &end).any(|extreme| {
+        let rise = extreme.energy - lowest;
+        lowest = lowest.min(extreme.energy);
+        rise > RISE * fall
+    })
 }
 
 /// The configuration near `q` at which the given contacts are closed; `None` where there is none

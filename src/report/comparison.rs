@@ -248,18 +248,9 @@ impl Comparison {
 /// A line on what moving tiles say of all barriers that they checked; empty where they were not
 /// asked.
 pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> String {
-    let mut sums: Option<[usize; 3]> = None;
-    for design in designs {
-        if let Some(count) = design.barriers_checked {
-            let refuted = [&design.contradictions, &design.overestimates].map(Vec::len);
-            let [checked, contradicted, high] = sums.unwrap_or_default();
-            sums = Some([
-                checked + count,
-                contradicted + refuted[0],
-                high + refuted[1],
-            ]);
-        }
-    }
+    let sums = designs
+        .filter_map(Assessment::checks)
+        .reduce(|sums, checks| std::array::from_fn(|k| sums[k] + checks[k]));
     sums.map_or_else(String::new, |[checked, contradicted, high]| {
         format!(
             "moving tiles checked {checked} barriers: {contradicted} contradicted, {high} estimated \
@@ -353,10 +344,8 @@ pub fn cells(design: &Assessment) -> Vec<String> {
         design.seed.to_string(),
         design.sha256.clone(),
     ]);
-    let counts = design.barriers_checked.map(|checked| {
-        let refuted = [&design.contradictions, &design.overestimates].map(Vec::len);
-        [checked, refuted[0], refuted[1]].map(|count| count.to_string())
-    });
+    let counts = design.checks();
+    let counts = counts.map(|checks| checks.map(|count| count.to_string()));
     cells.extend(counts.unwrap_or_default());
     cells
 }

@@ -147,7 +147,7 @@ fn cubic(a: &Sample, b: &Sample, t: f64) -> f64 {
 }
 
 /// Where the cubic through two samples is highest or lowest between them, in order.
-fn inner_extremes(a: &Sample, b: &Sample) -> impl Iterator<Item = Sample> {
+pub(crate) fn inner_extremes(a: &Sample, b: &Sample) -> impl Iterator<Item = Sample> {
     // The derivative by u = (t - a.t) / h is p u^2 + 2 q u + r.
     let h = b.t - a.t;
     let climb = b.energy - a.energy;

@@ -1,5 +1,7 @@
 //! Shielded designs through the program: dipoles behind shields are certified; what is not says so.
 
+use std::path::Path;
+
 use serde_json::Value;
 
 use crate::program::{stderr, stdout};
@@ -9,15 +11,20 @@ const DESIGN: &str = "shapes/shielded-backs.toml";
 const JUMPING: &str = "shapes/shielded-nearest-face.toml";
 const BARE: &str = "tests/designs/good/flat.toml";
 
+/// The summary and the report of a quick analysis into a folder.
+fn analysed(design: &str, folder: &Path) -> (String, Value) {
+    let out = folder.to_str().unwrap();
+    let quick = ["--milestones", "500", "--far-starts", "20"];
+    let output = tilebind(&[&["analyse", design, "--out", out], &quick[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(folder.join("report.json")).unwrap();
+    (stdout(&output), serde_json::from_str(&text).unwrap())
+}
+
 #[test]
 fn dipoles_behind_shields_are_certified() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().to_str().unwrap();
-    let quick = ["--milestones", "500", "--far-starts", "20"];
-    let output = tilebind(&[&["analyse", DESIGN, "--out", out], &quick[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let text = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
-    let report: Value = serde_json::from_str(&text).unwrap();
+    let (_, report) = analysed(DESIGN, folder.path());
     assert_eq!(report["settings"]["shields"], "smooth");
     assert!(report["uncertified"].is_null());
     let barriers = report["barriers"].as_array().unwrap();
@@ -36,15 +43,9 @@ fn dipoles_behind_shields_are_certified() {
 #[test]
 fn analyse_says_that_jumping_energies_are_not_certified() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().to_str().unwrap();
-    let quick = ["--milestones", "500", "--far-starts", "20"];
-    let output = tilebind(&[&["analyse", JUMPING, "--out", out], &quick[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let summary = stdout(&output);
+    let (summary, report) = analysed(JUMPING, folder.path());
     assert!(summary.contains("not certified"), "{summary}");
 
-    let text = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
-    let report: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(report["settings"]["shields"], "nearest-face");
     let why = report["uncertified"].as_str().unwrap();
     assert!(why.contains("nearest-face"), "{why}");

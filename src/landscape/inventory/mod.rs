@@ -90,10 +90,10 @@ impl Inventory {
     }
 
     /// Whether a barrier is among those of which more is claimed than an estimate.
-    pub fn is_claimed(&self, number: usize, claims: Claims) -> bool {
+    pub fn is_claimed(&self, barrier: &Barrier, claims: Claims) -> bool {
         match claims {
             Claims::All => true,
-            Claims::BondAndDeepestTrap => self.is_main(&self.barriers[number]),
+            Claims::BondAndDeepestTrap => self.is_main(barrier),
         }
     }
 

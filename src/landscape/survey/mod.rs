@@ -80,7 +80,6 @@ impl Survey {
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
         survey.find_states(problem, guesses, settings);
-        survey.network.span();
         survey.withdraw(problem, settings);
         survey.network.span();
         let mut tried = HashSet::new();

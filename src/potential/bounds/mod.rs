@@ -2,13 +2,13 @@
 //! ([`DipoleBounds`]), also behind shields ([`ShieldedBounds`]), and of blocks ([`CuboidBounds`]).
 
 mod cuboid;
-mod dipole;
+pub(super) mod dipole;
 mod near;
 
 pub use super::shielding::ShieldedBounds;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
-pub(super) use near::{Interval, NearPair};
+pub(super) use near::{Interval, NearPair, depths};
 
 use crate::cell::{Cell, Quadratic};
 

@@ -7,9 +7,17 @@
 
 use std::f64::consts::PI;
 
+use crate::tile::{Magnet, Tile};
+
 /// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
 /// as touching, with room to spare.
 const SLACK: f64 = 1e-8;
+
+/// How deep (m) a tile's magnets lie inside its outline.
+pub fn depths(tile: &Tile) -> Vec<f64> {
+    let depth = |magnet: &Magnet| (-tile.outline.signed_distance(magnet.position)).max(0.0);
+    tile.magnets.iter().map(depth).collect()
+}
 
 /// The numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,7 @@
 //! [`Forms`](kernel::Forms)). The others, near each other or where the factor changes too fast,
 //! have an interval each, the product of those of the energy and of the two factors:
 //!
-//! * the energy `K / r^3 [-1/2 cos(a - b) - 3/2 cos(a + b - 2 phi)]` over the distances r and the
-//!   angles within reach, r being at least the sum of the two magnets' distances to their own
-//!   outlines, as for bare dipoles;
+//! * the energy over the distances and angles within reach, as for bare dipoles ([`NearPair`]);
 //! * a factor `g = eta (1 - S) + G S`, in which eta grows with r and S with the cosine: linear in
 //!   either, it lies between its values at the corners of their ranges.
 //!
@@ -20,7 +18,7 @@ use super::potential::shielded;
 use super::{Shield, Shields};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
-use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair};
+use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths};
 use crate::tile::Tile;
 use crate::units::MU0;
 use nalgebra::Vector2;
@@ -51,10 +49,6 @@ impl ShieldedBounds {
 
     /// The same for the given instruction set.
     pub fn with_level(fixed: &Tile, moving: &Tile, shields: &Shields, level: Level) -> Self {
-        let depths = |tile: &Tile| {
-            let depth = |p| (-tile.outline.signed_distance(p)).max(0.0);
-            tile.magnets.iter().map(|m| depth(m.position)).collect()
-        };
         let first = shielded(fixed, &shields.fixed);
         Self {
             level,

@@ -20,7 +20,7 @@ pub(crate) mod tests;
 
 use std::f64::consts::PI;
 
-use super::near::{Interval, NearPair};
+use super::near::{Interval, NearPair, depths};
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
@@ -134,13 +134,8 @@ impl DipoleBounds {
 }
 
 fn dipoles_and_depths(tile: &Tile) -> Vec<(Dipole, f64)> {
-    tile.magnets
-        .iter()
-        .map(|magnet| {
-            let depth = -tile.outline.signed_distance(magnet.position);
-            (Dipole::from(magnet), depth.max(0.0))
-        })
-        .collect()
+    let dipoles = tile.magnets.iter().map(Dipole::from);
+    dipoles.zip(depths(tile)).collect()
 }
 
 impl Fixed {

@@ -49,6 +49,34 @@ fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
     }
 }
 
+/// Asserts that the energies of free ones among twenty random configurations of a cell lie in its
+/// enclosure; returns how many these were.
+pub fn assert_encloses(
+    enclosure: &Enclosure,
+    potential: &dyn Potential,
+    contact: &Contact,
+    cell: &Cell,
+    rng: &mut ChaCha8Rng,
+) -> usize {
+    let mut tested = 0;
+    for _ in 0..20 {
+        let d = cell.half.map(|half| half * rng.random_range(-1.0..=1.0));
+        let q = cell.centre.moved(d.into());
+        if !contact.is_free(&q) {
+            continue;
+        }
+        let rest = potential.energy(&q) - enclosure.form.at(d);
+        tested += 1;
+        assert!(
+            rest >= enclosure.low && rest <= enclosure.high,
+            "{cell:?} {d:?}: {rest} not in [{}, {}]",
+            enclosure.low,
+            enclosure.high
+        );
+    }
+    tested
+}
+
 fn check_random_cells(level: Level) {
     let (a, b) = paper_tiles();
     let bounds = DipoleBounds::with_level(&a, &b, level);
@@ -68,22 +96,9 @@ fn check_random_cells(level: Level) {
         };
         let enclosure = bounds.enclose(&cell);
         assert!(enclosure.low <= 0.0 && enclosure.high >= 0.0);
-        for _ in 0..20 {
-            let d: [f64; 3] = std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
-            let q = cell.centre.moved(d.into());
-            if !contact.is_free(&q) {
-                continue;
-            }
-            let rest = potential.energy(&q) - enclosure.form.at(d);
-            tested += 1;
-            near += usize::from(size > 0.01);
-            assert!(
-                rest >= enclosure.low && rest <= enclosure.high,
-                "{cell:?} {d:?}: {rest} not in [{}, {}]",
-                enclosure.low,
-                enclosure.high
-            );
-        }
+        let free = assert_encloses(&enclosure, &potential, &contact, &cell, &mut rng);
+        tested += free;
+        near += if size > 0.01 { free } else { 0 };
     }
     assert!(tested > 10_000 && near > 3_000, "{tested} {near}");
 }

@@ -2,6 +2,7 @@ use super::*;
 use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::design::Design;
+use crate::potential::bounds::dipole::tests::assert_encloses;
 use crate::potential::{MagnetModel, Potential, ShieldedPotential};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -48,22 +49,9 @@ fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
                 half: [1.0, 1.0, 10.0].map(|scale| scale * size * rng.random_range(0.0..1.0)),
             };
             let enclosure = bounds.enclose(&cell);
-            for _ in 0..20 {
-                let d = cell.half.map(|h| h * rng.random_range(-1.0..=1.0));
-                let q = cell.centre.moved(d.into());
-                if !contact.is_free(&q) {
-                    continue;
-                }
-                let rest = potential.energy(&q) - enclosure.form.at(d);
-                tested += 1;
-                large += usize::from(size > 0.01);
-                assert!(
-                    rest >= enclosure.low && rest <= enclosure.high,
-                    "{cell:?} {d:?}: {rest} not in [{}, {}]",
-                    enclosure.low,
-                    enclosure.high
-                );
-            }
+            let free = assert_encloses(&enclosure, &potential, &contact, &cell, &mut rng);
+            tested += free;
+            large += if size > 0.01 { free } else { 0 };
         }
         assert!(tested > 10_000 && large > 2_000, "{tested} {large}");
     }

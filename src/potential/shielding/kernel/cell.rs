@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::curvature::{dipole_limits, factor_limits};
+use super::curvature::{dipole_limits, pair_limits};
 use super::factor::pair_factor;
-use super::{Columns, Magnet, Vectors, Way, dipoles};
+use super::{Columns, Magnet, Vectors, Way, dipoles, product_gradient};
 use crate::cell::Cell;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 
@@ -30,7 +30,7 @@ const LEAST_LEVER: f64 = 1e-3;
 ///
 /// On the straight way from the centre to a configuration of the cell a magnet is at most as fast
 /// as its reach V and turns at half the cell's angle W. In units in which it is no faster than 1 it
-/// turns at the rate W / V, so that [`dipole_limits`] and [`factor_limits`], taken at the distance
+/// turns at the rate W / V, so that [`dipole_limits`] and [`pair_limits`], taken at the distance
 /// `r - V`, bound the second derivative along the way, and the form is wrong by at most
 ///
 /// ```text
@@ -79,13 +79,8 @@ impl Task for Forms<'_> {
                 let r = l.select(room, l.sub(way.distance, l.splat(speed)), one);
                 let inverse = l.reciprocal(r);
                 let [u0, u1, u2] = dipole_limits(l, &first, &second, turn, inverse);
-                let a = factor_limits(l, first.shield, turn, r, inverse);
-                let b = factor_limits(l, second.shield, turn, r, inverse);
+                let [w0, w1, w2] = pair_limits(l, &first, &second, turn, r, inverse);
                 let two = l.splat(2.0);
-                let w0 = l.mul(a[0], b[0]);
-                let w1 = l.mul_add(a[1], b[0], l.mul(a[0], b[1]));
-                let w2 = l.mul_add(a[2], b[0], l.mul(a[0], b[2]));
-                let w2 = l.mul_add(l.mul(two, a[1]), b[1], w2);
                 let w = pair_factor::<L, true>(l, &first, &second, &way);
                 let u = dipoles::<L, true>(l, &first, &second, &way);
                 // Behind a shield the factor is smaller than anywhere: as much as at the centre,
@@ -104,11 +99,7 @@ impl Task for Forms<'_> {
                 self.note_rest(l, mask, j, from);
 
                 let (w0, u0) = (l.mul(mask, w[0]), l.mul(mask, u[0]));
-                let gx = l.mul_add(w0, u[1], l.mul(u0, w[1]));
-                let gy = l.mul_add(w0, u[2], l.mul(u0, w[2]));
-                let by_angle = l.mul_add(w0, u[3], l.mul(u0, w[3]));
-                let by_angle = l.mul_add(l.splat(arm.x), gy, by_angle);
-                let by_angle = l.neg_mul_add(l.splat(arm.y), gx, by_angle);
+                let [gx, gy, by_angle] = product_gradient(l, [w0, w[1], w[2], w[3]], u0, &u, arm);
                 let relative = l.mul_add(slope, v, size);
                 let placed = l.mul_add(bend, v, slope);
                 let error = l.mul(l.splat(rounding), relative);

@@ -48,13 +48,8 @@ impl Task for Curvature<'_> {
                         ]
                     }
                 };
-                let a = factor_limits(l, first.shield, turn, r, inverse);
-                let b = factor_limits(l, second.shield, turn, r, inverse);
+                let [w0, w1, w2] = pair_limits(l, &first, &second, turn, r, inverse);
                 let two = l.splat(2.0);
-                let w0 = l.mul(a[0], b[0]);
-                let w1 = l.mul_add(a[1], b[0], l.mul(a[0], b[1]));
-                let w2 = l.mul_add(a[2], b[0], l.mul(a[0], b[2]));
-                let w2 = l.mul_add(l.mul(two, a[1]), b[1], w2);
                 sum = l.mul_add(w0, u[2], sum);
                 sum = l.mul_add(l.mul(two, w1), u[1], sum);
                 sum = l.mul_add(w2, u[0], sum);
@@ -85,6 +80,27 @@ pub(super) fn dipole_limits<L: Lanes>(
     let bend = l.mul_add(l.splat(24.0), inverse, l.mul(l.splat(18.0), turn));
     let bend = l.mul_add(bend, inverse, l.mul(l.mul(l.splat(2.0), turn), turn));
     [energy, l.mul(cube, slope), l.mul(cube, bend)]
+}
+
+/// Bounds of the magnitudes of the factor of two magnets and of its first and second derivatives:
+/// the product rule over those of either (see [`factor_limits`]).
+#[inline(always)]
+pub(super) fn pair_limits<L: Lanes>(
+    l: L,
+    first: &Vectors<L::F>,
+    second: &Vectors<L::F>,
+    turn: L::F,
+    r: L::F,
+    inverse: L::F,
+) -> [L::F; 3] {
+    let a = factor_limits(l, first.shield, turn, r, inverse);
+    let b = factor_limits(l, second.shield, turn, r, inverse);
+    let w2 = l.mul_add(a[2], b[0], l.mul(a[0], b[2]));
+    [
+        l.mul(a[0], b[0]),
+        l.mul_add(a[1], b[0], l.mul(a[0], b[1])),
+        l.mul_add(l.mul(l.splat(2.0), a[1]), b[1], w2),
+    ]
 }
 
 /// Bounds of the magnitudes of g and of its first and second derivatives along a motion with a

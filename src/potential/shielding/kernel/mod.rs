@@ -199,11 +199,8 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
                 let (w0, u0) = (l.mul(mask, w[0]), l.mul(mask, u[0]));
                 sums[0] = l.mul_add(w0, u[0], sums[0]);
                 if SLOPE {
-                    let gx = l.mul_add(w0, u[1], l.mul(u0, w[1]));
-                    let gy = l.mul_add(w0, u[2], l.mul(u0, w[2]));
-                    let turn = l.mul_add(w0, u[3], l.mul(u0, w[3]));
-                    let turn = l.mul_add(l.splat(arm.x), gy, turn);
-                    let turn = l.neg_mul_add(l.splat(arm.y), gx, turn);
+                    let w = [w0, w[1], w[2], w[3]];
+                    let [gx, gy, turn] = product_gradient(l, w, u0, &u, arm);
                     sums[1] = l.add(sums[1], gx);
                     sums[2] = l.add(sums[2], gy);
                     sums[3] = l.add(sums[3], turn);
@@ -216,6 +213,24 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
         let gradient = Vector3::new(l.sum(sums[1]), l.sum(sums[2]), l.sum(sums[3]));
         (l.sum(sums[0]), gradient)
     }
+}
+
+/// The gradient, by x, y and theta, of factors times energies: `w` and `u` are the value, its
+/// gradient by the second magnet's place and its derivative by that magnet's angle, `u0` is the
+/// energy (masked like `w`'s value), and `arm` leads from the reference point to the second magnet.
+#[inline(always)]
+fn product_gradient<L: Lanes>(
+    l: L,
+    w: [L::F; 4],
+    u0: L::F,
+    u: &[L::F; 4],
+    arm: Vector2<f64>,
+) -> [L::F; 3] {
+    let gx = l.mul_add(w[0], u[1], l.mul(u0, w[1]));
+    let gy = l.mul_add(w[0], u[2], l.mul(u0, w[2]));
+    let turn = l.mul_add(w[0], u[3], l.mul(u0, w[3]));
+    let turn = l.mul_add(l.splat(arm.x), gy, turn);
+    [gx, gy, l.neg_mul_add(l.splat(arm.y), gx, turn)]
 }
 
 /// The way from a first magnet to a second one.

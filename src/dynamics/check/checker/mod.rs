@@ -1,16 +1,19 @@
 //! The trajectories that check one barrier.
 
+mod kick;
+mod sides;
+
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::{BarrierCheck, Below, CheckSettings, Side, SideVerdict};
+use super::{BarrierCheck, Below, CheckSettings};
 use crate::configuration::Configuration;
 use crate::dynamics::docking::{minimum_below, stream};
 use crate::dynamics::trajectory::normal;
 use crate::dynamics::{Body, Motion, MotionSettings, Sample, Simulation};
-use crate::landscape::{Barrier, Pathway, PathwayPoint, Place, State, pathway};
+use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
 
 /// A tile this close (m, metric of the space) to a state may be in it.
@@ -24,9 +27,8 @@ const TRAVEL: f64 = 0.15;
 const LONGEST: f64 = 10.0;
 /// Share of the approach velocity that their knocks give back.
 const RESTITUTION: f64 = 0.9;
-/// Drag (1/s) of the trajectories from either side of the saddle, and how long (s) they last.
+/// Drag (1/s) of the trajectories from either side of the saddle.
 const LIGHT_DRAG: f64 = 0.5;
-const SETTLING: f64 = 60.0;
 /// Longest way (m) of a point of the tile in one step in contact.
 const STEP: f64 = 5e-4;
 /// How far below the barrier trajectories start, in barriers.
@@ -35,19 +37,6 @@ const BELOW: [f64; 2] = [0.001, 0.05];
 const ABOVE: [f64; 2] = [0.1, 2.0];
 /// Starts tried in place of spoilt ones.
 const TRIES: usize = 10;
-/// How far below the saddle the tile is released on either side, in barriers.
-const BESIDE: f64 = 0.01;
-/// Energies of kicks that are tried, in barriers.
-const KICKS: [f64; 16] = [
-    0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 8.0,
-];
-/// Kicked tiles are followed this many times longer than others.
-const PATIENCE: f64 = 2.0;
-/// Directions tried for each energy, and how far apart they are, as a share of the pathway's.
-const AIMS: usize = 4;
-const ASIDE: f64 = 0.1;
-/// Kicks lead along the pathway up to this share of the barrier.
-const AHEAD: f64 = 0.05;
 
 pub(super) struct Checker<'a> {
     problem: &'a Problem,
@@ -297,132 +286,6 @@ impl<'a> Checker<'a> {
             .min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let nearest = nearest.filter(|state| distance(state) < SAME)?;
         Some(Place::State(nearest.id))
-    }
-
-    /// Released at rest a little before the saddle and a little behind it, where the pathway from
-    /// either end first rises that high.
-    fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
-        let path = &self.barrier.pathway;
-        let Some(highest) = pathway::highest_point(path) else {
-            return [None; 2];
-        };
-        let top = path.iter().position(|p| p == highest).unwrap_or(0);
-        let (before, behind) = (&path[..top], &path[top + 1..]);
-        let Barrier { from, to, .. } = self.barrier;
-        let on = [
-            self.places_on(before, *from, *to),
-            self.places_on(behind, *to, *from),
-        ];
-        [0, 1].map(|side| {
-            if side == 1 && *to == Place::Free {
-                return None;
-            }
-            let drop = match to {
-                Place::Free => self.barrier.forward(),
-                Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
-            };
-            // Below the ceiling all the way from its own end, so that an end on the other side
-            // refutes what is claimed.
-            let low = (highest.energy - BESIDE * drop).min(self.ceiling);
-            let is_low = |p: &&PathwayPoint| p.energy < low;
-            let released = match side {
-                0 => before.iter().take_while(is_low).last(),
-                _ => behind.iter().rev().take_while(is_low).last(),
-            };
-            let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
-            let ended = self.settled_place(settling, &start, steps);
-            let other = [*to, *from][side];
-            let verdict = match ended {
-                Some(place) if on[side].contains(&place) => SideVerdict::OnThePathway,
-                Some(place) if place == other => SideVerdict::Opposite,
-                _ => SideVerdict::Elsewhere,
-            };
-            Some(Side { ended, verdict })
-        })
-    }
-
-    /// The places that one half of the pathway passes: its own end and what lies on the way there.
-    fn places_on(&self, path: &[PathwayPoint], own: Place, other: Place) -> Vec<Place> {
-        let near = |state: &&State| {
-            let distance = |q: &Configuration| self.problem.space.distance(&state.configuration, q);
-            path.iter().any(|p| distance(&p.configuration) < ARRIVED)
-        };
-        let passed = self.states.iter().filter(near);
-        let passed = passed.map(|state| Place::State(state.id));
-        let passed = passed.filter(|place| *place != other);
-        std::iter::once(own).chain(passed).collect()
-    }
-
-    /// Where a trajectory with light drag comes to rest; `None` also where the integration's error
-    /// lifted it over the ceiling.
-    fn settled_place(
-        &self,
-        settling: &Simulation,
-        start: &Motion,
-        steps: &mut usize,
-    ) -> Option<Place> {
-        let space = &self.problem.space;
-        let slow = 1e-3 * self.barrier.forward();
-        let mut rng = stream(self.settings.seed, 0);
-        let mut spoilt = false;
-        let run = settling.run(start, SETTLING, &mut rng, &mut |sample| {
-            let q = &sample.motion.configuration;
-            spoilt |= sample.total() >= self.ceiling;
-            let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
-            spoilt || space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
-        });
-        *steps += run.free_steps + run.contact_steps;
-        (!spoilt).then(|| self.place_below(&run.last)).flatten()
-    }
-
-    /// The least kick along the pathway's beginning that leads to its end.
-    fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
-        let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
-        let kicked: Vec<Fated> = (0..KICKS.len() * AIMS)
-            .into_par_iter()
-            .map(|k| {
-                let mut rng = stream(self.settings.seed, k % AIMS);
-                let aside = self.direction(lossless, &first, &mut rng);
-                let energy = |v| lossless.body().kinetic_energy(v);
-                let aside = aside * (energy(&direction) / energy(&aside)).sqrt();
-                // The first aim is the pathway's own direction.
-                let aim = direction + aside * (ASIDE * (k % AIMS) as f64);
-                let energy = KICKS[k / AIMS] * self.climb;
-                let start = moving(lossless, first, aim, energy);
-                // As below the barrier: lifted by the integration's error, it proves nothing.
-                let ceiling = if energy < self.climb {
-                    self.ceiling
-                } else {
-                    f64::INFINITY
-                };
-                self.fate(
-                    lossless,
-                    &start,
-                    PATIENCE * self.duration,
-                    ceiling,
-                    &mut rng,
-                )
-            })
-            .collect();
-        *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
-        let least = kicked.iter().position(|kick| kick.0 == Fate::Crossed)?;
-        Some(KICKS[least / AIMS] * self.climb)
-    }
-
-    /// Where the pathway begins, and the direction of the body's motion along it.
-    fn way_out(
-        &self,
-        simulation: &Simulation,
-        path: &Pathway,
-    ) -> Option<(Configuration, Vector3<f64>)> {
-        let first = path.first()?;
-        let enough = first.energy + AHEAD * self.barrier.forward();
-        let ahead = path.iter().find(|p| p.energy > enough)?;
-        let step = first.configuration.step_to(&ahead.configuration);
-        // The centre of mass moves along with the turn.
-        let lever = simulation.body().lever(first.configuration.theta);
-        let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
-        Some((first.configuration, direction))
     }
 }
 

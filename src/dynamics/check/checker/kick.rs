@@ -1,0 +1,74 @@
+//! Kicks out of a state.
+
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+use super::{Checker, Fate, Fated, moving};
+use crate::configuration::Configuration;
+use crate::dynamics::Simulation;
+use crate::dynamics::docking::stream;
+use crate::landscape::Pathway;
+
+/// Energies of kicks that are tried, in barriers.
+const KICKS: [f64; 16] = [
+    0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 8.0,
+];
+/// Kicked tiles are followed this many times longer than others.
+const PATIENCE: f64 = 2.0;
+/// Directions tried for each energy, and how far apart they are, as a share of the pathway's.
+const AIMS: usize = 4;
+const ASIDE: f64 = 0.1;
+/// Kicks lead along the pathway up to this share of the barrier.
+const AHEAD: f64 = 0.05;
+
+impl Checker<'_> {
+    /// The least kick along the pathway's beginning that leads to its end.
+    pub(super) fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
+        let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
+        let kicked: Vec<Fated> = (0..KICKS.len() * AIMS)
+            .into_par_iter()
+            .map(|k| {
+                let mut rng = stream(self.settings.seed, k % AIMS);
+                let aside = self.direction(lossless, &first, &mut rng);
+                let energy = |v| lossless.body().kinetic_energy(v);
+                let aside = aside * (energy(&direction) / energy(&aside)).sqrt();
+                // The first aim is the pathway's own direction.
+                let aim = direction + aside * (ASIDE * (k % AIMS) as f64);
+                let energy = KICKS[k / AIMS] * self.climb;
+                let start = moving(lossless, first, aim, energy);
+                // As below the barrier: lifted by the integration's error, it proves nothing.
+                let ceiling = if energy < self.climb {
+                    self.ceiling
+                } else {
+                    f64::INFINITY
+                };
+                self.fate(
+                    lossless,
+                    &start,
+                    PATIENCE * self.duration,
+                    ceiling,
+                    &mut rng,
+                )
+            })
+            .collect();
+        *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
+        let least = kicked.iter().position(|kick| kick.0 == Fate::Crossed)?;
+        Some(KICKS[least / AIMS] * self.climb)
+    }
+
+    /// Where the pathway begins, and the direction of the body's motion along it.
+    fn way_out(
+        &self,
+        simulation: &Simulation,
+        path: &Pathway,
+    ) -> Option<(Configuration, Vector3<f64>)> {
+        let first = path.first()?;
+        let enough = first.energy + AHEAD * self.barrier.forward();
+        let ahead = path.iter().find(|p| p.energy > enough)?;
+        let step = first.configuration.step_to(&ahead.configuration);
+        // The centre of mass moves along with the turn.
+        let lever = simulation.body().lever(first.configuration.theta);
+        let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
+        Some((first.configuration, direction))
+    }
+}

@@ -1,0 +1,93 @@
+//! Tiles released beside the saddle.
+
+use nalgebra::Vector3;
+
+use super::super::{Side, SideVerdict};
+use super::{ARRIVED, Checker, moving};
+use crate::configuration::Configuration;
+use crate::dynamics::docking::stream;
+use crate::dynamics::{Motion, Simulation};
+use crate::landscape::{Barrier, PathwayPoint, Place, State, pathway};
+
+/// How far below the saddle the tile is released on either side, in barriers.
+const BESIDE: f64 = 0.01;
+/// How long (s) the tile may take to come to rest.
+const SETTLING: f64 = 60.0;
+
+impl Checker<'_> {
+    /// Released at rest a little before the saddle and a little behind it, where the pathway from
+    /// either end first rises that high.
+    pub(super) fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
+        let path = &self.barrier.pathway;
+        let Some(highest) = pathway::highest_point(path) else {
+            return [None; 2];
+        };
+        let top = path.iter().position(|p| p == highest).unwrap_or(0);
+        let (before, behind) = (&path[..top], &path[top + 1..]);
+        let Barrier { from, to, .. } = self.barrier;
+        let on = [
+            self.places_on(before, *from, *to),
+            self.places_on(behind, *to, *from),
+        ];
+        [0, 1].map(|side| {
+            if side == 1 && *to == Place::Free {
+                return None;
+            }
+            let drop = match to {
+                Place::Free => self.barrier.forward(),
+                Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
+            };
+            // Below the ceiling all the way from its own end, so that an end on the other side
+            // refutes what is claimed.
+            let low = (highest.energy - BESIDE * drop).min(self.ceiling);
+            let is_low = |p: &&PathwayPoint| p.energy < low;
+            let released = match side {
+                0 => before.iter().take_while(is_low).last(),
+                _ => behind.iter().rev().take_while(is_low).last(),
+            };
+            let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
+            let ended = self.settled_place(settling, &start, steps);
+            let other = [*to, *from][side];
+            let verdict = match ended {
+                Some(place) if on[side].contains(&place) => SideVerdict::OnThePathway,
+                Some(place) if place == other => SideVerdict::Opposite,
+                _ => SideVerdict::Elsewhere,
+            };
+            Some(Side { ended, verdict })
+        })
+    }
+
+    /// The places that one half of the pathway passes: its own end and what lies on the way there.
+    fn places_on(&self, path: &[PathwayPoint], own: Place, other: Place) -> Vec<Place> {
+        let near = |state: &&State| {
+            let distance = |q: &Configuration| self.problem.space.distance(&state.configuration, q);
+            path.iter().any(|p| distance(&p.configuration) < ARRIVED)
+        };
+        let passed = self.states.iter().filter(near);
+        let passed = passed.map(|state| Place::State(state.id));
+        let passed = passed.filter(|place| *place != other);
+        std::iter::once(own).chain(passed).collect()
+    }
+
+    /// Where a trajectory with light drag comes to rest; `None` also where the integration's error
+    /// lifted it over the ceiling.
+    fn settled_place(
+        &self,
+        settling: &Simulation,
+        start: &Motion,
+        steps: &mut usize,
+    ) -> Option<Place> {
+        let space = &self.problem.space;
+        let slow = 1e-3 * self.barrier.forward();
+        let mut rng = stream(self.settings.seed, 0);
+        let mut spoilt = false;
+        let run = settling.run(start, SETTLING, &mut rng, &mut |sample| {
+            let q = &sample.motion.configuration;
+            spoilt |= sample.total() >= self.ceiling;
+            let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
+            spoilt || space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
+        });
+        *steps += run.free_steps + run.contact_steps;
+        (!spoilt).then(|| self.place_below(&run.last)).flatten()
+    }
+}
