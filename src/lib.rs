@@ -44,16 +44,15 @@
 //! # Ok::<(), tilebind::design::DesignError>(())
 //! ```
 
-pub mod analysis;
 pub mod calibration;
 pub mod cell;
-pub mod certification;
 pub mod comparison;
 pub mod configuration;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
 pub mod landscape;
+pub mod observer;
 pub mod pipeline;
 pub mod potential;
 pub mod problem;
@@ -64,7 +63,7 @@ pub mod sweep;
 pub mod tile;
 pub mod units;
 
-pub use analysis::{Analysis, Settings};
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;
+pub use pipeline::{Analysis, Settings};
 pub use problem::Problem;

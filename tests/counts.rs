@@ -27,14 +27,14 @@ fn paper_tile() -> Design {
 
 fn portable(design: &Design) -> Problem {
     let potential = DipolePotential::with_level(
-        &dipoles(&design.fixed.magnets),
-        &dipoles(&design.moving.magnets),
+        &dipoles(&design.pair.fixed.magnets),
+        &dipoles(&design.pair.moving.magnets),
         Level::PORTABLE,
     );
     Problem::of_tiles(
         design.space(),
-        &design.fixed,
-        &design.moving,
+        &design.pair.fixed,
+        &design.pair.moving,
         Box::new(potential),
     )
 }
@@ -91,7 +91,7 @@ fn energies_of_a_descent() {
 fn cells_of_a_certificate() {
     let design = paper_tile();
     let problem = portable(&design);
-    let bounds = DipoleBounds::with_level(&design.fixed, &design.moving, Level::PORTABLE);
+    let bounds = DipoleBounds::with_level(&design.pair.fixed, &design.pair.moving, Level::PORTABLE);
     let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
     let effort = Effort {
         tolerance: 0.65e-3,
@@ -100,7 +100,7 @@ fn cells_of_a_certificate() {
     };
     let slid = Configuration::new(0.43, 0.04, 0.0);
     let found = certifier
-        .bracket(&slid, &End::At(design.bound), &[], &effort)
+        .bracket(&slid, &End::At(design.pair.bound), &[], &effort)
         .expect("both ends are free");
     assert_eq!([found.cells, found.rounds], [4838, 14], "cells, rounds");
 }

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use tilebind::analysis::Settings;
+use tilebind::Settings;
 use tilebind::dynamics::check::BarrierCheck;
-use tilebind::pipeline::{self, Observer};
+use tilebind::observer::Observer;
+use tilebind::pipeline;
 use tilebind::report::writer::{self, Extent, WriteError};
 use tilebind::report::{arrays, summary};
 
@@ -48,9 +49,9 @@ pub struct Analyse {
     survey: SurveyOptions,
 
     /// Runs, each with the next seed; every barrier's spread over them is reported
-    #[arg(long, value_name = "R", default_value_t = 1,
-          value_parser = clap::value_parser!(u32).range(1..))]
-    repeats: u32,
+    #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
+          value_parser = input::count)]
+    repeats: usize,
 
     /// Accept milestones by Boltzmann's rule at this energy (J), not by the linear rule
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
@@ -66,7 +67,8 @@ pub struct Analyse {
     tolerance: Option<f64>,
 
     /// Seconds after which the certificate keeps the bounds it has; 0 for no certificate
-    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
+    #[arg(long, value_name = "S", default_value_t = Settings::default().certify_seconds,
+          value_parser = input::not_negative)]
     certify_seconds: f64,
 
     #[command(flatten)]
@@ -118,13 +120,13 @@ impl Analyse {
     fn settings(&self) -> Settings {
         Settings {
             seed: self.work.seed,
-            milestones: self.survey.milestones(),
-            neighbours: self.survey.neighbours(),
+            milestones: self.survey.milestones,
+            neighbours: self.survey.neighbours,
             boltzmann: self.boltzmann,
             thermal_energy: self.thermal_energy,
             settled: self.survey.settled,
-            far_starts: self.survey.far_starts(),
-            repeats: self.repeats as usize,
+            far_starts: self.survey.far_starts,
+            repeats: self.repeats,
             tolerance: self.tolerance,
             certify_seconds: self.certify_seconds,
             dynamics_runs: self.survey.dynamics_runs(),

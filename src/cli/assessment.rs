@@ -23,19 +23,20 @@ pub struct AssessmentOptions {
     tolerance: Option<f64>,
 
     /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds
-    #[arg(long, value_name = "N", default_value_t = 200_000)]
-    certify_cells: u32,
+    #[arg(long, value_name = "N", default_value_t = AssessmentSettings::default().certify_cells,
+          value_parser = input::count_or_none)]
+    certify_cells: usize,
 }
 
 impl AssessmentOptions {
     pub fn settings(&self) -> AssessmentSettings {
         AssessmentSettings {
-            milestones: self.survey.milestones(),
-            neighbours: self.survey.neighbours(),
+            milestones: self.survey.milestones,
+            neighbours: self.survey.neighbours,
             settled: self.survey.settled,
-            far_starts: self.survey.far_starts(),
+            far_starts: self.survey.far_starts,
             tolerance: self.tolerance,
-            certify_cells: self.certify_cells as usize,
+            certify_cells: self.certify_cells,
             dynamics_runs: self.survey.dynamics_runs(),
         }
     }

@@ -5,11 +5,10 @@ use std::time::Duration;
 
 use clap::Args;
 use serde::Serialize;
-use tilebind::Configuration;
-use tilebind::analysis::Settings;
 use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
+use tilebind::{Configuration, Settings};
 
 use super::options::{DesignOptions, WorkOptions};
 use super::progress::Progress;
@@ -45,13 +44,14 @@ pub struct Barrier {
     tolerance: Option<f64>,
 
     /// Stop narrowing the bounds after this time (s); 0 for no bounds
-    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = input::not_negative)]
+    #[arg(long, value_name = "S", default_value_t = Settings::default().certify_seconds,
+          value_parser = input::not_negative)]
     certify_seconds: f64,
 
     /// Milestones of the roadmap
-    #[arg(long, value_name = "N", default_value_t = 8000,
-          value_parser = clap::value_parser!(u32).range(1..))]
-    milestones: u32,
+    #[arg(long, value_name = "N", default_value_t = Settings::default().milestones,
+          value_parser = input::count)]
+    milestones: usize,
 
     /// File for the pathway (CSV)
     #[arg(long, value_name = "FILE")]
@@ -107,7 +107,7 @@ impl Barrier {
         })?;
         progress.finish();
         if let Some(file) = &self.pathway {
-            let table = csv::pathway(&answer.pathway);
+            let table = csv::pathway(&answer.barrier.pathway);
             interrupt::without(|| writer::write_file(file, table.as_bytes()))?;
         }
         print(&json::text(&self.entry(&answer)))
@@ -119,7 +119,7 @@ impl Barrier {
             to: self.to,
             settings: Settings {
                 seed: self.work.seed,
-                milestones: self.milestones as usize,
+                milestones: self.milestones,
                 ..Settings::default()
             },
             tolerance: self.tolerance,
@@ -128,20 +128,23 @@ impl Barrier {
     }
 
     fn entry(&self, answer: &Answer) -> Entry {
+        let barrier = &answer.barrier;
         Entry {
             from: self.from.to_array(),
             to: match self.to {
                 End::At(pose) => EndEntry::Pose(pose.to_array()),
                 End::Free => EndEntry::Place("free"),
             },
-            saddle_energy_J: json::positive_zero(answer.saddle_energy),
-            saddle_pose: answer.saddle.map(|q| q.to_array().map(json::positive_zero)),
-            lower_J: answer.lower.filter(|lower| lower.is_finite()),
-            upper_J: answer.upper,
-            forward_J: json::positive_zero(answer.forward()),
-            reverse_J: json::positive_zero(answer.reverse()),
+            saddle_energy_J: json::positive_zero(barrier.saddle_energy),
+            saddle_pose: barrier
+                .has_way()
+                .then(|| barrier.saddle.to_array().map(json::positive_zero)),
+            lower_J: barrier.bounds.lower,
+            upper_J: barrier.bounds.upper,
+            forward_J: json::positive_zero(barrier.forward()),
+            reverse_J: json::positive_zero(barrier.reverse()),
             uncertified: answer.uncertified.map(|why| why.to_string()),
-            caged: answer.caged,
+            caged: barrier.bounds.caged,
             pathway: self.pathway.clone(),
         }
     }

@@ -55,12 +55,17 @@ impl Calibrate {
         let text = std::fs::read_to_string(&self.table).map_err(|error| wrong(&error))?;
         let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
         let specimen = Specimen {
-            model: design.model,
-            fixed: &design.fixed,
-            moving: &design.moving,
-            shields: &design.shields,
+            model: design.interaction.model,
+            fixed: &design.pair.fixed,
+            moving: &design.pair.moving,
+            shields: &design.interaction.shields,
         };
-        let known = design.shields.fixed.iter().chain(&design.shields.moving);
+        let known = design
+            .interaction
+            .shields
+            .fixed
+            .iter()
+            .chain(&design.interaction.shields.moving);
         let defaults = CalibrationSettings::default();
         let settings = CalibrationSettings {
             hold_out_every: self.hold_out.into(),

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::comparison::{self, Assessment, Quantity};
 use tilebind::design::{Design, MagnetModel};
-use tilebind::pipeline::Observer;
+use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
 use tilebind::report::page::Page;
 use tilebind::report::plots::ranking;
@@ -116,7 +116,7 @@ impl Compare {
         let mut seen = HashSet::new();
         let repeated: HashSet<String> = designs
             .iter()
-            .filter(|design| !seen.insert((design.name.clone(), design.model.name())))
+            .filter(|design| !seen.insert((design.name.clone(), design.interaction.model.name())))
             .map(|design| design.name.clone())
             .collect();
         for (design, path) in designs.iter_mut().zip(&self.designs) {

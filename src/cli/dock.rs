@@ -113,6 +113,7 @@ const INTERVAL: f64 = 0.02;
 impl Dock {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
+        let problem = design.problem();
         self.work.use_threads()?;
         interrupt::prepare()?;
         let settings = self.settings();
@@ -128,7 +129,7 @@ impl Dock {
             let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             progress.share("trajectories", done as f64 / settings.runs as f64);
         };
-        let docking = docking::dock(&design, &settings, &step).map_err(usage)?;
+        let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
         let map = DockingMap::new(&docking, CELLS);
         let json = report::json(&design, &docking, &map);
         if let Some(folder) = &self.out {
@@ -138,7 +139,7 @@ impl Dock {
                 ("map.csv", map.csv().into_bytes()),
             ];
             let trace = |run: &DockingRun| {
-                let samples = docking::trajectory(&design, &settings, run.index, INTERVAL);
+                let samples = docking::trajectory(&problem, &settings, run.index, INTERVAL);
                 Ok((*run, samples.map_err(usage)?))
             };
             let played = self.played(&docking);
@@ -163,7 +164,7 @@ impl Dock {
                 title: title.to_owned(),
                 svg: picture.svg.clone(),
             });
-            let page = Page::of_docking(&design, &docking, &played, pictures.into());
+            let page = Page::of_docking(&design, &problem, &docking, &played, pictures.into());
             files.push((writer::PAGE, page.to_html().into_bytes()));
             files.push(("chances.svg", chances.svg.into_bytes()));
             files.push(("chances.png", chances.png));
@@ -172,7 +173,7 @@ impl Dock {
             interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
-        let summary = || report::summary(&design, &docking, &map);
+        let summary = || report::summary(&design, &problem, &docking, &map);
         self.print.results(&json, summary)
     }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use serde::Serialize;
 use tilebind::report::json;
-use tilebind::{Configuration, Problem, pipeline};
+use tilebind::{Configuration, Problem};
 
 use super::options::DesignOptions;
 use super::{Failure, input, print};
@@ -46,7 +46,7 @@ struct Entry {
 impl Energy {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
-        let problem = pipeline::problem(&design);
+        let problem = design.problem();
         let entries: Vec<Entry> = self.poses.iter().map(|q| entry(&problem, q)).collect();
         print(&json::text(&entries))
     }

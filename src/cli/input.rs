@@ -20,7 +20,7 @@ pub fn load(path: &Path) -> Result<Design, Failure> {
 /// A design with its magnets modelled as `model` says, if it says so.
 pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
     let mut design = load(path)?;
-    design.model = model.unwrap_or(design.model);
+    design.interaction.model = model.unwrap_or(design.interaction.model);
     Ok(design)
 }
 
@@ -43,6 +43,23 @@ pub fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',')
         .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
         .collect()
+}
+
+/// A whole number, at least 1; `1e4` is one too.
+pub fn count(text: &str) -> Result<usize, String> {
+    let found = count_or_none(text).ok().filter(|&count| count > 0);
+    found.ok_or_else(|| "a whole number of 1 or more is needed, such as 8000 or 8e3".to_owned())
+}
+
+/// A whole number, 0 among them.
+pub fn count_or_none(text: &str) -> Result<usize, String> {
+    let scientific = || {
+        let number = text.parse().ok();
+        let whole = |x: &f64| x.fract() == 0.0 && (0.0..1e15).contains(x);
+        number.filter(whole).map(|x| x as usize)
+    };
+    let found = text.parse().ok().or_else(scientific);
+    found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
 }
 
 /// A positive number.

@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::Settings;
 use tilebind::design::{Design, MagnetModel};
 
 use super::progress::Progress;
@@ -34,44 +35,34 @@ impl DesignOptions {
 #[derive(Args)]
 pub struct SurveyOptions {
     /// Milestones of the roadmap
-    #[arg(long, value_name = "N", default_value_t = 8000,
-          value_parser = clap::value_parser!(u32).range(1..))]
-    milestones: u32,
+    #[arg(long, value_name = "N", default_value_t = Settings::default().milestones,
+          value_parser = input::count)]
+    pub milestones: usize,
 
     /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
-    neighbours: Option<u32>,
+    #[arg(long, value_name = "K", value_parser = input::count)]
+    pub neighbours: Option<usize>,
 
     /// A barrier is settled when it moves by less than this fraction
-    #[arg(long, value_name = "F", default_value_t = 0.005, value_parser = input::fraction)]
+    #[arg(long, value_name = "F", default_value_t = Settings::default().settled,
+          value_parser = input::fraction)]
     pub settled: f64,
 
     /// Far starts from which capture shares are counted
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    far_starts: u32,
+    #[arg(long, value_name = "N", default_value_t = Settings::default().far_starts,
+          value_parser = input::count_or_none)]
+    pub far_starts: usize,
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = clap::value_parser!(u32).range(1..))]
-    dynamics: Option<u32>,
+          default_missing_value = "1000", value_parser = input::count)]
+    dynamics: Option<usize>,
 }
 
 impl SurveyOptions {
-    pub fn milestones(&self) -> usize {
-        self.milestones as usize
-    }
-
-    pub fn neighbours(&self) -> Option<usize> {
-        self.neighbours.map(|k| k as usize)
-    }
-
-    pub fn far_starts(&self) -> usize {
-        self.far_starts as usize
-    }
-
     /// Trajectories below each barrier; 0 for no check.
     pub fn dynamics_runs(&self) -> usize {
-        self.dynamics.unwrap_or(0) as usize
+        self.dynamics.unwrap_or(0)
     }
 }
 
@@ -79,7 +70,7 @@ impl SurveyOptions {
 #[derive(Args)]
 pub struct WorkOptions {
     /// Seed of all random numbers: the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     pub seed: u64,
 
     /// Threads [default: all cores]; the results do not depend on them

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tilebind::pipeline::Observer;
+use tilebind::observer::Observer;
 
 /// Steps of the bar.
 const STEPS: u64 = 100;

@@ -23,7 +23,6 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::landscape::approach::Approach;
 use crate::landscape::minimum::{Outcome, drift};
 use crate::problem::Problem;
@@ -58,23 +57,18 @@ pub struct CaptureRange {
 
 /// The capture range of the bound state at `bond` with its energy (J); `None` where not even a tile
 /// that meets the other head-on is captured.
-pub fn find(
-    design: &Design,
-    problem: &Problem,
-    bond: &Configuration,
-    energy: f64,
-) -> Option<CaptureRange> {
-    let contact = problem.contact.as_ref()?;
-    let approach = Approach::new(&design.fixed, &design.moving, design.target, design.bound);
+pub fn find(problem: &Problem, bond: &Configuration, energy: f64) -> Option<CaptureRange> {
+    let pair = problem.pair.as_deref()?;
+    let approach = Approach::new(pair);
     let captured = |tilt: f64, offset: f64, gap: f64| {
-        let start = approach.before_contact(contact, tilt, offset, gap);
+        let start = approach.before_contact(problem, tilt, offset, gap);
         start.is_some_and(|start| is_captured(problem, &start, bond, energy))
     };
     if !captured(0.0, 0.0, 0.0) {
         return None;
     }
-    let length = design.fixed.faces[design.target.0].length();
-    let farthest = problem.space.free_distance - design.bound.position().norm();
+    let length = pair.target_face().length();
+    let farthest = problem.space.free_distance - pair.bound.position().norm();
     // Tilt, offset and gap at the end of each line.
     let ends = [
         [0.0, -length / 2.0, 0.0],
@@ -136,7 +130,7 @@ fn reach(holds: impl Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline;
+    use crate::design::Design;
 
     #[test]
     fn a_reach_ends_where_holding_ends() {
@@ -154,9 +148,9 @@ mod tests {
     #[test]
     fn every_start_within_the_range_of_the_paper_tile_binds_and_one_beyond_does_not() {
         let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
-        let problem = pipeline::problem(&design);
-        let energy = problem.energy(&design.bound);
-        let range = find(&design, &problem, &design.bound, energy).unwrap();
+        let problem = design.problem();
+        let energy = problem.energy(&design.pair.bound);
+        let range = find(&problem, &design.pair.bound, energy).unwrap();
         // The barrier between the bond and the state slid by one magnet lies between them.
         assert!(
             range.offset[1] > 0.005 && range.offset[1] < 0.040,
@@ -171,7 +165,7 @@ mod tests {
         assert!(range.tilt[0] < -0.05 && range.tilt[1] > 0.05, "{range:?}");
         let slid = |offset: f64| {
             let start = Configuration::new(0.43, offset, 0.0);
-            is_captured(&problem, &start, &design.bound, energy)
+            is_captured(&problem, &start, &design.pair.bound, energy)
         };
         assert!(slid(0.5 * range.offset[1]) && slid(0.98 * range.offset[1]));
         assert!(!slid(range.offset[1] + 0.0005));

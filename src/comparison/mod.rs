@@ -17,11 +17,11 @@ pub mod ranking;
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::{Analysis, Claims, Settings};
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Place, State, StateKind};
-use crate::pipeline::{self, Observer};
+use crate::landscape::{Barrier, Claims, SaddleBounds, State, StateKind};
+use crate::observer::Observer;
+use crate::pipeline::{self, Analysis, Settings};
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Bounds, Estimate, Quantity};
@@ -155,39 +155,33 @@ pub struct Way {
     /// Highest energy on the way (J); `None` where no way was found.
     #[serde(rename = "saddle_energy_J")]
     pub saddle: Option<f64>,
-    /// Certified bounds of the least possible highest energy (J), where certified.
-    #[serde(rename = "lower_J")]
-    pub lower: Option<f64>,
-    #[serde(rename = "upper_J")]
-    pub upper: Option<f64>,
-    /// Proved that there is no way at all.
-    pub caged: bool,
+    /// What is proved of the least possible highest energy.
+    #[serde(flatten)]
+    pub bounds: SaddleBounds,
 }
 
 impl Way {
     fn new(barrier: Option<&Barrier>) -> Self {
         barrier.map_or_else(Self::default, |barrier| Self {
             saddle: Some(barrier.saddle_energy).filter(|saddle| saddle.is_finite()),
-            lower: barrier.lower,
-            upper: barrier.upper,
-            caged: barrier.caged,
+            bounds: barrier.bounds,
         })
     }
 
     /// The climb (J) above `energy`, never negative.
     pub fn climb(&self, energy: f64) -> Option<Estimate> {
-        let above = |saddle: f64| (saddle - energy).max(0.0);
-        if self.caged {
+        if self.bounds.caged {
             return Some(Estimate {
                 value: f64::INFINITY,
                 low: Some(f64::INFINITY),
                 high: None,
             });
         }
+        let SaddleBounds { lower, upper, .. } = self.bounds.above(energy);
         self.saddle.map(|saddle| Estimate {
-            value: above(saddle),
-            low: self.lower.map(above),
-            high: self.upper.map(above),
+            value: (saddle - energy).max(0.0),
+            low: lower,
+            high: upper,
         })
     }
 }
@@ -213,29 +207,25 @@ impl Assessment {
 
     /// What is compared of an analysed design; the capture range is found here.
     pub fn new(design: &Design, analysis: &Analysis) -> Self {
-        let first = |kind| analysis.states.iter().find(|state| state.kind == kind);
+        let inventory = &analysis.inventory;
         let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);
-        let bound = first(StateKind::Bound);
+        let bound = inventory.first(StateKind::Bound);
         Self {
             name: design.name.clone(),
             sha256: design.sha256.clone(),
             drawings: design.drawings.clone(),
-            model: design.model.name().to_owned(),
+            model: design.interaction.model.name().to_owned(),
             seed: analysis.settings.seed,
             target_energy: analysis.bound.1,
-            bond: bound.map(|state| bond(design, analysis, state)),
-            trap_kinds: analysis
-                .states
-                .iter()
-                .filter(|state| state.kind == StateKind::Misbound && state.id == state.class)
-                .count(),
-            deepest_trap: first(StateKind::Misbound).map(|state| Trap {
+            bond: bound.map(|state| bond(analysis, state)),
+            trap_kinds: inventory.kinds().filter(|kind| !kind.is_bond()).count(),
+            deepest_trap: inventory.first(StateKind::Misbound).map(|state| Trap {
                 pose: state.configuration.to_array(),
                 energy: state.energy,
-                escape: escape(analysis, state),
+                escape: Way::new(analysis.escape(state.id).as_ref()),
             }),
             far_starts: analysis.uncaptured.of,
-            captured: analysis
+            captured: inventory
                 .states
                 .iter()
                 .filter(|state| state.kind == StateKind::Bound)
@@ -249,20 +239,12 @@ impl Assessment {
     }
 }
 
-fn bond(design: &Design, analysis: &Analysis, state: &State) -> Bond {
-    let problem = pipeline::problem(design);
-    let to_free = |way: &&Barrier| way.from == Place::State(state.id) && way.to == Place::Free;
+fn bond(analysis: &Analysis, state: &State) -> Bond {
+    let q = &state.configuration;
     Bond {
-        pose: state.configuration.to_array(),
+        pose: q.to_array(),
         energy: state.energy,
-        way_out: Way::new(analysis.barriers.iter().find(to_free)),
-        capture_range: capture_range::find(design, &problem, &state.configuration, state.energy),
+        way_out: Way::new(analysis.inventory.way_out_of_the_bond()),
+        capture_range: capture_range::find(&analysis.problem, q, state.energy),
     }
-}
-
-/// The escape of a state, or the proof that there is none.
-fn escape(analysis: &Analysis, state: &State) -> Way {
-    let escape = analysis.escapes[state.id].as_ref();
-    let caged = |way: &&Barrier| way.from == Place::State(state.id) && way.caged;
-    Way::new(escape.or_else(|| analysis.barriers.iter().find(caged)))
 }

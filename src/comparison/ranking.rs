@@ -37,6 +37,7 @@ pub fn order(a: &Assessment, b: &Assessment, quantity: Quantity) -> Ordering {
 mod tests {
     use super::*;
     use crate::comparison::{Bond, Way};
+    use crate::landscape::SaddleBounds;
 
     fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
         Assessment {
@@ -66,9 +67,11 @@ mod tests {
     fn way(lower: f64, upper: f64) -> Way {
         Way {
             saddle: Some(upper),
-            lower: Some(lower),
-            upper: Some(upper),
-            caged: false,
+            bounds: SaddleBounds {
+                lower: Some(lower),
+                upper: Some(upper),
+                caged: false,
+            },
         }
     }
 
@@ -104,10 +107,8 @@ mod tests {
 
     #[test]
     fn a_cage_is_higher_than_any_barrier_with_a_way_over_it() {
-        let caged = Way {
-            caged: true,
-            ..Way::default()
-        };
+        let mut caged = Way::default();
+        caged.bounds.caged = true;
         let cage = design("dipole", -1.0, caged);
         let open = design("dipole", -1.0, way(0.0, 0.5));
         assert_eq!(order(&cage, &open, Quantity::Binding), Ordering::Higher);

@@ -1,7 +1,7 @@
 //! The design file: a pair of tiles in TOML, read and checked.
 //!
-//! [`Design::load`] turns a file into two [`Tile`]s, the configuration in which they are meant to
-//! bind, and the table they float on. Everything that can be wrong with a file is found here and
+//! [`Design::load`] turns a file into a [`Pair`] of tiles, the configuration in which they are
+//! meant to bind, and the table they float on. Everything that can be wrong with a file is found here and
 //! told as a [`DesignError`] with line, column and the mend; behind this door tiles are sound.
 //! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2.
 //!
@@ -53,14 +53,17 @@ pub use schema::{SCHEMA, STARTER};
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
-use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::configuration::ConfigurationSpace;
+use crate::potential::Interaction;
 use crate::potential::shielding::{ShieldRule, Shields};
-use crate::tile::Tile;
+use crate::problem::Problem;
+use crate::tile::Pair;
 use error::Source;
 use magnet::{MAGNET_KEYS, MagnetKeys};
 use reader::{Result, Section};
@@ -73,8 +76,8 @@ use tile::{TILES, TileEntry};
 /// use tilebind::design::Design;
 ///
 /// let design = Design::load("shapes/paper-tile.toml".as_ref())?;
-/// assert_eq!(design.bound.to_array(), [0.43, 0.0, 0.0]);
-/// assert_eq!(design.fixed.magnets.len(), 16);
+/// assert_eq!(design.pair.bound.to_array(), [0.43, 0.0, 0.0]);
+/// assert_eq!(design.pair.fixed.magnets.len(), 16);
 /// # Ok::<(), tilebind::design::DesignError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -87,18 +90,10 @@ pub struct Design {
     pub sha256: String,
     /// Size of the air table (m) along x and along y.
     pub table: [f64; 2],
-    /// The tile at the table's centre, unrotated.
-    pub fixed: Tile,
-    /// The tile that moves.
-    pub moving: Tile,
-    /// The faces of the fixed and of the moving tile that are meant to bind.
-    pub target: (usize, usize),
-    /// The configuration in which the target faces coincide.
-    pub bound: Configuration,
-    /// How magnets are modelled.
-    pub model: MagnetModel,
-    /// The soft-iron shields of the faces, and how they act.
-    pub shields: Shields,
+    /// The two tiles, and how they are meant to bind.
+    pub pair: Arc<Pair>,
+    /// How their magnets are modelled, and the shields behind them.
+    pub interaction: Interaction,
     /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
     pub pitch: Option<f64>,
     /// The drawings that the design refers to.
@@ -218,7 +213,6 @@ impl Design {
         warnings.extend(overlap::check_magnets(&entries[1], &moving)?);
         warnings.extend(doubt);
         let (fixed, moving) = (fixed.tile, moving.tile);
-        let bound = target.configuration(&fixed, &moving)?;
         let mut design = Self {
             name: root
                 .string("name")?
@@ -226,12 +220,13 @@ impl Design {
             description: root.string("description")?.unwrap_or_default().to_owned(),
             sha256: hexadecimal(&Sha256::digest(text.as_bytes())),
             table,
-            fixed,
-            moving,
-            target: target.faces,
-            bound,
-            model,
-            shields,
+            pair: Arc::new(Pair {
+                bound: target.configuration(&fixed, &moving)?,
+                target: target.faces,
+                fixed,
+                moving,
+            }),
+            interaction: Interaction { model, shields },
             pitch: keys.pitch,
             drawings: Vec::new(),
             warnings,
@@ -249,9 +244,14 @@ impl Design {
     pub fn space(&self) -> ConfigurationSpace {
         ConfigurationSpace {
             half_size: self.table.map(|size| size / 2.0),
-            rho: self.moving.radius_of_gyration(),
-            free_distance: self.fixed.outline.circumradius() + self.moving.outline.circumradius(),
+            rho: self.pair.moving.radius_of_gyration(),
+            free_distance: self.pair.free_distance(),
         }
+    }
+
+    /// The problem that the design poses.
+    pub fn problem(&self) -> Problem {
+        Problem::new(self.space(), self.pair.clone(), &self.interaction)
     }
 
     /// Refuses a table on which the tiles cannot bind or cannot come apart.
@@ -262,7 +262,7 @@ impl Design {
             .section("[table]")?
             .require("size", TABLE_HELP)?;
         let [x, y] = space.half_size;
-        if !space.contains(&self.bound) {
+        if !space.contains(&self.pair.bound) {
             return Err(entry.error(
                 "the bound configuration lies off the table",
                 "make the table larger",

@@ -157,7 +157,7 @@ mod tests {
     fn the_starter_is_a_sound_design() {
         let design = Design::parse(STARTER, "starter.toml").unwrap();
         assert!(design.warnings.is_empty());
-        assert_eq!(design.bound.to_array(), [0.43, 0.0, 0.0]);
+        assert_eq!(design.pair.bound.to_array(), [0.43, 0.0, 0.0]);
     }
 
     /// What the remarks offer can be had by taking the `#` away.

@@ -37,13 +37,9 @@ pub(super) fn paper_tile() -> Design {
 /// The paper's tiles under a steady force in place of their magnets.
 fn pushed(force: Vector3<f64>) -> (Problem, Body) {
     let design = paper_tile();
-    let problem = Problem::of_tiles(
-        design.space(),
-        &design.fixed,
-        &design.moving,
-        Box::new(Steady(force)),
-    );
-    (problem, Body::of_tile(&design.moving))
+    let problem = Problem::without_contact(design.space(), Box::new(Steady(force)));
+    let body = Body::of_tile(&design.pair.moving);
+    (problem.with_tiles(design.pair), body)
 }
 
 /// No drag, no friction, no rim.
@@ -106,8 +102,8 @@ fn free_flight_keeps_momentum_and_drag_takes_it_at_its_rate() {
 #[test]
 fn energy_is_kept_past_strong_magnets() {
     let design = paper_tile();
-    let problem = pipeline::problem(&design);
-    let body = Body::of_tile(&design.moving);
+    let problem = design.problem();
+    let body = Body::of_tile(&design.pair.moving);
     // Past the corner of the fixed tile, in and out of the field, without touching it.
     for start in [
         ([0.53, -0.9, 0.3], [0.0, 0.5, 0.5]),
@@ -190,8 +186,8 @@ fn a_tile_slides_to_rest_by_coulombs_law() {
 #[test]
 fn the_bond_at_rest_is_the_minimum_of_the_energy_at_any_step() {
     let design = paper_tile();
-    let problem = pipeline::problem(&design);
-    let body = Body::of_tile(&design.moving);
+    let problem = design.problem();
+    let body = Body::of_tile(&design.pair.moving);
     for (contact_step, contact_travel) in [(1e-3, 2e-4), (1e-3, 1e-4), (1e-4, 5e-5)] {
         let settings = MotionSettings {
             drag: 5.0,
@@ -203,8 +199,11 @@ fn the_bond_at_rest_is_the_minimum_of_the_energy_at_any_step() {
         let start = ([0.5, 0.01, 0.02], [0.0, 0.0, 0.0]);
         let (run, _) = run(&problem, body, &settings, start, 20.0);
         let q = run.last.motion.configuration;
-        assert!(problem.space.distance(&q, &design.bound) < 1e-5, "{run:?}");
-        let energy = problem.energy(&design.bound);
+        assert!(
+            problem.space.distance(&q, &design.pair.bound) < 1e-5,
+            "{run:?}"
+        );
+        let energy = problem.energy(&design.pair.bound);
         assert!((run.last.potential - energy).abs() < 1e-3 * energy.abs());
     }
 }

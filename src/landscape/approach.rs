@@ -3,10 +3,10 @@
 use nalgebra::Vector2;
 use rayon::prelude::*;
 
-use super::map::{Grid, Pair, Sample, evenly, with_energies};
+use super::map::{Grid, Sample, evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::Contact;
-use crate::tile::{Face, Tile};
+use crate::problem::Problem;
+use crate::tile::{Face, Pair};
 
 /// Two slices in front of the target face, the moving tile's target face turned towards it.
 ///
@@ -44,17 +44,12 @@ pub struct Approach<'a> {
 }
 
 impl<'a> Approach<'a> {
-    /// `target` are the faces of the fixed and the moving tile that `bound` lays together.
-    pub fn new(
-        fixed: &'a Tile,
-        moving: &Tile,
-        target: (usize, usize),
-        bound: Configuration,
-    ) -> Self {
+    /// Towards the configuration in which the target faces coincide.
+    pub fn new(pair: &'a Pair) -> Self {
         Self {
-            bound,
-            pivot: moving.faces[target.1].middle(),
-            face: &fixed.faces[target.0],
+            bound: pair.bound,
+            pivot: pair.moving.faces[pair.target.1].middle(),
+            face: pair.target_face(),
         }
     }
 
@@ -85,8 +80,9 @@ impl<'a> Approach<'a> {
 
     /// The distance (m) along the normal from the bound position at which the moving tile with this
     /// tilt and slide, coming from far away, first touches; `None` where it passes by.
-    pub fn landing(&self, contact: &Contact, tilt: f64, slide: f64) -> Option<f64> {
+    pub fn landing(&self, problem: &Problem, tilt: f64, slide: f64) -> Option<f64> {
         let level = self.configuration(tilt, slide, 0.0);
+        let contact = problem.contact.as_ref()?;
         contact.landing(&level, self.face.normal())
     }
 
@@ -94,34 +90,33 @@ impl<'a> Approach<'a> {
     /// first touches, `gap` (m) drawn back; `None` where it passes by.
     pub fn before_contact(
         &self,
-        contact: &Contact,
+        problem: &Problem,
         tilt: f64,
         slide: f64,
         gap: f64,
     ) -> Option<Configuration> {
-        let distance = self.landing(contact, tilt, slide)?;
+        let distance = self.landing(problem, tilt, slide)?;
         Some(self.configuration(tilt, slide, distance + gap))
     }
 }
 
 impl ApproachSlices {
-    pub fn new(pair: &Pair, approach: &Approach, settings: &SliceSettings) -> Self {
+    pub fn new(problem: &Problem, approach: &Approach, settings: &SliceSettings) -> Self {
         let tilts = evenly(-settings.tilt, settings.tilt, settings.samples);
         let gaps = evenly(0.0, settings.gap, settings.samples);
         let slides = evenly(-settings.slide, settings.slide, settings.samples);
-        let contact = pair.contact;
-        let gap = sampled(pair, &tilts, &gaps, |tilt, gap| {
-            approach.before_contact(contact, tilt, 0.0, gap)
+        let gap = sampled(problem, &tilts, &gaps, |tilt, gap| {
+            approach.before_contact(problem, tilt, 0.0, gap)
         });
-        let slide = sampled(pair, &tilts, &slides, |tilt, slide| {
-            approach.before_contact(contact, tilt, slide, 0.0)
+        let slide = sampled(problem, &tilts, &slides, |tilt, slide| {
+            approach.before_contact(problem, tilt, slide, 0.0)
         });
         Self { gap, slide }
     }
 }
 
 fn sampled(
-    pair: &Pair,
+    problem: &Problem,
     x: &[f64],
     y: &[f64],
     configuration: impl Fn(f64, f64) -> Option<Configuration> + Sync,
@@ -131,7 +126,7 @@ fn sampled(
         .flat_map_iter(|&y| {
             let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
             let free: Vec<_> = row.iter().flatten().copied().collect();
-            let mut samples = with_energies(pair.potential, &free).into_iter();
+            let mut samples = with_energies(problem, &free).into_iter();
             row.into_iter()
                 .map(move |q| q.and_then(|_| samples.next()))
                 .collect::<Vec<_>>()

@@ -9,18 +9,7 @@ use rayon::prelude::*;
 
 use super::orientation::{Found, Search};
 use crate::configuration::Configuration;
-use crate::contact::Contact;
-use crate::potential::Potential;
-use crate::tile::Tile;
-
-/// The pair of tiles that a section is taken of.
-#[derive(Clone, Copy)]
-pub struct Pair<'a> {
-    pub fixed: &'a Tile,
-    pub moving: &'a Tile,
-    pub potential: &'a dyn Potential,
-    pub contact: &'a Contact,
-}
+use crate::problem::Problem;
 
 /// Values on a grid, row by row from the lowest y; `None` where no free configuration belongs to
 /// the grid point.
@@ -87,11 +76,11 @@ impl EnergyMap {
     /// The map of a window, from `orientations` evenly spread orientations, those that lay two
     /// faces flush, those in contact between a free and a blocked one, and a search about the
     /// lowest of them all.
-    pub fn new(pair: &Pair, window: &Window, orientations: usize) -> Self {
+    pub fn new(problem: &Problem, window: &Window, orientations: usize) -> Self {
         let [columns, rows] = window.samples;
         let x = evenly(window.low[0], window.high[0], columns);
         let y = evenly(window.low[1], window.high[1], rows);
-        let search = Search::new(pair, orientations);
+        let search = Search::new(problem, orientations);
         let found = y
             .par_iter()
             .flat_map_iter(|&y| {
@@ -135,9 +124,9 @@ pub(crate) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-pub(super) fn with_energies(potential: &dyn Potential, free: &[Configuration]) -> Vec<Sample> {
+pub(super) fn with_energies(problem: &Problem, free: &[Configuration]) -> Vec<Sample> {
     let mut energies = vec![0.0; free.len()];
-    potential.energies(free, &mut energies);
+    problem.potential().energies(free, &mut energies);
     free.iter()
         .zip(energies)
         .map(|(&configuration, energy)| Sample {

@@ -140,7 +140,7 @@ mod tests {
     fn a_shallow_minimum_is_not_jumped_out_of() {
         // 2 mm beside this one a ridge of 16 µJ hides a slope that falls by 16 mJ.
         let design = Design::load("shapes/arrowhead.toml".as_ref()).unwrap();
-        let problem = pipeline::problem(&design);
+        let problem = design.problem();
         let minimum = Configuration::new(0.347_926_5, -0.052_362_2, 0.0);
         for [x, y, theta] in [
             [0.347_843_4, -0.052_206_4, -1.298e-6],
@@ -163,8 +163,8 @@ mod tests {
         // of their energy has no bound and the energy itself is least certain.
         let mut design = Design::load("shapes/one-face.toml".as_ref()).unwrap();
         for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
-            design.model = model;
-            let problem = pipeline::problem(&design);
+            design.interaction.model = model;
+            let problem = design.problem();
             for y in [0.041, 0.039, -0.039, -0.041] {
                 let start = Configuration::new(0.43, y, 0.0);
                 let Outcome::Minimum(end) = drift(&problem, &start) else {

@@ -3,6 +3,7 @@
 pub mod approach;
 pub mod capture;
 pub mod certificate;
+pub mod certification;
 pub mod inventory;
 pub mod map;
 pub mod meeting;
@@ -14,7 +15,11 @@ pub mod results;
 pub mod slide;
 pub mod stationary;
 pub mod survey;
-pub mod symmetry;
 pub mod volume;
 
-pub use results::{Barrier, Pathway, PathwayPoint, Place, Proportion, State, StateKind};
+pub use certification::{Claims, Uncertified};
+pub use inventory::{Inventory, Kind};
+pub use results::{
+    Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
+    State, StateKind, highest_point,
+};

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::map::{Pair, Sample, with_energies};
+use super::map::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::TOUCH;
+use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
-use crate::tile::{Face, Tile};
+use crate::tile::{Face, Outline};
 
 /// Halvings of the step between orientations in search of the lowest energy.
 const REFINEMENTS: i32 = 6;
@@ -17,7 +18,7 @@ const BISECTIONS: usize = 4;
 
 /// The search for the lowest energy over theta.
 pub struct Search<'a> {
-    pair: &'a Pair<'a>,
+    problem: &'a Problem,
     /// Orientations repeat after this angle (rad).
     period: f64,
     /// Ascending, in [0, period).
@@ -43,25 +44,28 @@ pub struct Found {
 type FreeRange = (f64, f64);
 
 impl<'a> Search<'a> {
-    pub fn new(pair: &'a Pair<'a>, orientations: usize) -> Self {
-        let period = TAU / rotations(pair.moving).len() as f64;
+    pub fn new(problem: &'a Problem, orientations: usize) -> Self {
+        let pair = problem.pair.as_deref();
+        let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);
         let count = (orientations as f64 * period / TAU).ceil() as usize;
-        let (fixed, moving) = (&pair.fixed.outline, &pair.moving.outline);
-        let depth = |outline: &crate::tile::Outline| -outline.signed_distance(Vector2::zeros());
-        let (a, b) = (depth(fixed), depth(moving));
-        Self {
-            pair,
-            period,
-            thetas: orientations_within(period, count, pair.fixed, pair.moving),
-            step: period / count as f64,
-            outer: fixed.circumradius() + moving.circumradius(),
-            // Discs inside the tiles, about their reference points, overlap. With a reference
-            // point outside its tile nothing is known.
-            inner: if a > 0.0 && b > 0.0 {
+        // Discs inside the tiles, about their reference points, overlap. With a reference point
+        // outside its tile nothing is known.
+        let depth = |outline: &Outline| -outline.signed_distance(Vector2::zeros());
+        let inner = pair.map_or(0.0, |pair| {
+            let (a, b) = (depth(&pair.fixed.outline), depth(&pair.moving.outline));
+            if a > 0.0 && b > 0.0 {
                 a + b - 2.0 * TOUCH
             } else {
                 0.0
-            },
+            }
+        });
+        Self {
+            problem,
+            period,
+            thetas: orientations_within(period, count, problem.faces()),
+            step: period / count as f64,
+            outer: problem.space.free_distance,
+            inner,
         }
     }
 
@@ -104,7 +108,7 @@ impl<'a> Search<'a> {
 
     fn is_free(&self, q: &Configuration) -> bool {
         let distance = q.x.hypot(q.y);
-        distance >= self.outer || (distance >= self.inner && self.pair.contact.is_free(q))
+        distance >= self.outer || (distance >= self.inner && self.problem.is_clear(q))
     }
 
     /// The lowest of the candidates at each place, and of what a search about it finds.
@@ -121,7 +125,7 @@ impl<'a> Search<'a> {
 
     /// Replaces each sample by the lowest of its candidates where that is lower.
     fn take_lower(&self, best: &mut [Option<Sample>], candidates: &[Vec<Configuration>]) {
-        let all = with_energies(self.pair.potential, &candidates.concat());
+        let all = with_energies(self.problem, &candidates.concat());
         let mut rest = all.as_slice();
         for (best, candidates) in best.iter_mut().zip(candidates) {
             let (own, others) = rest.split_at(candidates.len());
@@ -212,12 +216,11 @@ fn at(place: Vector2<f64>, theta: f64) -> Configuration {
 }
 
 /// Evenly spread orientations together with those that lay two faces flush, in [0, period).
-fn orientations_within(period: f64, count: usize, fixed: &Tile, moving: &Tile) -> Vec<f64> {
+fn orientations_within(period: f64, count: usize, [fixed, moving]: [&[Face]; 2]) -> Vec<f64> {
     let spread = (0..count).map(|k| k as f64 * period / count as f64);
     let direction = |face: &Face| face.normal().y.atan2(face.normal().x);
-    let flush = fixed.faces.iter().flat_map(|to| {
+    let flush = fixed.iter().flat_map(|to| {
         moving
-            .faces
             .iter()
             .map(move |from| (direction(to) - direction(from) + TAU / 2.0).rem_euclid(period))
     });

@@ -23,11 +23,9 @@ const SAME: f64 = 1e-7;
 /// The best way between two nodes.
 #[derive(Clone, Debug)]
 pub struct Lowest {
-    /// Its highest point. Where detours could be cut short, it may lie below what the network
-    /// holds.
-    pub saddle: PathwayPoint,
     /// The node that it reaches.
     pub end: usize,
+    /// Never empty. Where detours could be cut short, it may lie below what the network holds.
     pub pathway: Pathway,
 }
 
@@ -49,17 +47,7 @@ pub fn lowest(
     };
     let (end, _, route) = network.cheapest(from, ends, cost)?;
     let pathway = along(problem, network, &route, highest, bend);
-    let saddle = *highest_point(&pathway)?;
-    Some(Lowest {
-        saddle,
-        end,
-        pathway,
-    })
-}
-
-/// The point of a pathway with the highest energy.
-pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
-    pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
+    (!pathway.is_empty()).then_some(Lowest { end, pathway })
 }
 
 /// A pathway gone backwards.

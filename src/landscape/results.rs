@@ -1,6 +1,11 @@
 //! What is found out about a landscape: states, barriers and pathways, as plain values.
 
+use serde::{Deserialize, Serialize};
+
 use crate::configuration::Configuration;
+
+/// States whose energies differ by less than this share are as deep as each other.
+pub(super) const SAME_ENERGY: f64 = 1e-6;
 
 /// Whether a state is the wanted bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,35 +114,156 @@ pub struct PathwayPoint {
 /// as good as linear.
 pub type Pathway = Vec<PathwayPoint>;
 
+/// What is proved of the highest energy on the best way between two places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SaddleBounds {
+    /// Every free path reaches at least this energy (J); `None` where nothing is proved.
+    #[serde(rename = "lower_J")]
+    pub lower: Option<f64>,
+    /// A free path is known that nowhere exceeds this energy (J).
+    #[serde(rename = "upper_J")]
+    pub upper: Option<f64>,
+    /// Proved that there is no free path at all.
+    pub caged: bool,
+}
+
+impl SaddleBounds {
+    /// Takes over what other bounds of the same energy know better.
+    pub fn tighten(&mut self, other: Self) {
+        let better = |a: Option<f64>, b: Option<f64>, better: fn(f64, f64) -> f64| {
+            a.zip(b).map(|(a, b)| better(a, b)).or(a).or(b)
+        };
+        self.lower = better(self.lower, other.lower, f64::max);
+        self.upper = better(self.upper, other.upper, f64::min);
+        self.caged |= other.caged;
+    }
+
+    /// What every free path is proved to reach at least (J): minus infinity where nothing is
+    /// proved, infinity where there is no path.
+    pub fn least(&self) -> f64 {
+        if self.caged {
+            return f64::INFINITY;
+        }
+        self.lower.unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// Width (J): zero where there is proved to be no path, infinite where a bound is missing.
+    pub fn width(&self) -> f64 {
+        match self.both() {
+            _ if self.caged => 0.0,
+            Some((lower, upper)) => upper - lower,
+            None => f64::INFINITY,
+        }
+    }
+
+    /// Both bounds (J), where both are known.
+    pub fn both(&self) -> Option<(f64, f64)> {
+        self.lower.zip(self.upper)
+    }
+
+    /// The bounds of the climb from an energy (J): never negative, as no barrier is.
+    pub fn above(&self, energy: f64) -> Self {
+        let above = |saddle: f64| (saddle - energy).max(0.0);
+        Self {
+            lower: self.lower.map(above),
+            upper: self.upper.map(above),
+            caged: self.caged,
+        }
+    }
+}
+
 /// The barrier between two places: the least possible highest energy of a free path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Barrier {
     pub from: Place,
     pub to: Place,
     /// Highest energy on the best pathway found (J): an upper bound of the minimax energy.
+    /// Infinite where no pathway is known.
     pub saddle_energy: f64,
+    /// Where that is; the start where no pathway is known.
     pub saddle: Configuration,
-    /// Certified bounds of the saddle energy (J), where certified.
-    pub lower: Option<f64>,
-    pub upper: Option<f64>,
-    /// Proved that there is no way at all; the saddle energy is then infinite.
-    pub caged: bool,
+    /// What is proved of the saddle's energy.
+    pub bounds: SaddleBounds,
     /// Energies (J) of the two ends; 0 for `Free`.
     pub from_energy: f64,
     pub to_energy: f64,
     /// Lowest and highest saddle energy (J) over repeated runs with other seeds.
     pub spread: Option<(f64, f64)>,
+    /// From end to end; empty where none is known.
     pub pathway: Pathway,
 }
 
 impl Barrier {
+    /// A barrier over which no way is known. Each end is a place with its energy (J).
+    pub fn without_a_way(from: (Place, f64), start: Configuration, to: (Place, f64)) -> Self {
+        Self {
+            from: from.0,
+            to: to.0,
+            saddle_energy: f64::INFINITY,
+            saddle: start,
+            bounds: SaddleBounds::default(),
+            from_energy: from.1,
+            to_energy: to.1,
+            spread: None,
+            pathway: Pathway::new(),
+        }
+    }
+
+    /// Whether a pathway over it is known.
+    pub fn has_way(&self) -> bool {
+        !self.pathway.is_empty()
+    }
+
     /// Saddle minus the energy of the start (J).
     pub fn forward(&self) -> f64 {
         self.saddle_energy - self.from_energy
     }
 
-    /// Saddle minus the energy of the end (J).
+    /// Saddle minus the energy of the end (J); 0 where the way into `Free` never rises above the
+    /// energy of tiles far apart.
     pub fn reverse(&self) -> f64 {
-        self.saddle_energy - self.to_energy
+        (self.saddle_energy - self.to_energy).max(0.0)
     }
+
+    /// Takes a pathway between the same ends over, with its highest point.
+    pub fn lead_along(&mut self, pathway: Pathway) {
+        if let Some(highest) = highest_point(&pathway).copied() {
+            self.saddle_energy = highest.energy;
+            self.saddle = highest.configuration;
+            self.pathway = pathway;
+        }
+    }
+
+    /// The same where it is lower than the pathway known.
+    pub fn lead_lower(&mut self, pathway: Pathway) {
+        let is_lower = |highest: &PathwayPoint| highest.energy < self.saddle_energy;
+        if highest_point(&pathway).is_some_and(is_lower) {
+            self.lead_along(pathway);
+        }
+    }
+}
+
+/// The point of a pathway with the highest energy.
+pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
+    pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
+}
+
+/// A pathway by another cost than the highest energy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alternative {
+    pub from: Place,
+    pub to: Place,
+    pub by: PathwayCost,
+    /// The cost: J of work, or -ln of the probability.
+    pub cost: f64,
+    pub pathway: Pathway,
+}
+
+/// What a pathway is the cheapest by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathwayCost {
+    /// Work against the energy (J).
+    Work,
+    /// -ln of the product of the transition probabilities.
+    Probability,
 }

@@ -9,8 +9,9 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::approach::Approach;
-use super::map::{Pair, evenly, with_energies};
+use super::map::{evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
+use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
 
 /// U on a grid of three coordinates.
@@ -26,7 +27,7 @@ pub struct Volume {
 impl Volume {
     /// Samples row after row; `configuration` tells the free one at a grid point.
     fn sample(
-        pair: &Pair,
+        problem: &Problem,
         axes: [Vec<f64>; 3],
         configuration: impl Fn([usize; 3]) -> Option<Configuration> + Sync,
     ) -> Self {
@@ -38,7 +39,7 @@ impl Volume {
                     .map(|column| configuration([row / rows, row % rows, column]))
                     .collect();
                 let free: Vec<_> = row.iter().flatten().copied().collect();
-                let mut samples = with_energies(pair.potential, &free).into_iter();
+                let mut samples = with_energies(problem, &free).into_iter();
                 row.into_iter()
                     .map(move |q| q.and_then(|_| samples.next()).map(|sample| sample.energy))
                     .collect::<Vec<_>>()
@@ -51,8 +52,9 @@ impl Volume {
 /// U(theta, y, x) for `|x|` and `|y|` up to `reach` (m), at `samples` places along the longer of
 /// the two. Theta runs over the angle after which the moving tile repeats, in even steps from minus
 /// half that angle on, `orientations` of them to a full turn or a few more.
-pub fn around(pair: &Pair, reach: [f64; 2], orientations: usize, samples: usize) -> Volume {
-    let period = TAU / rotations(pair.moving).len() as f64;
+pub fn around(problem: &Problem, reach: [f64; 2], orientations: usize, samples: usize) -> Volume {
+    let pair = problem.pair.as_deref();
+    let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);
     let count = (orientations as f64 * period / TAU / 2.0).ceil() as usize * 2;
     let step = period / count as f64;
     let thetas: Vec<_> = (0..count)
@@ -64,11 +66,11 @@ pub fn around(pair: &Pair, reach: [f64; 2], orientations: usize, samples: usize)
         evenly(-half, half, count.max(2))
     });
     Volume::sample(
-        pair,
+        problem,
         [thetas.clone(), y.clone(), x.clone()],
         |[plane, row, column]| {
             let q = Configuration::new(x[column], y[row], wrap_angle(thetas[plane]));
-            pair.contact.is_free(&q).then_some(q)
+            problem.is_clear(&q).then_some(q)
         },
     )
 }
@@ -87,7 +89,7 @@ pub struct InFront {
 impl InFront {
     /// Samples at these gaps, tilts and slides (m, rad, m), each ascending.
     pub fn new(
-        pair: &Pair,
+        problem: &Problem,
         approach: &Approach,
         gaps: Vec<f64>,
         tilts: Vec<f64>,
@@ -96,10 +98,10 @@ impl InFront {
         let columns = slides.len();
         let landing: Vec<_> = (0..tilts.len() * columns)
             .into_par_iter()
-            .map(|i| approach.landing(pair.contact, tilts[i / columns], slides[i % columns]))
+            .map(|i| approach.landing(problem, tilts[i / columns], slides[i % columns]))
             .collect();
         let axes = [gaps.clone(), tilts.clone(), slides.clone()];
-        let volume = Volume::sample(pair, axes, |[plane, row, column]| {
+        let volume = Volume::sample(problem, axes, |[plane, row, column]| {
             let distance = landing[row * columns + column]? + gaps[plane];
             Some(approach.configuration(tilts[row], slides[column], distance))
         });
@@ -110,80 +112,68 @@ impl InFront {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Contact;
     use crate::design::Design;
-    use crate::pipeline;
-    use crate::problem::Problem;
 
-    fn with_pair(file: &str, check: impl Fn(&Design, &Problem, &Pair)) {
-        let design = Design::load(file.as_ref()).unwrap();
-        let problem = pipeline::problem(&design);
-        let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
-        let pair = Pair {
-            fixed: &design.fixed,
-            moving: &design.moving,
-            potential: problem.potential(),
-            contact: &contact,
-        };
-        check(&design, &problem, &pair);
+    fn problem(file: &str) -> Problem {
+        Design::load(file.as_ref()).unwrap().problem()
     }
 
     #[test]
     fn around_holds_the_energy_of_each_free_configuration_and_of_no_other() {
-        with_pair("shapes/tab-10mm.toml", |_, problem, pair| {
-            let volume = around(pair, [0.7, 0.5], 8, 21);
-            let [thetas, y, x] = &volume.axes;
-            assert_eq!((thetas.len(), y.len(), x.len()), (8, 15, 21));
-            assert!(thetas.is_sorted() && thetas[0] == -std::f64::consts::PI);
-            let mut blocked = 0;
-            for (i, energy) in volume.energies.iter().enumerate() {
-                let theta = thetas[i / (15 * 21)];
-                let q = Configuration::from([x[i % 21], y[i / 21 % 15], theta]);
-                assert_eq!(energy.is_some(), problem.is_clear(&q), "{q:?}");
-                if let Some(energy) = energy {
-                    assert!((energy - problem.energy(&q)).abs() <= 1e-12 * energy.abs());
-                }
-                blocked += usize::from(energy.is_none());
+        let problem = problem("shapes/tab-10mm.toml");
+        let volume = around(&problem, [0.7, 0.5], 8, 21);
+        let [thetas, y, x] = &volume.axes;
+        assert_eq!((thetas.len(), y.len(), x.len()), (8, 15, 21));
+        assert!(thetas.is_sorted() && thetas[0] == -std::f64::consts::PI);
+        let mut blocked = 0;
+        for (i, energy) in volume.energies.iter().enumerate() {
+            let theta = thetas[i / (15 * 21)];
+            let q = Configuration::from([x[i % 21], y[i / 21 % 15], theta]);
+            assert_eq!(energy.is_some(), problem.is_clear(&q), "{q:?}");
+            if let Some(energy) = energy {
+                assert!((energy - problem.energy(&q)).abs() <= 1e-12 * energy.abs());
             }
-            assert!(blocked > 100 && blocked < volume.energies.len() - 100);
-        });
+            blocked += usize::from(energy.is_none());
+        }
+        assert!(blocked > 100 && blocked < volume.energies.len() - 100);
     }
 
     #[test]
     fn around_covers_what_repeats_once() {
-        with_pair("shapes/paper-tile.toml", |_, _, pair| {
-            let [thetas, ..] = around(pair, [0.7, 0.7], 16, 5).axes;
-            let expected = [-2.0, -1.0, 0.0, 1.0].map(|k| k * TAU / 16.0);
-            assert_eq!(thetas, expected);
-        });
+        let problem = problem("shapes/paper-tile.toml");
+        let [thetas, ..] = around(&problem, [0.7, 0.7], 16, 5).axes;
+        let expected = [-2.0, -1.0, 0.0, 1.0].map(|k| k * TAU / 16.0);
+        assert_eq!(thetas, expected);
     }
 
     #[test]
     fn in_front_the_gap_is_drawn_back_from_touching() {
-        with_pair(
-            "shapes/triangle-teeth-10mm.toml",
-            |design, problem, pair| {
-                let approach = Approach::new(pair.fixed, pair.moving, design.target, design.bound);
-                let (tilts, slides) = (vec![-0.2, 0.0, 0.3], vec![-0.05, 0.0, 0.05]);
-                let gaps = vec![0.0, 0.02];
-                let found =
-                    InFront::new(pair, &approach, gaps.clone(), tilts.clone(), slides.clone());
-                assert_eq!(found.volume.energies.len(), 18);
-                for (i, energy) in found.volume.energies.iter().enumerate() {
-                    let (gap, tilt, slide) = (gaps[i / 9], tilts[i / 3 % 3], slides[i % 3]);
-                    let landing = found.landing[i % 9].unwrap();
-                    let q = approach.configuration(tilt, slide, landing + gap);
-                    assert!((energy.unwrap() - problem.energy(&q)).abs() <= 1e-12);
-                    let clearance = problem.clearance(&q);
-                    if gap == 0.0 {
-                        assert!(clearance.abs() < 1e-6, "{clearance}");
-                    } else {
-                        assert!(clearance > 1e-3 && clearance <= gap + 1e-9, "{clearance}");
-                    }
-                }
-                // Flush in the bound configuration.
-                assert!(found.landing[4].unwrap().abs() < 1e-9);
-            },
+        let problem = problem("shapes/triangle-teeth-10mm.toml");
+        let pair = problem.pair.clone().unwrap();
+        let approach = Approach::new(&pair);
+        let (tilts, slides) = (vec![-0.2, 0.0, 0.3], vec![-0.05, 0.0, 0.05]);
+        let gaps = vec![0.0, 0.02];
+        let found = InFront::new(
+            &problem,
+            &approach,
+            gaps.clone(),
+            tilts.clone(),
+            slides.clone(),
         );
+        assert_eq!(found.volume.energies.len(), 18);
+        for (i, energy) in found.volume.energies.iter().enumerate() {
+            let (gap, tilt, slide) = (gaps[i / 9], tilts[i / 3 % 3], slides[i % 3]);
+            let landing = found.landing[i % 9].unwrap();
+            let q = approach.configuration(tilt, slide, landing + gap);
+            assert!((energy.unwrap() - problem.energy(&q)).abs() <= 1e-12);
+            let clearance = problem.clearance(&q);
+            if gap == 0.0 {
+                assert!(clearance.abs() < 1e-6, "{clearance}");
+            } else {
+                assert!(clearance > 1e-3 && clearance <= gap + 1e-9, "{clearance}");
+            }
+        }
+        // Flush in the bound configuration.
+        assert!(found.landing[4].unwrap().abs() < 1e-9);
     }
 }

@@ -32,57 +32,19 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+mod interaction;
 mod lever;
 pub mod motion;
 pub mod shielding;
 
 use crate::configuration::Configuration;
-use crate::tile::Tile;
 use nalgebra::Vector3;
-use shielding::Shields;
 
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
+pub use interaction::{Energy, Interaction, MagnetModel, Unbounded};
 pub use shielding::ShieldedPotential;
-
-/// How magnets are modelled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MagnetModel {
-    /// Point dipoles at the blocks' centres.
-    #[default]
-    Dipole,
-    /// Uniformly magnetised blocks.
-    Cuboid,
-}
-
-impl MagnetModel {
-    /// What design files call each model.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
-
-    /// What design files call this model.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Dipole => "dipole",
-            Self::Cuboid => "cuboid",
-        }
-    }
-}
-
-/// The energy of two tiles, their magnets modelled as `model` says, behind the given shields.
-pub fn of_tiles(
-    model: MagnetModel,
-    fixed: &Tile,
-    moving: &Tile,
-    shields: &Shields,
-) -> Box<dyn Potential + Send> {
-    match model {
-        _ if !shields.is_none() => Box::new(ShieldedPotential::new(model, fixed, moving, shields)),
-        MagnetModel::Dipole => Box::new(DipolePotential::new(&fixed.magnets, &moving.magnets)),
-        MagnetModel::Cuboid => Box::new(CuboidPotential::new(&fixed.magnets, &moving.magnets)),
-    }
-}
 
 /// A potential energy over configurations.
 ///

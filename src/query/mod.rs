@@ -4,13 +4,12 @@ mod ways;
 
 use std::time::{Duration, Instant};
 
-use crate::analysis::Settings;
-use crate::certification::{self, Uncertified, either};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::certificate::{Certifier, Effort, End};
-use crate::landscape::{Pathway, pathway};
-use crate::pipeline::{self, Observer};
+use crate::landscape::{Barrier, Place, Uncertified};
+use crate::observer::Observer;
+use crate::pipeline::Settings;
 use crate::potential::CellBounds;
 use crate::problem::Problem;
 use ways::Search;
@@ -36,22 +35,10 @@ pub struct Query {
 /// The answer.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The least possible highest energy of a free way, as found (J): infinite where there is no
-    /// way.
-    pub saddle_energy: f64,
-    /// Where the pathway is highest; `None` where there is no way.
-    pub saddle: Option<Configuration>,
-    /// Certified bounds of the saddle energy (J), where certified.
-    pub lower: Option<f64>,
-    pub upper: Option<f64>,
+    /// From the start, as state 0, to the end, as state 1 or `free`.
+    pub barrier: Barrier,
     /// Why there are no bounds, where there are none.
     pub uncertified: Option<Uncertified>,
-    /// Proved that there is no way.
-    pub caged: bool,
-    /// Energies (J) of the two ends; 0 for far apart.
-    pub from_energy: f64,
-    pub to_energy: f64,
-    pub pathway: Pathway,
 }
 
 /// Why there is no answer.
@@ -87,69 +74,45 @@ pub fn barrier(
     query: &Query,
     observer: &dyn Observer,
 ) -> Result<Answer, QueryError> {
-    let problem = pipeline::problem(design);
+    let problem = design.problem();
     check(&problem, &query.from)?;
     if let Some(to) = query.to.configuration() {
         check(&problem, to)?;
     }
-    let mut answer = Answer::without_a_way(&problem, query);
-    let search = Search::new(design, &problem, query);
-    match bounds(design, query) {
+    let mut barrier = unknown_barrier(&problem, query);
+    let search = Search::new(&problem, query);
+    let bounds = bounds(&problem, query);
+    let uncertified = bounds.as_ref().err().copied();
+    match bounds {
         Ok(bounds) => {
-            let mut certificate = Certificate::new(&problem, bounds.as_ref(), query, &search);
+            let mut certificate = Certificate::new(&problem, bounds, query, &search);
             observer.stage("certificate", 0.0);
-            certificate.narrow(&mut answer, CELLS_BEFORE_ROADMAP);
-            if !certificate.is_done(&answer) {
-                answer.take(search.through_roadmap(observer));
+            certificate.narrow(&mut barrier, CELLS_BEFORE_ROADMAP);
+            if !certificate.is_done(&barrier) {
+                barrier.lead_lower(search.through_roadmap(observer));
                 observer.stage("certificate", 0.8);
-                certificate.narrow(&mut answer, usize::MAX);
+                certificate.narrow(&mut barrier, usize::MAX);
             }
         }
-        Err(why) => {
-            answer.uncertified = Some(why);
-            answer.take(search.through_roadmap(observer));
-        }
+        Err(_) => barrier.lead_lower(search.through_roadmap(observer)),
     }
-    if answer.pathway.is_empty() && !answer.caged {
+    if !barrier.has_way() && !barrier.bounds.caged {
         return Err(QueryError::NoWay);
     }
-    Ok(answer)
+    Ok(Answer {
+        barrier,
+        uncertified,
+    })
 }
 
-impl Answer {
-    /// Saddle minus the energy of the start (J).
-    pub fn forward(&self) -> f64 {
-        self.saddle_energy - self.from_energy
-    }
-
-    /// Saddle minus the energy of the end (J).
-    pub fn reverse(&self) -> f64 {
-        self.saddle_energy - self.to_energy
-    }
-
-    fn without_a_way(problem: &Problem, query: &Query) -> Self {
-        Self {
-            saddle_energy: f64::INFINITY,
-            saddle: None,
-            lower: None,
-            upper: None,
-            uncertified: None,
-            caged: false,
-            from_energy: problem.energy(&query.from),
-            to_energy: query.to.configuration().map_or(0.0, |q| problem.energy(q)),
-            pathway: Pathway::new(),
-        }
-    }
-
-    /// Takes a pathway over if it is lower than the one known.
-    fn take(&mut self, pathway: Pathway) {
-        let highest = pathway::highest_point(&pathway).copied();
-        if let Some(highest) = highest.filter(|point| point.energy < self.saddle_energy) {
-            self.saddle_energy = highest.energy;
-            self.saddle = Some(highest.configuration);
-            self.pathway = pathway;
-        }
-    }
+/// The barrier that is asked for, of which nothing is known yet.
+fn unknown_barrier(problem: &Problem, query: &Query) -> Barrier {
+    let from = (Place::State(0), problem.energy(&query.from));
+    let to = match &query.to {
+        End::At(to) => (Place::State(1), problem.energy(to)),
+        End::Free => (Place::Free, 0.0),
+    };
+    Barrier::without_a_way(from, query.from, to)
 }
 
 fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
@@ -163,11 +126,11 @@ fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
 }
 
 /// The bounds over cells for a query's certificate, if it is to have one.
-fn bounds(design: &Design, query: &Query) -> Result<Box<dyn CellBounds>, Uncertified> {
+fn bounds<'a>(problem: &'a Problem, query: &Query) -> Result<&'a dyn CellBounds, Uncertified> {
     if query.certify.is_zero() {
         return Err(Uncertified::NoTime);
     }
-    certification::bounds(design)
+    Ok(problem.bounds()?)
 }
 
 /// The certificate of one query.
@@ -191,15 +154,15 @@ impl<'a> Certificate<'a> {
             certifier: Certifier::new(bounds, problem.contact.as_ref(), &problem.space),
             query,
             search,
-            tolerance: query.tolerance.unwrap_or(0.01 * search.depth()),
+            tolerance: query.tolerance.unwrap_or(0.01 * problem.depth()),
             since,
         }
     }
 
     /// Narrows the bounds with about so many cells, and takes over the certificate's pathway, made
     /// finer, where it is lower.
-    fn narrow(&mut self, answer: &mut Answer, cells: usize) {
-        let known: Vec<Configuration> = answer.pathway.iter().map(|p| p.configuration).collect();
+    fn narrow(&mut self, barrier: &mut Barrier, cells: usize) {
+        let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
         let effort = Effort {
             tolerance: self.tolerance,
             cells,
@@ -210,18 +173,15 @@ impl<'a> Certificate<'a> {
             .certifier
             .bracket(from, to, &known, &effort)
             .expect("both ends have been checked");
-        answer.lower = either(answer.lower, Some(bracket.lower), f64::max);
-        answer.upper = either(answer.upper, bracket.upper, f64::min);
-        answer.caged = bracket.caged;
-        let lower = |upper: f64| upper < answer.saddle_energy;
-        if bracket.improved && bracket.upper.is_some_and(lower) {
-            answer.take(self.search.near(&bracket.pathway));
+        barrier.bounds.tighten(bracket.bounds);
+        let lower = |upper: f64| upper < barrier.saddle_energy;
+        if bracket.improved && bracket.bounds.upper.is_some_and(lower) {
+            barrier.lead_lower(self.search.near(&bracket.pathway));
         }
     }
 
     /// Whether the bounds are as narrow as asked for.
-    fn is_done(&self, answer: &Answer) -> bool {
-        let bounds = answer.lower.zip(answer.upper);
-        answer.caged || bounds.is_some_and(|(lower, upper)| upper - lower <= self.tolerance)
+    fn is_done(&self, barrier: &Barrier) -> bool {
+        barrier.bounds.width() <= self.tolerance
     }
 }

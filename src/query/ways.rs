@@ -6,16 +6,15 @@ use nalgebra::Vector3;
 
 use super::Query;
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::landscape::certificate::End;
 use crate::landscape::minimum::descend;
 use crate::landscape::slide::Point;
 use crate::landscape::survey::Survey;
-use crate::landscape::symmetry::Symmetry;
 use crate::landscape::{Pathway, pathway};
-use crate::pipeline::{self, Clock, Observer};
-use crate::problem::Problem;
-use crate::roadmap::{EdgeSettings, Milestone, Roadmap, edge};
+use crate::observer::Observer;
+use crate::pipeline::{self, Clock};
+use crate::problem::{Problem, Symmetry};
+use crate::roadmap::{Milestone, Roadmap, RoadmapSettings, edge};
 
 /// Nodes of the network to which an end is joined by straight motions, where these are free.
 const JOINED: usize = 40;
@@ -28,29 +27,18 @@ const PASSING: f64 = 2e-3;
 
 /// Looks for ways between the two ends of a query.
 pub(super) struct Search<'a> {
-    design: &'a Design,
     problem: &'a Problem,
     query: &'a Query,
-    /// What energies are measured by (J).
-    depth: f64,
-    edge: EdgeSettings,
+    roadmap: RoadmapSettings,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(design: &'a Design, problem: &'a Problem, query: &'a Query) -> Self {
-        let depth = pipeline::energy_scale(design, problem);
+    pub fn new(problem: &'a Problem, query: &'a Query) -> Self {
         Self {
-            design,
             problem,
             query,
-            depth,
-            edge: pipeline::edge_settings(&query.settings, depth),
+            roadmap: query.settings.roadmap(problem),
         }
-    }
-
-    /// What energies are measured by (J).
-    pub fn depth(&self) -> f64 {
-        self.depth
     }
 
     /// The minimax pathway that a roadmap holds; empty where it holds none.
@@ -61,16 +49,9 @@ impl<'a> Search<'a> {
             .flatten()
             .copied()
             .collect();
-        let mut survey = pipeline::survey(
-            self.design,
-            self.problem,
-            &Symmetry::all(self.design),
-            settings,
-            settings.seed,
-            &guesses,
-            &mut Clock::new(self.problem, observer),
-        )
-        .survey;
+        let mut clock = Clock::new(self.problem, observer);
+        let (mut survey, _) =
+            pipeline::survey(self.problem, settings, &self.roadmap, &guesses, &mut clock);
         let from = self.attach(&mut survey, from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),
@@ -83,7 +64,7 @@ impl<'a> Search<'a> {
     /// along the descents from the transition states at its peaks, where these lead from end to
     /// end, and nowhere higher than the proved one.
     pub fn near(&self, proved: &[Configuration]) -> Pathway {
-        let proved = pathway::of_configurations(self.problem, proved, BEND * self.depth);
+        let proved = pathway::of_configurations(self.problem, proved, BEND * self.problem.depth());
         let points: Vec<Point> = proved
             .iter()
             .map(|p| Point::new(self.problem, p.configuration))
@@ -104,8 +85,13 @@ impl<'a> Search<'a> {
         };
         survey
             .network
-            .add_way(self.problem, from, to, points, &self.edge);
-        survey.add_transition_states_near(self.problem, &peaks, &|q| vec![*q], &self.edge);
+            .add_way(self.problem, from, to, points, &self.roadmap.edges);
+        survey.add_transition_states_near(
+            self.problem,
+            &peaks,
+            &[Symmetry::IDENTITY],
+            &self.roadmap.edges,
+        );
         let goal = match self.query.to {
             End::At(_) => to,
             End::Free => survey.free,
@@ -120,7 +106,7 @@ impl<'a> Search<'a> {
             &survey.network,
             from,
             [&goal, &goal],
-            [self.depth, BEND * self.depth],
+            [self.problem.depth(), BEND * self.problem.depth()],
         )
         .map_or_else(Pathway::new, |lowest| lowest.pathway)
     }
@@ -137,7 +123,7 @@ impl<'a> Search<'a> {
                 .map(|(_, other)| Milestone::new(problem, *other)),
         );
         let pairs: Vec<(u32, u32)> = (1..milestones.len() as u32).map(|k| (0, k)).collect();
-        for found in edge::edges(problem, &milestones, &pairs, &self.edge) {
+        for found in edge::edges(problem, &milestones, &pairs, &self.roadmap.edges) {
             let other = near[found.to as usize - 1].0;
             survey.network.add_motion(node, other, found.costs);
         }
@@ -151,7 +137,7 @@ impl<'a> Search<'a> {
         if let Some(end) = survey.arrive(problem, &descent) {
             survey
                 .network
-                .add_way(problem, node, end, descent.way, &self.edge);
+                .add_way(problem, node, end, descent.way, &self.roadmap.edges);
         }
         node
     }

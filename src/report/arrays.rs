@@ -18,12 +18,11 @@
 use super::page::landscape::{in_front, whole};
 use super::plots::Scene;
 use super::writer::Files;
-use crate::analysis::Analysis;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::volume::Volume;
 use crate::landscape::{Barrier, Place, State, StateKind};
-use crate::pipeline;
+use crate::pipeline::Analysis;
 use crate::roadmap::Roadmap;
 
 /// The folder of the arrays.
@@ -39,21 +38,19 @@ use Field::{Real, Whole};
 
 /// All arrays of an analysis. The roadmap is built anew from the settings, as the analysis has it.
 pub fn files(design: &Design, analysis: &Analysis) -> Files {
-    let problem = pipeline::problem(design);
     let mut files = Files::new();
     let mut add = |name: &str, content: Vec<u8>| {
         files.insert(format!("{FOLDER}/{name}.npy"), content);
     };
-    if let Some(scene) = Scene::new(design, &problem, analysis) {
-        let (around, front) = rayon::join(|| whole(&scene), || in_front(&scene));
-        let names = ["around_theta_rad", "around_y_m", "around_x_m"];
-        add_volume(&mut add, "around_energy_J", names, &around);
-        let names = ["front_gap_m", "front_tilt_rad", "front_slide_m"];
-        add_volume(&mut add, "front_energy_J", names, &front.volume);
-        let shape = [1, 2].map(|k| front.volume.axes[k].len());
-        add("front_landing_m", grid(&shape, &or_nan(&front.landing)));
-    }
-    let roadmap = pipeline::roadmap(design, &problem, &analysis.settings);
+    let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
+    let (around, front) = rayon::join(|| whole(&scene), || in_front(&scene));
+    let names = ["around_theta_rad", "around_y_m", "around_x_m"];
+    add_volume(&mut add, "around_energy_J", names, &around);
+    let names = ["front_gap_m", "front_tilt_rad", "front_slide_m"];
+    add_volume(&mut add, "front_energy_J", names, &front.volume);
+    let shape = [1, 2].map(|k| front.volume.axes[k].len());
+    add("front_landing_m", grid(&shape, &or_nan(&front.landing)));
+    let roadmap = Roadmap::build(&analysis.problem, &analysis.roadmap, &mut |_| {});
     add("states", table(&states(analysis)));
     add("barriers", table(&barriers(analysis)));
     add("milestones", table(&milestones(&roadmap)));
@@ -82,12 +79,12 @@ fn or_nan(values: &[Option<f64>]) -> Vec<f64> {
 }
 
 fn states(analysis: &Analysis) -> Vec<Field> {
-    let states = &analysis.states;
+    let states = &analysis.inventory.states;
     let whole = |of: &dyn Fn(&State) -> usize| states.iter().map(|s| of(s) as i64).collect();
     let real = |of: &dyn Fn(&State) -> Option<f64>| {
         states.iter().map(|s| of(s).unwrap_or(f64::NAN)).collect()
     };
-    let escape = |state: &State| analysis.escapes[state.id].as_ref();
+    let escape = |state: &State| analysis.escape(state.id);
     let mut fields = vec![
         Whole("id", whole(&|state| state.id)),
         Whole("class", whole(&|state| state.class)),
@@ -107,25 +104,31 @@ fn states(analysis: &Analysis) -> Vec<Field> {
 }
 
 fn barriers(analysis: &Analysis) -> Vec<Field> {
-    let escapes = analysis.escapes.iter().flatten();
-    let all: Vec<&Barrier> = escapes.chain(&analysis.barriers).collect();
+    let escapes = analysis
+        .inventory
+        .states
+        .iter()
+        .filter_map(|state| analysis.escape(state.id));
+    let all: Vec<Barrier> = escapes
+        .chain(analysis.inventory.barriers.iter().cloned())
+        .collect();
     let end = |of: &dyn Fn(&Barrier) -> Place| {
-        let number = |barrier: &&Barrier| match of(barrier) {
+        let number = |barrier: &Barrier| match of(barrier) {
             Place::State(id) => id as i64,
             Place::Free => -1,
         };
         all.iter().map(number).collect()
     };
     let real = |of: &dyn Fn(&Barrier) -> Option<f64>| {
-        let value = |barrier: &&Barrier| of(barrier).unwrap_or(f64::NAN);
+        let value = |barrier: &Barrier| of(barrier).unwrap_or(f64::NAN);
         all.iter().map(value).collect()
     };
     let mut fields = vec![
         Whole("from", end(&|barrier| barrier.from)),
         Whole("to", end(&|barrier| barrier.to)),
         Real("saddle_energy_J", real(&|b| Some(b.saddle_energy))),
-        Real("lower_J", real(&|barrier| barrier.lower)),
-        Real("upper_J", real(&|barrier| barrier.upper)),
+        Real("lower_J", real(&|barrier| barrier.bounds.lower)),
+        Real("upper_J", real(&|barrier| barrier.bounds.upper)),
     ];
     fields.extend(poses(all.iter().map(|barrier| &barrier.saddle)));
     fields

@@ -39,7 +39,7 @@ pub fn summary(design: &Design, calibration: &Calibration) -> String {
     let mut text = format!(
         "{}, magnets as {}s: fitted to {}; held out: {}\n\n[shield]\n",
         design.name,
-        design.model.name(),
+        design.interaction.model.name(),
         rows(fitted),
         rows(held_out),
     );
@@ -102,7 +102,7 @@ pub fn json(design: &Design, calibration: &Calibration) -> String {
     json::text(&json!({
         "tilebind": env!("CARGO_PKG_VERSION"),
         "design": {"name": design.name, "sha256": design.sha256},
-        "model": design.model.name(),
+        "model": design.interaction.model.name(),
         "shield": {
             "attenuation": attenuation, "length_m": length, "width": width,
             "front_gain": front_gain,

@@ -337,7 +337,7 @@ pub fn cells(design: &Assessment) -> Vec<String> {
             cells.push(finite(estimate.and_then(|e| e.high)));
         }
     }
-    let caged = design.bond.as_ref().is_some_and(|b| b.way_out.caged);
+    let caged = design.bond.as_ref().is_some_and(|b| b.way_out.bounds.caged);
     cells.extend([
         caged.to_string(),
         number(design.target_energy),

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::json::{copies, face_names, kind, place_name, positive_zero};
-use crate::analysis::Analysis;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Pathway, PathwayPoint};
+use crate::pipeline::Analysis;
 
 const STATES: &str = "id,kind,class,copies,x_m,y_m,theta_rad,energy_J,escape_J,escape_to,\
                       capture_share,capture_low,capture_high,attracting,repelling,faces,\
@@ -28,7 +28,8 @@ const ENERGY_TOLERANCE: f64 = 1e-3;
 /// blocks they stand for, and how much higher the dipoles' is.
 pub fn states(design: &Design, analysis: &Analysis) -> String {
     let mut table = String::from(STATES);
-    for (state, escape) in analysis.states.iter().zip(&analysis.escapes) {
+    for state in &analysis.inventory.states {
+        let escape = analysis.escape(state.id);
         let (escape_height, escape_to) = match escape {
             Some(escape) => (number(escape.forward()), place_name(escape.to)),
             None => Default::default(),
@@ -47,7 +48,7 @@ pub fn states(design: &Design, analysis: &Analysis) -> String {
             state.id,
             kind(state.kind),
             state.class,
-            copies(state, &analysis.states),
+            copies(state, &analysis.inventory.states),
             pose(&state.configuration),
             number(state.energy),
             state.attracting,
@@ -74,8 +75,8 @@ pub fn barriers(barriers: &[Barrier], pathway_file: impl Fn(&Barrier) -> String)
             place_name(barrier.from),
             place_name(barrier.to),
             finite(barrier.saddle_energy),
-            optional(barrier.lower),
-            optional(barrier.upper),
+            optional(barrier.bounds.lower),
+            optional(barrier.bounds.upper),
             finite(barrier.forward()),
             finite(barrier.reverse()),
             optional(barrier.spread.map(|spread| spread.0)),

@@ -10,6 +10,7 @@ use crate::dynamics::docking::{
 };
 use crate::dynamics::{Motion, Sample};
 use crate::landscape::Proportion;
+use crate::problem::Problem;
 use crate::units::si;
 
 /// Where the paper's figure 6 says that the chance of a match is above [`PAPER_CHANCE`]: relative
@@ -213,7 +214,7 @@ fn motion_fields(motion: &Motion) -> String {
 }
 
 /// A few lines for the terminal.
-pub fn summary(design: &Design, docking: &Docking, map: &DockingMap) -> String {
+pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &DockingMap) -> String {
     let share = |p: &Proportion| {
         format!(
             "{:.1} % ({:.1} to {:.1} %)",
@@ -232,7 +233,7 @@ pub fn summary(design: &Design, docking: &Docking, map: &DockingMap) -> String {
     text += &format!("  bound    {}\n", share(&docking.bound));
     text += &format!("  misbound {}\n", share(&docking.misbound));
     // Cannot fail: the experiment had a rule.
-    let rule = MatchRule::new(design, docking.settings.threshold).ok();
+    let rule = MatchRule::new(problem, docking.settings.threshold).ok();
     for trap in docking.traps.iter().take(4) {
         let q = trap.configuration;
         let is_bond = rule.as_ref().is_some_and(|rule| rule.holds(&q));

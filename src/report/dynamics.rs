@@ -6,9 +6,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::json::{place, place_name};
-use crate::analysis::Analysis;
 use crate::dynamics::Motion;
 use crate::dynamics::check::{BarrierCheck, Side, SideVerdict};
+use crate::pipeline::Analysis;
 
 /// The file with a line for each barrier.
 pub const TABLE: &str = "dynamics.csv";

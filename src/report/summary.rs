@@ -5,10 +5,10 @@
 
 use std::fmt::Write;
 
-use crate::analysis::Analysis;
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
+use crate::landscape::{Kind, Place, Proportion, State, StateKind};
+use crate::pipeline::Analysis;
 use crate::report::dynamics;
 use crate::report::json::face_names;
 use crate::units::{si, si_range};
@@ -18,31 +18,16 @@ const LISTED: usize = 4;
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// The states that symmetries map onto each other, taken together.
-struct Class<'a> {
-    /// The copy closest to the bound configuration.
-    state: &'a State,
-    escape: Option<&'a Barrier>,
-    copies: usize,
-    /// Share of the far starts that end in any of the copies.
-    captured: Proportion,
-}
-
 /// The summary of an analysis whose results are in `folder`.
 pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
-    let classes = classes(analysis);
-    let mut traps: Vec<&Class> = classes
-        .iter()
-        .filter(|class| class.state.kind == StateKind::Misbound)
-        .collect();
-    traps.sort_by_key(|class| std::cmp::Reverse(class.captured.count));
-    let bond = classes
-        .iter()
-        .find(|class| class.state.kind == StateKind::Bound);
+    let (bonds, mut traps): (Vec<Kind>, Vec<Kind>) =
+        analysis.inventory.kinds().partition(Kind::is_bond);
+    traps.sort_by_key(|kind| std::cmp::Reverse(kind.captured().count));
+    let bond = bonds.first();
 
     let mut text = String::new();
     write_captures(&mut text, design, analysis, bond, &traps);
-    let listed = bond.into_iter().chain(traps.iter().take(LISTED).copied());
+    let listed = bond.into_iter().chain(traps.iter().take(LISTED));
     let mut rows = vec![HEADER.map(str::to_owned)];
     rows.extend(listed.map(|class| row(design, analysis, class)));
     write_table(&mut text, &rows);
@@ -66,6 +51,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
 /// How far the dipoles' energy is off at the state where it is off most.
 fn write_dipole_error(text: &mut String, analysis: &Analysis) {
     let worst = analysis
+        .inventory
         .states
         .iter()
         .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
@@ -81,37 +67,17 @@ fn write_dipole_error(text: &mut String, analysis: &Analysis) {
     }
 }
 
-fn classes(analysis: &Analysis) -> Vec<Class<'_>> {
-    let firsts = analysis.states.iter().filter(|s| s.id == s.class);
-    firsts
-        .map(|state| {
-            let copies: Vec<&State> = analysis
-                .states
-                .iter()
-                .filter(|s| s.class == state.class)
-                .collect();
-            let count = copies.iter().filter_map(|s| s.capture).map(|c| c.count);
-            Class {
-                state,
-                escape: analysis.escapes[state.id].as_ref(),
-                copies: copies.len(),
-                captured: Proportion::new(count.sum(), analysis.uncaptured.of),
-            }
-        })
-        .collect()
-}
-
 /// Where far starts end.
 fn write_captures(
     text: &mut String,
     design: &Design,
     analysis: &Analysis,
-    bond: Option<&Class>,
-    traps: &[&Class],
+    bond: Option<&Kind>,
+    traps: &[Kind],
 ) {
     let of = analysis.uncaptured.of;
-    let trapped: usize = traps.iter().map(|class| class.captured.count).sum();
-    let bound = bond.map_or(0, |class| class.captured.count);
+    let trapped: usize = traps.iter().map(|class| class.captured().count).sum();
+    let bound = bond.map_or(0, |class| class.captured().count);
     let [inner, outer] = analysis.ring;
     let _ = writeln!(
         text,
@@ -133,45 +99,41 @@ const HEADER: [&str; 6] = [
     "x, y (mm), theta, faces",
 ];
 
-fn row(design: &Design, analysis: &Analysis, class: &Class) -> [String; 6] {
-    let name = state_name(class.state);
-    let energy = class.state.energy;
-    let caged = || {
-        analysis
-            .barriers
-            .iter()
-            .any(|way| way.from == Place::State(class.state.id) && way.caged)
-    };
+fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
+    let name = state_name(class.first());
+    let energy = class.first().energy;
+    let Analysis {
+        problem, inventory, ..
+    } = analysis;
+    let escape = inventory.escape_of_kind(problem, class.first().class);
+    let is_caged = escape.is_some_and(|way| way.bounds.caged);
     [
-        if class.copies > 1 {
-            format!("{name} x{}", class.copies)
+        if class.copies() > 1 {
+            format!("{name} x{}", class.copies())
         } else {
             name
         },
-        percent(&class.captured),
+        percent(&class.captured()),
         si(energy, "J", DIGITS),
-        match class.escape {
-            None if caged() => "caged".to_owned(),
-            None => "none found".to_owned(),
-            Some(way) => {
+        match escape {
+            _ if is_caged => "caged".to_owned(),
+            Some(way) if way.has_way() => {
                 let to = match way.to {
                     Place::Free => "free".to_owned(),
-                    Place::State(id) => state_name(&analysis.states[id]),
+                    Place::State(id) => state_name(&inventory.states[id]),
                 };
                 format!("{} to {to}", si(way.forward(), "J", DIGITS))
             }
+            _ => "none found".to_owned(),
         },
-        match class.escape.and_then(|way| way.lower.zip(way.upper)) {
-            None if caged() => "no way out".to_owned(),
+        match escape.and_then(|way| way.bounds.above(energy).both()) {
+            _ if is_caged => "no way out".to_owned(),
             None => String::new(),
-            // No barrier is negative.
-            Some((lower, upper)) => {
-                si_range((lower - energy).max(0.0), upper - energy, "J", DIGITS)
-            }
+            Some((lower, upper)) => si_range(lower, upper, "J", DIGITS),
         },
         format!(
             "{}, {}",
-            pose(&class.state.configuration),
+            pose(&class.first().configuration),
             faces(design, class)
         ),
     ]
@@ -201,21 +163,21 @@ pub(crate) fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
     }
 }
 
-fn write_rest(text: &mut String, rest: &[&Class]) {
-    let deepest = rest.iter().map(|t| t.state.energy).fold(0.0, f64::min);
-    let captured: usize = rest.iter().map(|t| t.captured.count).sum();
+fn write_rest(text: &mut String, rest: &[Kind]) {
+    let deepest = rest.iter().map(|t| t.first().energy).fold(0.0, f64::min);
+    let captured: usize = rest.iter().map(|t| t.captured().count).sum();
     let _ = writeln!(
         text,
         "and {} more kinds of trap down to {} that capture {} together",
         rest.len(),
         si(deepest, "J", DIGITS),
-        percent(&Proportion::new(captured, rest[0].captured.of)),
+        percent(&Proportion::new(captured, rest[0].captured().of)),
     );
 }
 
 /// How far starts may get into the bond at best.
-fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
-    let Some(bond) = bond else {
+fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Kind>) {
+    if bond.is_none() {
         let energy = si(analysis.bound.1, "J", DIGITS);
         let _ = writeln!(
             text,
@@ -223,23 +185,12 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
         );
         return;
     };
-    let to_free = analysis
-        .barriers
-        .iter()
-        .find(|way| way.from == Place::State(bond.state.id) && way.to == Place::Free);
-    let _ = match to_free {
-        Some(way) if way.caged => {
-            writeln!(text, "no way at all from far apart into the bond, proved")
-        }
-        None => writeln!(text, "no way from far apart into the bond was found"),
-        Some(way) if way.caged => {
+    let _ = match analysis.inventory.way_out_of_the_bond() {
+        Some(way) if way.bounds.caged => {
             writeln!(
                 text,
                 "proved: no way leads from far apart into the bond, nor out of it"
             )
-        }
-        Some(way) if way.pathway.is_empty() => {
-            writeln!(text, "no way from far apart into the bond was found")
         }
         Some(way) if way.saddle_energy <= 0.0 => {
             writeln!(
@@ -247,33 +198,34 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Class>) {
                 "no barrier on the best way from far apart into the bond"
             )
         }
-        Some(way) => writeln!(
+        Some(way) if way.has_way() => writeln!(
             text,
             "a barrier of {} on the best way from far apart into the bond",
             si(way.saddle_energy, "J", DIGITS)
         ),
+        _ => writeln!(text, "no way from far apart into the bond was found"),
     };
 }
 
-fn write_deepest(text: &mut String, bond: Option<&Class>, traps: &[&Class]) {
+fn write_deepest(text: &mut String, bond: Option<&Kind>, traps: &[Kind]) {
     let deepest = traps
         .iter()
-        .min_by(|a, b| a.state.energy.total_cmp(&b.state.energy));
+        .min_by(|a, b| a.first().energy.total_cmp(&b.first().energy));
     let _ = match (deepest, bond) {
         (None, _) => writeln!(text, "no traps"),
-        (Some(deepest), None) => writeln!(text, "deepest: {}", state_name(deepest.state)),
+        (Some(deepest), None) => writeln!(text, "deepest: {}", state_name(deepest.first())),
         (Some(deepest), Some(bond)) => writeln!(
             text,
             "deepest: {}; selectivity {:.3} (energy of the bond over that of the deepest trap)",
-            state_name(deepest.state),
-            bond.state.energy / deepest.state.energy,
+            state_name(deepest.first()),
+            bond.first().energy / deepest.first().energy,
         ),
     };
 }
 
 /// Names of the faces in contact: `east-west`.
-fn faces(design: &Design, class: &Class) -> String {
-    let pairs: Vec<String> = face_names(design, class.state)
+fn faces(design: &Design, class: &Kind) -> String {
+    let pairs: Vec<String> = face_names(design, class.first())
         .iter()
         .map(|pair| pair.join("-"))
         .collect();

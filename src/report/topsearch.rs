@@ -23,18 +23,18 @@ pub const NAMES: [&str; 5] = ["min.data", "min.coords", "ts.data", "ts.coords", 
 
 /// All files of a landscape; `far` (m) is a distance at which the tiles are far apart.
 pub fn files(scene: &Scene, far: f64) -> Files {
-    let classes = scene.classes();
+    let classes = scene.kinds();
     let free = classes.len();
     let number = |place: Place| match place {
         Place::Free => Some(free),
         Place::State(_) => {
             let class = scene.class_of(place)?;
-            classes.iter().position(|c| c.state.class == class)
+            classes.iter().position(|c| c.first().class == class)
         }
     };
     // Between two minima only the lowest one counts.
     let mut lowest: BTreeMap<(usize, usize), (f64, Configuration)> = BTreeMap::new();
-    for barrier in scene.all_barriers() {
+    for barrier in scene.barriers() {
         let (Some(from), Some(to)) = (number(barrier.from), number(barrier.to)) else {
             continue;
         };
@@ -57,7 +57,7 @@ pub fn files(scene: &Scene, far: f64) -> Files {
     }
     let minima = classes
         .iter()
-        .map(|class| (class.state.energy, class.state.configuration))
+        .map(|class| (class.first().energy, class.first().configuration))
         .chain([(0.0, Configuration::new(far, 0.0, 0.0))]);
     let mut texts = NAMES.map(|name| (name, String::new()));
     let [min, min_coords, ts, ts_coords, pairs] = texts.each_mut().map(|(_, text)| text);

@@ -9,10 +9,9 @@ use super::json::Report;
 use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
 use super::{arrays, csv, dynamics, json, topsearch};
-use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::landscape::Barrier;
-use crate::pipeline;
+use crate::pipeline::Analysis;
 
 /// Files by their names relative to the folder they go to.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -69,21 +68,22 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     add("states.csv".into(), csv::states(design, analysis));
     add(
         "barriers.csv".into(),
-        csv::barriers(&analysis.barriers, json::pathway_file),
+        csv::barriers(&analysis.inventory.barriers, json::pathway_file),
     );
     if let Some(checks) = &analysis.dynamics {
         add(dynamics::TABLE.into(), dynamics::csv(checks));
     }
     let escapes = analysis
+        .inventory
         .states
         .iter()
         .filter(|state| extent == Extent::Full || state.id == state.class)
-        .filter_map(|state| analysis.escapes[state.id].as_ref());
-    let barriers = escapes.chain(&analysis.barriers);
-    for barrier in barriers.filter(|barrier| !barrier.pathway.is_empty()) {
-        add(json::pathway_file(barrier), csv::pathway(&barrier.pathway));
+        .filter_map(|state| analysis.escape(state.id));
+    let barriers = escapes.chain(analysis.inventory.barriers.iter().cloned());
+    for barrier in barriers.filter(Barrier::has_way) {
+        add(json::pathway_file(&barrier), csv::pathway(&barrier.pathway));
     }
-    for alternative in &analysis.alternatives {
+    for alternative in &analysis.inventory.alternatives {
         add(
             json::alternative_file(alternative),
             csv::pathway(&alternative.pathway),
@@ -94,21 +94,8 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
 
 /// The pictures, the page, and the graph for TopSearch.
 fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<Files, PictureError> {
-    let problem = pipeline::problem(design);
-    let passable: Vec<Barrier> = analysis
-        .barriers
-        .iter()
-        .filter(|barrier| !barrier.pathway.is_empty())
-        .cloned()
-        .collect();
     let mut files = Files::new();
-    let Some(scene) = Scene::new(design, &problem, analysis) else {
-        return Ok(files);
-    };
-    let scene = Scene {
-        barriers: &passable,
-        ..scene
-    };
+    let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
     for NamedPicture { name, picture } in plots::draw_all(&scene)? {
         files.insert(format!("pictures/{name}.svg"), picture.svg.into());
         if extent == Extent::Full {

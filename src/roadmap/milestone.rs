@@ -23,9 +23,9 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::Milestone;
-use crate::configuration::{Configuration, wrap_angle};
+use crate::configuration::Configuration;
 use crate::problem::Problem;
-use crate::tile::Face;
+use crate::tile::face_to_face;
 
 /// By which rule a proposed milestone is accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,8 +93,7 @@ fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Opt
 }
 
 fn propose(problem: &Problem, rng: &mut ChaCha8Rng) -> Configuration {
-    let faces = (&problem.fixed_faces, &problem.moving_faces);
-    if faces.0.is_empty() || faces.1.is_empty() || rng.random_bool(0.25) {
+    if problem.faces().iter().any(|faces| faces.is_empty()) || rng.random_bool(0.25) {
         uniform(problem, rng)
     } else {
         around_contact(problem, rng)
@@ -111,8 +110,9 @@ fn uniform(problem: &Problem, rng: &mut impl Rng) -> Configuration {
 }
 
 fn around_contact(problem: &Problem, rng: &mut impl Rng) -> Configuration {
-    let fixed = &problem.fixed_faces[rng.random_range(0..problem.fixed_faces.len())];
-    let moving = &problem.moving_faces[rng.random_range(0..problem.moving_faces.len())];
+    let [fixed, moving] = problem.faces();
+    let fixed = &fixed[rng.random_range(0..fixed.len())];
+    let moving = &moving[rng.random_range(0..moving.len())];
     let tilt = if rng.random_bool(1.0 / 3.0) {
         rng.random_range(-PI..=PI)
     } else {
@@ -127,21 +127,7 @@ fn around_contact(problem: &Problem, rng: &mut impl Rng) -> Configuration {
     };
     let q = face_to_face(fixed, moving, slide, tilt);
     let normal = fixed.normal();
-    let lifted = match &problem.contact {
-        Some(contact) => contact.lift(&q, normal),
-        None => 0.0,
-    };
-    shifted(&q, normal * (lifted + gap))
-}
-
-/// The configuration in which the base lines of two faces lie against each other, the moving one
-/// `slide` (m) along the fixed one and turned by `tilt` (rad) about its middle.
-pub fn face_to_face(fixed: &Face, moving: &Face, slide: f64, tilt: f64) -> Configuration {
-    let direction = |v: Vector2<f64>| v.y.atan2(v.x);
-    let theta = wrap_angle(direction(fixed.normal()) + PI - direction(moving.normal()) + tilt);
-    let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
-    let position = fixed.point(slide, 0.0) - turned;
-    Configuration::new(position.x, position.y, theta)
+    shifted(&q, normal * (problem.lift(&q, normal) + gap))
 }
 
 fn shifted(q: &Configuration, by: Vector2<f64>) -> Configuration {

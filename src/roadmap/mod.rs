@@ -41,19 +41,28 @@ pub struct Roadmap {
     pub edges: Vec<Edge>,
 }
 
+/// All that decides a roadmap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoadmapSettings {
+    pub milestones: MilestoneSettings,
+    /// Nearest neighbours to which each milestone is joined.
+    pub neighbours: usize,
+    pub edges: EdgeSettings,
+}
+
 impl Roadmap {
-    /// Draws the milestones and joins each to its `neighbours` nearest ones (the number that
-    /// [`neighbour::neighbours_per_milestone`] gives, where `None`).
+    /// Draws the milestones and joins each to its nearest ones. `watch` is told of each stage.
     pub fn build(
         problem: &Problem,
-        milestone_settings: &MilestoneSettings,
-        neighbours: Option<usize>,
-        edge_settings: &EdgeSettings,
+        settings: &RoadmapSettings,
+        watch: &mut dyn FnMut(&'static str),
     ) -> Self {
-        let milestones = milestone::milestones(problem, milestone_settings);
-        let k = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones.len()));
-        let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, k);
-        let edges = edge::edges(problem, &milestones, &pairs, edge_settings);
+        watch("milestones");
+        let milestones = milestone::milestones(problem, &settings.milestones);
+        watch("neighbours");
+        let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, settings.neighbours);
+        watch("edges");
+        let edges = edge::edges(problem, &milestones, &pairs, &settings.edges);
         Self { milestones, edges }
     }
 }

@@ -11,7 +11,7 @@ use rayon::ThreadPoolBuilder;
 use super::plan::{Plan, Point};
 use super::store::Outcome;
 use crate::comparison;
-use crate::pipeline::Silent;
+use crate::observer::Silent;
 
 /// Works on points, `threads` of them at a time while there are that many; `finished` is told of
 /// each, from any thread. Points of the same name are worked on once.

@@ -6,11 +6,13 @@ mod convex;
 pub mod edge_grid;
 pub mod magnet;
 pub mod outline;
+mod pair;
 pub mod profile;
 pub mod symmetry;
 
 pub use magnet::Magnet;
 pub use outline::Outline;
+pub use pair::{Pair, face_to_face};
 
 use nalgebra::{Vector2, Vector3};
 

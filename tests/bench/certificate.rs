@@ -19,7 +19,7 @@ use tilebind::potential::shielding::{Shield, Shields};
 
 fn main() {
     let design = designs::load("shapes/paper-tile.toml");
-    let (fixed, moving) = (&design.fixed, &design.moving);
+    let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
     println!("point dipoles");
     measure(&design, &DipoleBounds::new(fixed, moving), 65.47e-3);
     let shield = Shield {
@@ -42,26 +42,26 @@ fn main() {
 
 /// Brackets several barriers to shares of the bond's depth (J).
 fn measure(design: &Design, bounds: &dyn CellBounds, depth: f64) {
-    let contact = Contact::new(&design.fixed.outline, &design.moving.outline);
+    let contact = Contact::new(&design.pair.fixed.outline, &design.pair.moving.outline);
     let space = design.space();
     let queries = [
         (
             "slid by +40 mm, to bound",
             [0.43, 0.04, 0.0],
-            End::At(design.bound),
+            End::At(design.pair.bound),
         ),
         ("slid by +40 mm, to free", [0.43, 0.04, 0.0], End::Free),
         (
             "slid by -40 mm, to bound",
             [0.43, -0.04, 0.0],
-            End::At(design.bound),
+            End::At(design.pair.bound),
         ),
         ("slid by -40 mm, to free", [0.43, -0.04, 0.0], End::Free),
         ("flush at +140 mm, to free", [0.43, 0.14, 0.0], End::Free),
         (
             "flush at +100 mm, to bound",
             [0.43, 0.1003, 0.0],
-            End::At(design.bound),
+            End::At(design.pair.bound),
         ),
     ];
     println!(

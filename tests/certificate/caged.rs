@@ -78,7 +78,7 @@ fn a_dovetail_is_a_cage() {
 #[test]
 fn the_shipped_dovetail_is_a_cage() {
     let (scene, design) = Scene::shipped("dovetail", MagnetModel::Dipole);
-    let bracket = scene.bracket(&design.bound, &End::Free, &effort(1e-6, 500_000));
+    let bracket = scene.bracket(&design.pair.bound, &End::Free, &effort(1e-6, 500_000));
     assert!(bracket.caged, "{bracket:?}");
 }
 

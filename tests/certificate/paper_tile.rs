@@ -10,7 +10,7 @@ use crate::scene::{Scene, effort};
 fn brackets_hold_the_reference_saddles() {
     let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Dipole);
     let depth = 65.47e-3;
-    let bound = End::At(design.bound);
+    let bound = End::At(design.pair.bound);
     let mut certifier = scene.certifier();
     // From, to, and the reference saddle's energy, known to about 0.05 uJ.
     let cases = [
@@ -38,8 +38,11 @@ fn brackets_hold_the_reference_saddles() {
 #[test]
 fn brackets_of_blocks_are_as_narrow_as_asked_and_nest() {
     let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Cuboid);
-    let depth = -scene.potential.energy(&design.bound);
-    for (to, saddle) in [(End::At(design.bound), -0.8996e-3), (End::Free, -0.0046e-3)] {
+    let depth = -scene.potential.energy(&design.pair.bound);
+    for (to, saddle) in [
+        (End::At(design.pair.bound), -0.8996e-3),
+        (End::Free, -0.0046e-3),
+    ] {
         let from = Configuration::new(0.43, 0.04, 0.0);
         for share in [1e-2, 1e-3] {
             let bracket = scene.bracket(&from, &to, &effort(share * depth, 100_000));
@@ -87,7 +90,7 @@ fn the_bracket_does_not_depend_on_the_number_of_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| scene.bracket(&from, &End::At(design.bound), &effort(1e-4, 100_000)))
+        pool.install(|| scene.bracket(&from, &End::At(design.pair.bound), &effort(1e-4, 100_000)))
     };
     let one = on(1);
     assert_eq!(one, on(3));

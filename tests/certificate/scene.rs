@@ -74,8 +74,8 @@ impl Scene {
         let half_size = design.table.map(|size| size / 2.0);
         (
             Self::new(
-                design.fixed.clone(),
-                design.moving.clone(),
+                design.pair.fixed.clone(),
+                design.pair.moving.clone(),
                 half_size,
                 model,
             ),

@@ -54,7 +54,7 @@ pub(crate) fn profiled(drawing: &str, keys: &str) -> Result<Vec<[f64; 2]>, Desig
     let face = format!("0 = {{ profile = {{ shape = \"svg\", file = \"a.svg\"{keys} }} }}");
     let design = parse(drawing, &design("side = 0.4", &face, "side = 0.4", (1, 0)))?;
     // Face 0 looks along +x, s runs along +y.
-    let points = design.fixed.outline.vertices().iter();
+    let points = design.pair.fixed.outline.vertices().iter();
     let corner = |p: &[f64; 2]| p[0].abs() == 0.2 && p[1] == 0.0;
     Ok(points
         .filter(|p| p.x > -0.199)
@@ -138,15 +138,15 @@ fn what_is_not_read_of_a_drawing_is_named() {
 fn an_outline_from_openscad_has_its_segments_as_faces() {
     let openscad = load("openscad.svg");
     let design = outlined(&openscad, "").unwrap();
-    let faces = &design.fixed.faces;
+    let faces = &design.pair.fixed.faces;
     assert_eq!(faces.len(), 8);
     assert!(doubts(&design).is_empty());
     // Counter-clockwise from where the path begins: up is positive.
     assert!((faces[0].start.y - 0.05).abs() < 1e-12 && (faces[0].end.y - 0.05).abs() < 1e-12);
     assert!((faces[0].length() - 0.12).abs() < 1e-12);
     let area = 0.12 * 0.10 - 0.01 * 0.035;
-    assert!((design.fixed.outline.area() - area).abs() < 1e-15);
-    assert!(design.fixed.outline.centroid().norm() < 1e-15);
+    assert!((design.pair.fixed.outline.area() - area).abs() < 1e-15);
+    assert!(design.pair.fixed.outline.centroid().norm() < 1e-15);
 }
 
 #[test]
@@ -158,14 +158,14 @@ fn corners_gather_segments_into_faces() {
         ", corners = [[{right:.4}, -0.05], [{right:.4}, 0.05], [{left:.4}, 0.05], [{left:.4}, -0.05]]"
     );
     let design = outlined(&openscad, &corners).unwrap();
-    let faces = &design.fixed.faces;
+    let faces = &design.pair.fixed.faces;
     assert_eq!(faces.len(), 4);
     let lengths: Vec<f64> = faces.iter().map(|face| face.length()).collect();
     for (length, expected) in lengths.iter().zip([0.10, 0.12, 0.10, 0.12]) {
         assert!((length - expected).abs() < 1e-12, "{lengths:?}");
     }
     let area = 0.12 * 0.10 - 0.01 * 0.035;
-    assert!((design.fixed.outline.area() - area).abs() < 1e-12);
+    assert!((design.pair.fixed.outline.area() - area).abs() < 1e-12);
     let told = |corners: &str| outlined(&openscad, corners).unwrap_err().to_string();
     let off = told(", corners = [[0.0616, -0.05], [0.0616, 0.045]]");
     assert!(
@@ -194,11 +194,11 @@ fn a_mate_of_a_drawn_face_is_its_complement() {
     let design = parse(&openscad, &text).unwrap();
     // The slot's area has become a tab's.
     let slot = 0.01 * 0.035;
-    assert!((design.moving.outline.area() - (0.01 + slot)).abs() < 1e-12);
+    assert!((design.pair.moving.outline.area() - (0.01 + slot)).abs() < 1e-12);
     assert!(
-        (design.bound.x - (0.0616 + 0.05)).abs() < 1e-4,
+        (design.pair.bound.x - (0.0616 + 0.05)).abs() < 1e-4,
         "{:?}",
-        design.bound
+        design.pair.bound
     );
 }
 
@@ -306,14 +306,14 @@ fn transforms_and_view_boxes_are_composed() {
         let drawing = format!("<svg {head}>{square}</svg>");
         let design = outlined(&drawing, "").unwrap_or_else(|e| panic!("{e}"));
         assert!(
-            (design.fixed.outline.area().sqrt() - side).abs() < 1e-12,
+            (design.pair.fixed.outline.area().sqrt() - side).abs() < 1e-12,
             "{head}"
         );
     }
     for (unit, side) in [("mm", 0.1), ("cm", 1.0), ("px", 100.0 * 0.0254 / 96.0)] {
         let drawing = format!("<svg width=\"7\" height=\"9\">{square}</svg>");
         let design = outlined(&drawing, &format!(", unit = \"{unit}\"")).unwrap();
-        assert!((design.fixed.outline.area().sqrt() - side).abs() < 1e-12);
+        assert!((design.pair.fixed.outline.area().sqrt() - side).abs() < 1e-12);
     }
 }
 

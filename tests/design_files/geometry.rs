@@ -71,12 +71,12 @@ const AT_ORIGIN: Configuration = Configuration::new(0.0, 0.0, 0.0);
 #[test]
 fn mates_coincide_in_the_bound_configuration() {
     for design in exact_mates() {
-        let (fixed, moving) = (&design.fixed, &design.moving);
-        for p in along_face(fixed, design.target.0, &AT_ORIGIN) {
-            let gap = distance(moving, &design.bound, p).abs();
+        let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
+        for p in along_face(fixed, design.pair.target.0, &AT_ORIGIN) {
+            let gap = distance(moving, &design.pair.bound, p).abs();
             assert!(gap < 1e-12, "{}: {p} is {gap} off", design.name);
         }
-        for p in along_face(moving, design.target.1, &design.bound) {
+        for p in along_face(moving, design.pair.target.1, &design.pair.bound) {
             let gap = distance(fixed, &AT_ORIGIN, p).abs();
             assert!(gap < 1e-12, "{}: {p} is {gap} off", design.name);
         }
@@ -89,7 +89,7 @@ fn what_a_profile_adds_to_one_tile_its_mate_lacks() {
         let design = Design::load(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         if text.matches("side = 0.43").count() == 2 && !text.contains("fit =") {
-            let area = design.fixed.outline.area() + design.moving.outline.area();
+            let area = design.pair.fixed.outline.area() + design.pair.moving.outline.area();
             assert!((area - 2.0 * 0.43 * 0.43).abs() < 1e-14, "{}", design.name);
         }
     }
@@ -100,15 +100,15 @@ fn a_fit_leaves_a_gap_of_its_own_width_everywhere() {
     let fit = 0.001;
     for face in 0..8 {
         let design = every_profile(face, "0.001");
-        let (fixed, moving) = (&design.fixed, &design.moving);
-        let clearance = Contact::new(&fixed.outline, &moving.outline).clearance(&design.bound);
+        let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
+        let clearance = Contact::new(&fixed.outline, &moving.outline).clearance(&design.pair.bound);
         assert!((clearance - fit).abs() < 1e-12, "face {face}: {clearance}");
         // The middles of the edges face an edge; corners are farther away, never nearer.
         let middles = (0..moving.outline.vertices().len()).map(|i| {
             let (a, b) = moving.outline.edge(i);
-            design.bound.transform((a + b) / 2.0)
+            design.pair.bound.transform((a + b) / 2.0)
         });
-        let line = &fixed.faces[design.target.0];
+        let line = &fixed.faces[design.pair.target.0];
         let near = |p: &Vector2<f64>| {
             let d = p - line.middle();
             d.dot(&line.tangent()).abs() < line.length() / 2.0 - 0.01
@@ -128,16 +128,16 @@ fn a_fit_leaves_a_gap_of_its_own_width_everywhere() {
 #[test]
 fn mated_magnets_face_each_other_head_to_tail() {
     for design in exact_mates() {
-        let face = &design.fixed.faces[design.target.0];
-        let fixed = magnets_of_face(&design.fixed, design.target.0);
-        let mut moving = magnets_of_face(&design.moving, design.target.1);
+        let face = &design.pair.fixed.faces[design.pair.target.0];
+        let fixed = magnets_of_face(&design.pair.fixed, design.pair.target.0);
+        let mut moving = magnets_of_face(&design.pair.moving, design.pair.target.1);
         moving.reverse();
         assert_eq!(fixed.len(), moving.len());
         for (a, b) in fixed.iter().zip(&moving) {
-            let apart = design.bound.transform(b.position) - a.position;
+            let apart = design.pair.bound.transform(b.position) - a.position;
             let m = Vector2::new(
-                (b.angle + design.bound.theta).cos(),
-                (b.angle + design.bound.theta).sin(),
+                (b.angle + design.pair.bound.theta).cos(),
+                (b.angle + design.pair.bound.theta).sin(),
             );
             let n = Vector2::new(a.angle.cos(), a.angle.sin());
             // Straight across the gap; the moments equal along the normal, opposite along the face.
@@ -157,7 +157,7 @@ fn mated_magnets_face_each_other_head_to_tail() {
 #[test]
 fn a_magnet_sits_behind_the_line_at_its_place() {
     let design = designs::load("shapes/sine-teeth-20mm.toml");
-    for magnet in &design.fixed.magnets {
+    for magnet in &design.pair.fixed.magnets {
         let s = magnet.position.y;
         let surface = 0.215 + 0.010 * (TAU * 4.0 * s / 0.43).sin();
         let expected = surface - 0.004 - 0.005;
@@ -171,8 +171,9 @@ fn a_halbach_row_gathers_its_field_outside() {
     let text = std::fs::read_to_string(path).unwrap();
     let energy = |text: &str| {
         let design = Design::parse(text, "halbach.toml").unwrap();
-        let potential = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
-        potential.energy(&design.bound)
+        let potential =
+            DipolePotential::new(&design.pair.fixed.magnets, &design.pair.moving.magnets);
+        potential.energy(&design.pair.bound)
     };
     let (outside, inside) = (
         energy(&text),

@@ -103,25 +103,28 @@ fn the_paper_s_tile_is_what_its_file_says() {
             "b80ed904c0b0071175466d563911a5e45a26fd2839b260d3301619e08fe29354"
         )
     );
-    assert_eq!(design.bound, Configuration::new(0.43, 0.0, 0.0));
-    assert_eq!(design.target, (0, 2));
+    assert_eq!(design.pair.bound, Configuration::new(0.43, 0.0, 0.0));
+    assert_eq!(design.pair.target, (0, 2));
     let space = design.space();
     assert_eq!(space.half_size, [1.0, 1.0]);
     // A square's radius of gyration is side / sqrt(6), its circle's radius side / sqrt(2).
     assert!((space.rho - 0.43 / 6_f64.sqrt()).abs() < 1e-15);
     assert!((space.free_distance - 0.43 * 2_f64.sqrt()).abs() < 1e-15);
     assert_eq!(
-        (design.fixed.magnets.len(), design.moving.magnets.len()),
+        (
+            design.pair.fixed.magnets.len(),
+            design.pair.moving.magnets.len()
+        ),
         (16, 16)
     );
-    let north = &design.fixed.magnets[4];
+    let north = &design.pair.fixed.magnets[4];
     assert_eq!(north.face, 1);
     assert!((north.position - Vector2::new(0.06, 0.21)).norm() < 1e-15);
     assert!((north.angle - FRAC_PI_2).abs() < 1e-15);
     assert!((north.moment - 0.286_479).abs() < 1e-6);
     let outer_pole = north.position + Vector2::new(0.0, north.size[0] / 2.0);
     assert!((outer_pole.y - 0.215).abs() < 1e-15);
-    assert_eq!(symmetry::rotations(&design.fixed).len(), 4);
+    assert_eq!(symmetry::rotations(&design.pair.fixed).len(), 4);
     assert_eq!(
         symmetry::rotations(&designs::load("shapes/hexagon.toml").moving).len(),
         6
@@ -137,23 +140,26 @@ fn a_terse_design_takes_the_defaults() {
     let design = designs::load("tests/designs/good/terse.toml");
     assert_eq!(design.name, "terse");
     assert_eq!(
-        (design.fixed.magnets.len(), design.moving.magnets.len()),
+        (
+            design.pair.fixed.magnets.len(),
+            design.pair.moving.magnets.len()
+        ),
         (1, 1)
     );
-    assert_eq!(design.moving.magnets[0].moment, 0.5);
-    assert_eq!(design.bound, Configuration::new(0.4, 0.0, 0.0));
+    assert_eq!(design.pair.moving.magnets[0].moment, 0.5);
+    assert_eq!(design.pair.bound, Configuration::new(0.4, 0.0, 0.0));
 }
 
 #[test]
 fn own_keys_go_before_all_and_those_before_the_rest() {
     let design = designs::load("tests/designs/good/overrides.toml");
-    let east = magnets_of_face(&design.fixed, 0);
+    let east = magnets_of_face(&design.pair.fixed, 0);
     assert_eq!(east.len(), 3);
     assert!((east[1].position - Vector2::new(0.194, 0.0)).norm() < 1e-15);
     assert!((east[2].position.y - 0.05).abs() < 1e-15);
     assert!(east.iter().all(|magnet| magnet.moment == 0.1));
     // The mate: the partner's pitch and inset, its own moment.
-    let west = magnets_of_face(&design.moving, 2);
+    let west = magnets_of_face(&design.pair.moving, 2);
     assert!((west[0].position - Vector2::new(-0.194, 0.05)).norm() < 1e-15);
     assert!(west.iter().all(|magnet| magnet.moment == 0.2));
     // The hollow of the fixed tile's north face, and its mates on two faces of the moving tile,
@@ -162,11 +168,11 @@ fn own_keys_go_before_all_and_those_before_the_rest() {
         let vertices = tile.outline.vertices().iter();
         vertices.map(|v| v.dot(&direction)).fold(f64::MIN, f64::max)
     };
-    assert!((reach(&design.fixed, Vector2::y()) - 0.2).abs() < 1e-15);
+    assert!((reach(&design.pair.fixed, Vector2::y()) - 0.2).abs() < 1e-15);
     // (Its highest point is a corner of two chords, which moves by a hair more than they do.)
-    assert!((reach(&design.moving, Vector2::x()) - 0.2195).abs() < 1e-6);
-    assert!((reach(&design.moving, -Vector2::y()) - 0.2).abs() < 1e-12);
-    assert!(magnets_of_face(&design.moving, 3).is_empty());
+    assert!((reach(&design.pair.moving, Vector2::x()) - 0.2195).abs() < 1e-6);
+    assert!((reach(&design.pair.moving, -Vector2::y()) - 0.2).abs() < 1e-12);
+    assert!(magnets_of_face(&design.pair.moving, 3).is_empty());
 }
 
 #[test]

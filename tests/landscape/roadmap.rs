@@ -63,7 +63,7 @@ fn the_costs_of_a_motion_over_a_saddle_are_those_of_its_definition() {
 #[test]
 fn both_ends_of_a_motion_count_and_negative_energies_are_normal() {
     let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
-    let problem = pipeline::problem(&design);
+    let problem = design.problem();
     let bound = Configuration::new(0.43, 0.0, 0.0);
     let off = Configuration::new(0.47, 0.0, 0.0);
     let energies = [bound, off].map(|q| problem.energy(&q));

@@ -31,7 +31,12 @@ fn samples(grid: &Grid<Sample>) -> impl Iterator<Item = (usize, usize, &Sample)>
 fn samples_are_free_and_have_the_energy_of_their_configuration() {
     let pair = pair();
     let map = EnergyMap::new(&pair.tiles(), &window(), 48);
-    let approach = Approach::new(&pair.design.fixed, &pair.design.moving, (0, 2), BOUND);
+    let approach = Approach::new(
+        &pair.design.pair.fixed,
+        &pair.design.pair.moving,
+        (0, 2),
+        BOUND,
+    );
     let slices = ApproachSlices::new(&pair.tiles(), &approach, &slice_settings());
     for grid in [&map.lowest, &slices.gap, &slices.slide] {
         let mut count = 0;
@@ -145,7 +150,12 @@ fn slice_settings() -> SliceSettings {
 #[test]
 fn slices_start_from_contact_and_pass_through_the_bound_state() {
     let pair = pair();
-    let approach = Approach::new(&pair.design.fixed, &pair.design.moving, (0, 2), BOUND);
+    let approach = Approach::new(
+        &pair.design.pair.fixed,
+        &pair.design.pair.moving,
+        (0, 2),
+        BOUND,
+    );
     let slices = ApproachSlices::new(&pair.tiles(), &approach, &slice_settings());
     let bound = pair.potential.energy(&BOUND);
     let at_bound = [slices.gap.value(15, 0), slices.slide.value(15, 15)];

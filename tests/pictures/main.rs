@@ -14,10 +14,10 @@ fn draw(pair: &Pair) -> Vec<NamedPicture> {
     let scene = Scene {
         name: &pair.design.name,
         pair: pair.tiles(),
-        shields: &pair.design.shields,
+        shields: &pair.design.interaction.shields,
         space: &pair.space,
         bound: BOUND,
-        target: pair.design.target,
+        target: pair.design.pair.target,
         states: &pair.states,
         escapes: &pair.escapes,
         barriers: &[],

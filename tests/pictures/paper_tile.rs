@@ -38,8 +38,11 @@ impl Pair {
     fn new() -> Self {
         let design = designs::load("shapes/paper-tile.toml");
         let mut pair = Self {
-            contact: Contact::new(&design.fixed.outline, &design.moving.outline),
-            potential: DipolePotential::new(&design.fixed.magnets, &design.moving.magnets),
+            contact: Contact::new(&design.pair.fixed.outline, &design.pair.moving.outline),
+            potential: DipolePotential::new(
+                &design.pair.fixed.magnets,
+                &design.pair.moving.magnets,
+            ),
             space: design.space(),
             design,
             states: Vec::new(),
@@ -53,8 +56,8 @@ impl Pair {
 
     pub fn tiles(&self) -> Tiles<'_> {
         Tiles {
-            fixed: &self.design.fixed,
-            moving: &self.design.moving,
+            fixed: &self.design.pair.fixed,
+            moving: &self.design.pair.moving,
             potential: &self.potential,
             contact: &self.contact,
         }
@@ -105,7 +108,7 @@ impl Pair {
 
     /// The local minimum below a configuration.
     fn minimum(&self, q: Configuration) -> Configuration {
-        let (fixed, moving) = (&self.design.fixed, &self.design.moving);
+        let (fixed, moving) = (&self.design.pair.fixed, &self.design.pair.moving);
         let potential = Box::new(self.potential.clone());
         let problem = Problem::of_tiles(self.space.clone(), fixed, moving, potential);
         descend(&problem, &q).way.last().unwrap().q

@@ -235,7 +235,7 @@ pub fn check(
 
 fn is_checkable(barrier: &Barrier) -> bool {
     matches!(barrier.from, Place::State(_))
-        && (barrier.caged || (barrier.pathway.len() > 1 && barrier.forward() > 0.0))
+        && (barrier.bounds.caged || (barrier.pathway.len() > 1 && barrier.forward() > 0.0))
 }
 
 #[cfg(test)]

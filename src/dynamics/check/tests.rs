@@ -1,8 +1,8 @@
 use super::*;
-use crate::analysis::Settings;
 use crate::design::Design;
 use crate::dynamics::tests::paper_tile;
-use crate::pipeline;
+use crate::observer::Silent;
+use crate::pipeline::{self, Settings};
 
 fn few() -> CheckSettings {
     CheckSettings {
@@ -18,15 +18,15 @@ fn checked(
     settings: &Settings,
     change: impl Fn(&mut Vec<Barrier>),
 ) -> Vec<BarrierCheck> {
-    let problem = pipeline::problem(design);
-    let mut analysis = pipeline::analyse(design, settings, &pipeline::Silent);
-    change(&mut analysis.barriers);
-    let body = Body::of_tile(&design.moving);
-    let barriers: Vec<&Barrier> = analysis.barriers.iter().collect();
+    let problem = design.problem();
+    let mut analysis = pipeline::analyse(design, settings, &Silent);
+    change(&mut analysis.inventory.barriers);
+    let body = Body::of_tile(&design.pair.moving);
+    let barriers: Vec<&Barrier> = analysis.inventory.barriers.iter().collect();
     check(
         &problem,
         body,
-        &analysis.states,
+        &analysis.inventory.states,
         &barriers,
         &few(),
         &|_, _| (),
@@ -70,7 +70,7 @@ fn a_barrier_said_to_be_higher_than_it_is_does_not_stand() {
             barriers.retain(|b| is_out_of_the_slid_bond(b) && matches!(b.to, Place::State(_)));
             barriers.truncate(1);
             barriers[0].saddle_energy += 10e-3;
-            barriers[0].lower = certified.then_some(barriers[0].saddle_energy);
+            barriers[0].bounds.lower = certified.then_some(barriers[0].saddle_energy);
         });
         assert!(checks[0].is_crossed(), "{checks:?}");
         assert!(checks[0].is_kicked_over(), "{checks:?}");
@@ -101,7 +101,7 @@ fn a_caged_tile_stays_whatever_its_energy() {
         ..Settings::default()
     };
     let checks = checked(&design, &settings, |barriers| {
-        barriers.retain(|b| b.caged);
+        barriers.retain(|b| b.bounds.caged);
     });
     assert_eq!(checks.len(), 1);
     assert!(checks[0].ceiling.is_infinite() && checks[0].below.runs == 60);

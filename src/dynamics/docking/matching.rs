@@ -4,8 +4,7 @@ use nalgebra::Vector2;
 
 use super::DockingError;
 use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::landscape::symmetry::Symmetry;
+use crate::problem::{Problem, Symmetry};
 
 /// A match as the paper declares it: every magnet of the target face is within a threshold of its
 /// partner on the other tile. Faces that a symmetry of the tiles maps onto the target faces count
@@ -20,19 +19,20 @@ pub struct MatchRule {
 }
 
 impl MatchRule {
-    /// The rule of a design. Without a `threshold` (m) it is 1.5 lengths of the longest magnet of
+    /// The rule of a pair of tiles. Without a `threshold` (m) it is 1.5 lengths of the longest magnet of
     /// the target face; where partners are more than one length apart in the bound configuration,
     /// that distance and half a length.
     ///
     /// # Errors
     /// Where one of the target faces has no magnets.
-    pub fn new(design: &Design, threshold: Option<f64>) -> Result<Self, DockingError> {
+    pub fn new(problem: &Problem, threshold: Option<f64>) -> Result<Self, DockingError> {
+        let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
         let on = |magnets: &'_ [crate::tile::Magnet], face: usize| -> Vec<_> {
             magnets.iter().filter(|m| m.face == face).cloned().collect()
         };
-        let fixed = on(&design.fixed.magnets, design.target.0);
-        let moving = on(&design.moving.magnets, design.target.1);
-        let apart = |a: &Vector2<f64>, b: &Vector2<f64>| (design.bound.transform(*b) - a).norm();
+        let fixed = on(&pair.fixed.magnets, pair.target.0);
+        let moving = on(&pair.moving.magnets, pair.target.1);
+        let apart = |a: &Vector2<f64>, b: &Vector2<f64>| (pair.bound.transform(*b) - a).norm();
         let mut pairs = Vec::new();
         for magnet in &fixed {
             let partner = moving
@@ -56,7 +56,7 @@ impl MatchRule {
         Ok(Self {
             threshold: threshold.unwrap_or(bound + 0.5 * length),
             pairs,
-            symmetries: Symmetry::all(design),
+            symmetries: problem.symmetries.clone(),
         })
     }
 

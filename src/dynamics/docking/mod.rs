@@ -16,11 +16,10 @@ use rayon::prelude::*;
 
 use super::{Body, MotionSettings, Sample, SettingsError, Simulation, Stop};
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::landscape::Proportion;
 use crate::landscape::minimum::{Outcome, drift};
-use crate::pipeline;
 use crate::problem::Problem;
+use crate::tile::Pair;
 
 /// Two resting places closer than this (m, metric of the space) lie in the same trap.
 const SAME_TRAP: f64 = 5e-3;
@@ -29,7 +28,7 @@ const CLEAR: f64 = 1e-6;
 /// Steps in contact between two looks at whether the tiles are matched.
 const STEPS_BETWEEN_LOOKS: usize = 5;
 
-/// All that decides a docking experiment, besides the design.
+/// All that decides a docking experiment, besides the problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DockingSettings {
     pub runs: usize,
@@ -192,18 +191,17 @@ pub struct Docking {
     pub threads: usize,
 }
 
-/// Simulates docking. The same design and settings give the same result on any number of threads.
+/// Simulates docking. The same problem and settings give the same result on any number of threads.
 /// `done` is called after each trajectory.
 ///
 /// # Errors
 /// Where a setting makes no sense or no match can be declared.
 pub fn dock(
-    design: &Design,
+    problem: &Problem,
     settings: &DockingSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Docking, DockingError> {
-    let problem = pipeline::problem(design);
-    let experiment = Experiment::new(design, &problem, settings)?;
+    let experiment = Experiment::new(problem, settings)?;
     let clock = Instant::now();
     let ended: Vec<_> = (0..settings.runs)
         .into_par_iter()
@@ -221,17 +219,16 @@ pub fn dock(
 /// # Errors
 /// As [`dock`].
 pub fn trajectory(
-    design: &Design,
+    problem: &Problem,
     settings: &DockingSettings,
     index: usize,
     interval: f64,
 ) -> Result<Vec<Sample>, DockingError> {
-    let problem = pipeline::problem(design);
     let mut settings = settings.clone();
     settings.motion.longest_step = settings.motion.longest_step.min(interval);
-    let experiment = Experiment::new(design, &problem, &settings)?;
+    let experiment = Experiment::new(problem, &settings)?;
     let mut rng = stream(settings.seed, index);
-    let start = settings.starts.draw(design, &mut rng);
+    let start = settings.starts.draw(experiment.pair, &mut rng);
     let mut samples = vec![experiment.simulation.sample(&start.motion)];
     let mut last = None;
     experiment
@@ -249,8 +246,8 @@ pub fn trajectory(
 }
 
 struct Experiment<'a> {
-    design: &'a Design,
     problem: &'a Problem,
+    pair: &'a Pair,
     settings: &'a DockingSettings,
     simulation: Simulation<'a>,
     rule: MatchRule,
@@ -260,24 +257,21 @@ struct Experiment<'a> {
 type Ended = (DockingRun, Option<(Configuration, f64)>);
 
 impl<'a> Experiment<'a> {
-    fn new(
-        design: &'a Design,
-        problem: &'a Problem,
-        settings: &'a DockingSettings,
-    ) -> Result<Self, DockingError> {
-        let body = Body::of_tile(&design.moving);
+    fn new(problem: &'a Problem, settings: &'a DockingSettings) -> Result<Self, DockingError> {
+        let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
+        let body = Body::of_tile(&pair.moving);
         Ok(Self {
-            design,
             problem,
+            pair,
             settings,
             simulation: Simulation::new(problem, body, &settings.motion)?,
-            rule: MatchRule::new(design, settings.threshold)?,
+            rule: MatchRule::new(problem, settings.threshold)?,
         })
     }
 
     fn run(&self, index: usize) -> Ended {
         let mut rng = stream(self.settings.seed, index);
-        let start = self.settings.starts.draw(self.design, &mut rng);
+        let start = self.settings.starts.draw(self.pair, &mut rng);
         let mut since = None;
         let mut steps = 0;
         let mut look = |sample: &Sample| {

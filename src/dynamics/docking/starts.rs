@@ -5,8 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::dynamics::Motion;
+use crate::tile::Pair;
 
 /// The distribution of starts; every range is drawn from uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,17 +59,17 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
 }
 
 impl Starts {
-    pub(super) fn draw(&self, design: &Design, rng: &mut ChaCha8Rng) -> Start {
+    pub(super) fn draw(&self, pair: &Pair, rng: &mut ChaCha8Rng) -> Start {
         let mut uniform = |low: f64, high: f64| low + (high - low) * rng.random::<f64>();
         let distance = uniform(self.distance[0], self.distance[1]);
-        let normal = design.fixed.faces[design.target.0].normal();
+        let normal = pair.target_face().normal();
         let bearing = normal.y.atan2(normal.x) + uniform(-self.direction, self.direction);
         let place = Vector2::new(bearing.cos(), bearing.sin()) * distance;
         let orientation = uniform(-self.orientation, self.orientation);
         let speed = uniform(self.speed[0], self.speed[1]);
         let course = bearing + std::f64::consts::PI + uniform(-self.aim, self.aim);
         let spin = uniform(-self.spin, self.spin);
-        let theta = design.bound.theta + orientation;
+        let theta = pair.bound.theta + orientation;
         let configuration = Configuration::from([place.x, place.y, theta]);
         Start {
             motion: Motion {

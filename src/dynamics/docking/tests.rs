@@ -1,4 +1,7 @@
+use std::sync::Arc;
+
 use super::*;
+use crate::design::Design;
 use crate::dynamics::tests::paper_tile;
 
 fn few(runs: usize) -> DockingSettings {
@@ -23,7 +26,7 @@ fn chances_agree_with_the_open_dynamics_engine() {
     for (restitution, [low, high]) in expected {
         let mut settings = few(500);
         settings.motion.restitution = restitution;
-        let docking = dock(&paper_tile(), &settings, &|| ()).unwrap();
+        let docking = dock(&paper_tile().problem(), &settings, &|| ()).unwrap();
         let bound = docking.bound;
         assert!(
             bound.low < high && bound.high > low,
@@ -39,25 +42,27 @@ fn knocks_that_give_back_more_bind_fewer() {
     let share = |restitution| {
         let mut settings = few(500);
         settings.motion.restitution = restitution;
-        dock(&paper_tile(), &settings, &|| ()).unwrap().bound
+        dock(&paper_tile().problem(), &settings, &|| ())
+            .unwrap()
+            .bound
     };
     assert!(share(0.5).high < share(0.0).low);
 }
 
 #[test]
 fn every_run_is_the_same_on_any_number_of_threads_and_by_itself() {
-    let design = paper_tile();
+    let problem = paper_tile().problem();
     let settings = few(24);
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| dock(&design, &settings, &|| ()).unwrap().runs)
+        pool.install(|| dock(&problem, &settings, &|| ()).unwrap().runs)
     };
     let runs = on(1);
     assert_eq!(runs, on(3));
-    let samples = trajectory(&design, &settings, 7, 1.0).unwrap();
+    let samples = trajectory(&problem, &settings, 7, 1.0).unwrap();
     assert_eq!(samples[0].motion, runs[7].start.motion);
     assert_eq!(*samples.last().unwrap(), runs[7].last);
 }
@@ -70,7 +75,7 @@ fn mirrored_tiles_dock_alike_from_either_side() {
     let design = Design::parse(&text, "mirror.toml").unwrap();
     let mut settings = few(500);
     settings.starts.speed = [0.1, 0.7];
-    let docking = dock(&design, &settings, &|| ()).unwrap();
+    let docking = dock(&design.problem(), &settings, &|| ()).unwrap();
     let speeds = settings.starts.speed;
     let left = share_within(&docking, [-1.5, 0.0], speeds);
     let right = share_within(&docking, [0.0, 1.5], speeds);
@@ -84,9 +89,9 @@ fn mirrored_tiles_dock_alike_from_either_side() {
 #[test]
 fn a_match_needs_every_pair_and_holds_for_all_alike_faces() {
     let design = paper_tile();
-    let rule = MatchRule::new(&design, None).unwrap();
+    let rule = MatchRule::new(&design.problem(), None).unwrap();
     assert!((rule.threshold - 0.015).abs() < 1e-12);
-    assert!(rule.holds(&design.bound));
+    assert!(rule.holds(&design.pair.bound));
     // Two faces on: the same bond of another pair of faces.
     assert!(rule.holds(&Configuration::new(0.0, 0.43, 0.0)));
     assert!(rule.holds(&Configuration::new(-0.43, 0.0, std::f64::consts::FRAC_PI_2)));
@@ -99,7 +104,8 @@ fn a_match_needs_every_pair_and_holds_for_all_alike_faces() {
 #[test]
 fn tiles_without_magnets_on_the_target_are_refused() {
     let mut design = paper_tile();
-    design.moving.magnets.retain(|m| m.face != design.target.1);
-    let refused = dock(&design, &few(1), &|| ()).unwrap_err();
+    let pair = Arc::make_mut(&mut design.pair);
+    pair.moving.magnets.retain(|m| m.face != pair.target.1);
+    let refused = dock(&design.problem(), &few(1), &|| ()).unwrap_err();
     assert_eq!(refused, DockingError::NoMagnets);
 }

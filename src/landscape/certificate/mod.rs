@@ -47,6 +47,7 @@ mod upper;
 use std::time::Duration;
 
 use crate::configuration::Configuration;
+use crate::landscape::results::SaddleBounds;
 
 pub use certifier::Certifier;
 
@@ -91,15 +92,11 @@ pub struct Progress {
     pub upper: Option<f64>,
 }
 
-/// Bounds of a barrier's highest energy.
+/// Bounds of a barrier's highest energy, and the pathway that proves the upper one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bracket {
-    /// Every free path between the ends reaches at least this energy (J). Infinite where `caged`.
-    pub lower: f64,
-    /// The pathway nowhere exceeds this energy (J). `None` where no pathway is known.
-    pub upper: Option<f64>,
-    /// Proved that no free path joins the ends at all.
-    pub caged: bool,
+    /// What is proved.
+    pub bounds: SaddleBounds,
     /// The proved pathway, from end to end; empty where none is known. Straight in x, y and theta
     /// between its points.
     pub pathway: Vec<Configuration>,
@@ -119,40 +116,6 @@ pub enum Ordering {
     Higher,
     Lower,
     Undecided,
-}
-
-impl Bracket {
-    /// Width (J); infinite where there is no upper bound, zero where the start is caged.
-    pub fn width(&self) -> f64 {
-        match self.upper {
-            Some(upper) => upper - self.lower,
-            None if self.caged => 0.0,
-            None => f64::INFINITY,
-        }
-    }
-
-    /// Whether this barrier's highest energy is proved higher or lower than the other's. A barrier
-    /// with no way over it is higher than one with a way.
-    ///
-    /// ```
-    /// use tilebind::landscape::certificate::{Bracket, Ordering};
-    /// let bracket = |lower: f64, upper: f64| Bracket {
-    ///     lower,
-    ///     upper: Some(upper),
-    ///     caged: false,
-    ///     pathway: Vec::new(),
-    ///     saddle: None,
-    ///     improved: false,
-    ///     cells: 0,
-    ///     rounds: 0,
-    /// };
-    /// assert_eq!(bracket(2.0, 3.0).compare(&bracket(0.0, 1.0)), Ordering::Higher);
-    /// assert_eq!(bracket(0.0, 1.0).compare(&bracket(2.0, 3.0)), Ordering::Lower);
-    /// assert_eq!(bracket(0.0, 2.5).compare(&bracket(2.0, 3.0)), Ordering::Undecided);
-    /// ```
-    pub fn compare(&self, other: &Self) -> Ordering {
-        order((self.lower, self.upper), (other.lower, other.upper))
-    }
 }
 
 /// Which of two numbers, each known by a proved lower bound and, where there is one, a proved upper

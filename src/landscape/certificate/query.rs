@@ -9,6 +9,7 @@ use super::upper::ProvedPath;
 use super::{Bracket, Effort, End, Progress};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
+use crate::landscape::results::SaddleBounds;
 
 /// Leaves subdivided in one round: at least this many, and this share of all.
 const SPLITS: usize = 256;
@@ -234,9 +235,11 @@ impl<'q, 'a> Query<'q, 'a> {
             None => (None, None, Vec::new()),
         };
         Bracket {
-            lower,
-            upper,
-            caged: self.caged,
+            bounds: SaddleBounds {
+                lower: lower.is_finite().then_some(lower),
+                upper,
+                caged: self.caged,
+            },
             pathway,
             saddle,
             improved: self.improved,

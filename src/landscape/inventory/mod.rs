@@ -1,65 +1,105 @@
-//! The inventory of a surveyed landscape: its states in order, with their escapes, and the barriers
-//! and pathways that are reported.
+//! The inventory of a surveyed landscape: its states in order, and the barriers and pathways that
+//! are reported.
+//!
+//! Each barrier is stored once, from the first state of a kind; the escape of a state refers to
+//! one of them, and what a symmetry makes of it is computed when asked for.
 
-mod taker;
+mod kind;
+mod reader;
 
-use self::taker::Taker;
-use super::results::{Barrier, PathwayPoint, Place, Proportion, State, StateKind};
+pub use kind::Kind;
+
+use self::reader::Reader;
+use super::results::{
+    Alternative, Barrier, PathwayPoint, Place, Proportion, SAME_ENERGY, State, StateKind,
+};
 use super::survey::Survey;
-use super::symmetry::Symmetry;
-use crate::analysis::{Alternative, Claims, Settings};
 use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 
 /// Configurations closer than this (m, metric of the space) are taken for the same state.
 const SAME: f64 = 1e-4;
-/// States, escapes, barriers and pathways, in the order in which they are reported.
-#[derive(Clone, Debug)]
+/// How much lower a barrier must be than another one to stand for it, as a fraction of the
+/// problem's depth.
+pub(super) const LEAST_GAIN: f64 = 1e-6;
+
+/// States, barriers and pathways, in the order in which they are reported.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inventory {
+    /// The bond first, then by energy; the states of a kind next to each other.
     pub states: Vec<State>,
-    pub escapes: Vec<Option<Barrier>>,
+    /// Barriers from the first state of each kind: its way out as the roadmap has it, those to the
+    /// bond and to `free`.
     pub barriers: Vec<Barrier>,
+    /// Pathways by other costs than the highest energy.
     pub alternatives: Vec<Alternative>,
+    /// The state in which the tiles are bound, if the bond holds at all.
     pub bound_state: Option<usize>,
+    /// Minima left out because less than the least depth keeps them apart from a lower one.
     pub shallow: usize,
 }
 
-/// Takes the inventory of a survey.
-pub fn take(
-    design: &Design,
-    problem: &Problem,
-    symmetries: &[Symmetry],
-    survey: &Survey,
-    settings: &Settings,
-) -> Inventory {
-    Taker {
-        design,
-        problem,
-        symmetries,
-        survey,
-        settings,
-    }
-    .take()
-}
-
 impl Inventory {
-    /// Gives every state the escape of the first one of its class, mapped onto it by a symmetry.
-    pub fn copy_escapes(&mut self, problem: &Problem, symmetries: &[Symmetry]) {
-        for id in 0..self.states.len() {
-            let class = self.states[id].class;
-            if id == class {
-                continue;
-            }
-            let image = |symmetry: &&Symmetry| {
-                let image = symmetry.apply(&self.states[class].configuration);
-                self.nearest_state(problem, &image) == Some(id)
-            };
-            let symmetry = symmetries.iter().find(image);
-            let escape = self.escapes[class].as_ref().zip(symmetry);
-            self.escapes[id] =
-                escape.map(|(escape, symmetry)| self.image(problem, escape, id, symmetry));
+    /// Takes the inventory of a survey. Minima are left out whose escape barrier is below
+    /// `least_depth`, a fraction of the deepest energy.
+    pub fn of_survey(problem: &Problem, survey: &Survey, least_depth: f64) -> Self {
+        Reader {
+            problem,
+            survey,
+            least_depth,
         }
+        .inventory()
+    }
+
+    /// The kinds of states, in the order of the states.
+    pub fn kinds(&self) -> impl Iterator<Item = Kind<'_>> {
+        let kinds = self.states.chunk_by(|a, b| a.class == b.class);
+        kinds.map(|states| Kind { states })
+    }
+
+    /// The first state that is the bond, or the deepest trap.
+    pub fn first(&self, kind: StateKind) -> Option<&State> {
+        self.states.iter().find(|state| state.kind == kind)
+    }
+
+    /// The barrier from a state to the nearest lower one or to `free`: the lowest that is known, or
+    /// one over which no way is known. `None` where nothing is known of its ways out.
+    pub fn escape(&self, problem: &Problem, id: usize) -> Option<Barrier> {
+        let class = self.states[id].class;
+        let escape = self.escape_of_kind(problem, class)?;
+        if id == class {
+            return Some(escape.clone());
+        }
+        let image = |symmetry: &&Symmetry| {
+            let image = symmetry.apply(&self.states[class].configuration);
+            self.nearest_state(problem, &image) == Some(id)
+        };
+        let symmetry = problem.symmetries.iter().find(image)?;
+        Some(self.image(problem, escape, id, symmetry))
+    }
+
+    /// The escape of the first state of a kind. The barrier that the roadmap found for it stands
+    /// first; another one stands for it only where it is clearly lower.
+    pub fn escape_of_kind(&self, problem: &Problem, class: usize) -> Option<&Barrier> {
+        let from = &self.states[class];
+        let below = from.energy - SAME_ENERGY * from.energy.abs();
+        let leads_down = |barrier: &&Barrier| {
+            let is_lower = barrier.to == Place::Free || barrier.to_energy < below;
+            barrier.from == Place::State(class) && is_lower
+        };
+        let mut ways = self.barriers.iter().filter(leads_down);
+        let known = ways.next()?;
+        let lowest = ways.min_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy));
+        let gain = LEAST_GAIN * problem.depth();
+        let is_lower = |way: &&Barrier| way.saddle_energy < known.saddle_energy - gain;
+        lowest.filter(is_lower).or(Some(known))
+    }
+
+    /// The barrier from the bond to `free`, where the bond holds.
+    pub fn way_out_of_the_bond(&self) -> Option<&Barrier> {
+        let from = Place::State(self.bound_state?);
+        let mut barriers = self.barriers.iter();
+        barriers.find(|barrier| barrier.from == from && barrier.to == Place::Free)
     }
 
     /// A barrier as a symmetry maps it, so that it starts from state `from`.
@@ -87,24 +127,6 @@ impl Inventory {
             pathway: barrier.pathway.iter().map(image).collect(),
             ..barrier.clone()
         }
-    }
-
-    /// Whether a barrier is among those of which more is claimed than an estimate.
-    pub fn is_claimed(&self, barrier: &Barrier, claims: Claims) -> bool {
-        match claims {
-            Claims::All => true,
-            Claims::BondAndDeepestTrap => self.is_main(barrier),
-        }
-    }
-
-    /// Whether a barrier is the bond's way out to `free` or one of the ways out of the deepest trap.
-    fn is_main(&self, barrier: &Barrier) -> bool {
-        let is_from = |kind| {
-            let first = self.states.iter().find(|state| state.kind == kind);
-            first.is_some_and(|state| barrier.from == Place::State(state.id))
-        };
-        let is_out_of_the_bond = is_from(StateKind::Bound) && barrier.to == Place::Free;
-        is_out_of_the_bond || is_from(StateKind::Misbound)
     }
 
     /// Counts in which states far starts ended and fills in the capture shares; returns the share
@@ -142,11 +164,8 @@ impl Inventory {
         let same_place = |a: Place, b: Place| match (a, b) {
             (Place::Free, Place::Free) => true,
             (Place::State(a), Place::State(b)) => {
-                let (a, b) = (
-                    &self.states[a].configuration,
-                    &other.states[b].configuration,
-                );
-                problem.space.distance(a, b) < SAME
+                let (a, b) = (&self.states[a], &other.states[b]);
+                problem.space.distance(&a.configuration, &b.configuration) < SAME
             }
             _ => false,
         };
@@ -156,12 +175,65 @@ impl Inventory {
                 .iter()
                 .find(|b| same_place(barrier.from, b.from) && same_place(barrier.to, b.to));
             if let Some(found) = found {
-                let (low, high) = barrier
-                    .spread
-                    .unwrap_or((barrier.saddle_energy, barrier.saddle_energy));
-                barrier.spread =
-                    Some((low.min(found.saddle_energy), high.max(found.saddle_energy)));
+                let own = barrier.saddle_energy;
+                let (low, high) = barrier.spread.unwrap_or((own, own));
+                let energy = found.saddle_energy;
+                barrier.spread = Some((low.min(energy), high.max(energy)));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::ConfigurationSpace;
+    use crate::potential::DipolePotential;
+
+    /// A barrier between places with these energies, over a saddle of its own.
+    fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
+        let start = Configuration::new(0.0, 0.0, 0.0);
+        let to = to.map_or((Place::Free, 0.0), |(id, energy)| {
+            (Place::State(id), energy)
+        });
+        Barrier {
+            saddle_energy,
+            ..Barrier::without_a_way((Place::State(0), -1.0), start, to)
+        }
+    }
+
+    #[test]
+    fn an_escape_is_the_lowest_known_way_down() {
+        let space = ConfigurationSpace {
+            half_size: [10.0, 10.0],
+            rho: 0.1,
+            free_distance: 1.0,
+        };
+        let energy = DipolePotential::new(&[], &[]);
+        let problem = Problem::without_contact(space, Box::new(energy));
+        let state = State {
+            id: 0,
+            kind: StateKind::Bound,
+            configuration: Configuration::new(0.0, 0.0, 0.0),
+            energy: -1.0,
+            class: 0,
+            faces: Vec::new(),
+            attracting: 0,
+            repelling: 0,
+            block_energy: None,
+            capture: None,
+        };
+        let to_lower = barrier(Some((1, -2.0)), 3.0);
+        let to_higher = barrier(Some((2, -0.5)), 1.0);
+        let mut inventory = Inventory {
+            states: vec![state],
+            barriers: vec![barrier(None, 5.0), to_lower.clone(), to_higher],
+            ..Inventory::default()
+        };
+        assert_eq!(inventory.escape(&problem, 0), Some(to_lower));
+        // A cage is told by the only barrier there is.
+        inventory.barriers = vec![barrier(None, f64::INFINITY)];
+        inventory.barriers[0].bounds.caged = true;
+        assert!(inventory.escape(&problem, 0).unwrap().bounds.caged);
     }
 }

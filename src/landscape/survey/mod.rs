@@ -27,7 +27,7 @@ use super::network::{Merge, Network, Way};
 use super::slide::{self, Point};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
@@ -70,16 +70,16 @@ pub struct Survey {
 
 impl Survey {
     /// Surveys the landscape around a roadmap. `guesses` are configurations that may lie near
-    /// minima; `images` gives the configurations that symmetries make of one (itself included).
+    /// minima, besides the problem's flush meetings.
     pub fn new(
         problem: &Problem,
         roadmap: Roadmap,
         guesses: &[Configuration],
-        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
-        survey.find_states(problem, guesses, settings);
+        let guesses = [problem.flush_meetings(), guesses].concat();
+        survey.find_states(problem, &guesses, settings);
         survey.withdraw(problem, settings);
         survey.network.span();
         let mut tried = HashSet::new();
@@ -93,7 +93,7 @@ impl Survey {
             if open.is_empty() {
                 break;
             }
-            survey.polish(problem, &open, images, &mut tried, settings);
+            survey.polish(problem, &open, &mut tried, settings);
             survey.densify(problem, &open, round as u64, settings);
             survey.network.span();
         }
@@ -221,7 +221,6 @@ impl Survey {
         &mut self,
         problem: &Problem,
         open: &[Merge],
-        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
         tried: &mut HashSet<usize>,
         settings: &SurveySettings,
     ) {
@@ -230,16 +229,16 @@ impl Survey {
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
-        self.add_transition_states_near(problem, &places, images, &settings.edge);
+        self.add_transition_states_near(problem, &places, &problem.symmetries, &settings.edge);
     }
 
     /// Looks for the transition states near some places, each given with the direction in which it
-    /// is to be passed, and adds those found, with their symmetric images.
+    /// is to be passed, and adds those found, with what the symmetries make of them.
     pub(crate) fn add_transition_states_near(
         &mut self,
         problem: &Problem,
         places: &[(Configuration, Vector3<f64>)],
-        images: &(dyn Fn(&Configuration) -> Vec<Configuration> + Sync),
+        symmetries: &[Symmetry],
         settings: &EdgeSettings,
     ) {
         let found: Vec<Option<Stationary>> = places
@@ -251,7 +250,7 @@ impl Survey {
             .collect();
         let mut fresh: Vec<Stationary> = Vec::new();
         for found in found.into_iter().flatten() {
-            for q in images(&found.point.q) {
+            for q in symmetries.iter().map(|s| s.apply(&found.point.q)) {
                 let known = |s: &Stationary| problem.space.distance(&s.point.q, &q) <= SAME;
                 if !fresh.iter().any(known) && !self.transition_states.iter().any(|s| known(&s.0)) {
                     fresh.push(found.image(problem, q));

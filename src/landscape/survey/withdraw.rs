@@ -72,31 +72,3 @@ fn farthest(
     let far = Configuration::new(end.x, end.y, q.theta);
     (length > 0.0 && space.contains(&far) && space.is_far(&far)).then_some(far)
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::analysis::Settings;
-    use crate::design::Design;
-    use crate::landscape::Place;
-    use crate::pipeline;
-
-    #[test]
-    fn teeth_without_play_are_pulled_out_straight() {
-        let design = Design::load("shapes/square-teeth-10mm.toml".as_ref()).unwrap();
-        let settings = Settings {
-            milestones: 300,
-            certify_seconds: 0.0,
-            far_starts: 1,
-            ..Settings::default()
-        };
-        let analysis = pipeline::analyse(&design, &settings, &pipeline::Silent);
-        let way_out = analysis
-            .barriers
-            .iter()
-            .find(|barrier| barrier.from == Place::State(0) && barrier.to == Place::Free)
-            .unwrap();
-        // It never climbs.
-        assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
-        assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
-    }
-}

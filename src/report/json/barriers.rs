@@ -4,8 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{pose, positive_zero};
-use crate::analysis::{Alternative, PathwayCost};
-use crate::landscape::{Barrier, Place};
+use crate::landscape::{Alternative, Barrier, PathwayCost, Place};
 
 /// A barrier.
 #[derive(Debug, Serialize)]
@@ -52,9 +51,9 @@ impl BarrierEntry {
             to: place(barrier.to),
             saddle_energy_J: positive_zero(barrier.saddle_energy),
             saddle_pose: (!barrier.pathway.is_empty()).then(|| pose(&barrier.saddle)),
-            lower_J: barrier.lower,
-            upper_J: barrier.upper,
-            caged: barrier.caged,
+            lower_J: barrier.bounds.lower,
+            upper_J: barrier.bounds.upper,
+            caged: barrier.bounds.caged,
             forward_J: positive_zero(barrier.forward()),
             reverse_J: positive_zero(barrier.reverse()),
             spread_J: barrier.spread.map(|(low, high)| [low, high]),
@@ -84,7 +83,7 @@ impl AlternativeEntry {
             to: place(alternative.to),
             by: cost_name(alternative.by),
             work_J: cost(PathwayCost::Work),
-            minus_ln_probability: cost(PathwayCost::Improbability),
+            minus_ln_probability: cost(PathwayCost::Probability),
             pathway: alternative_file(alternative),
         }
     }
@@ -93,7 +92,7 @@ impl AlternativeEntry {
 fn cost_name(cost: PathwayCost) -> &'static str {
     match cost {
         PathwayCost::Work => "work",
-        PathwayCost::Improbability => "probability",
+        PathwayCost::Probability => "probability",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Analysis, Stage};
+use crate::pipeline::{Analysis, Stage};
 
 /// How much was done.
 #[derive(Debug, Serialize)]
@@ -39,7 +39,7 @@ impl CountsEntry {
             milestones: counts.milestones,
             edges: counts.edges,
             transition_states: counts.transition_states,
-            shallow_minima: analysis.shallow,
+            shallow_minima: analysis.inventory.shallow,
             energy_evaluations: counts.energy_evaluations,
             cells: counts.cells,
         }

@@ -20,9 +20,9 @@ pub use settings::SettingsEntry;
 pub use states::{FreeEntry, ProportionEntry, StateEntry, copies, face_names, kind};
 
 use super::dynamics::DynamicsEntry;
-use crate::analysis::Analysis;
 use crate::configuration::Configuration;
 use crate::design::{Design, Drawing};
+use crate::pipeline::Analysis;
 
 /// The content of `report.json`.
 #[derive(Debug, Serialize)]
@@ -70,7 +70,7 @@ pub struct BoundEntry {
 impl Report {
     /// The report of an analysis that took `total_wall` (s).
     pub fn new(design: &Design, analysis: &Analysis, total_wall: f64) -> Self {
-        let states = analysis.states.iter().zip(&analysis.escapes);
+        let states = analysis.inventory.states.iter();
         Self {
             tilebind: env!("CARGO_PKG_VERSION"),
             design: DesignEntry {
@@ -80,22 +80,29 @@ impl Report {
                 drawings: design.drawings.clone(),
             },
             seed: analysis.settings.seed,
-            settings: SettingsEntry::new(design, &analysis.settings, &analysis.counts),
+            settings: SettingsEntry::new(design, analysis),
             bound: BoundEntry {
                 pose: pose(&analysis.bound.0),
                 energy_J: positive_zero(analysis.bound.1),
-                state: analysis.bound_state,
+                state: analysis.inventory.bound_state,
             },
             states: states
-                .map(|(state, escape)| {
-                    StateEntry::new(design, state, &analysis.states, escape.as_ref())
+                .map(|state| {
+                    let escape = analysis.escape(state.id);
+                    StateEntry::new(design, state, &analysis.inventory.states, escape.as_ref())
                 })
                 .collect(),
             free: FreeEntry::new(analysis),
-            barriers: analysis.barriers.iter().map(BarrierEntry::new).collect(),
+            barriers: analysis
+                .inventory
+                .barriers
+                .iter()
+                .map(BarrierEntry::new)
+                .collect(),
             uncertified: analysis.uncertified.map(|why| why.to_string()),
             dynamics: DynamicsEntry::new(analysis),
             alternatives: analysis
+                .inventory
                 .alternatives
                 .iter()
                 .map(AlternativeEntry::new)

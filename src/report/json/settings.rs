@@ -2,10 +2,8 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Counts, Settings};
 use crate::design::Design;
-use crate::pipeline;
-use crate::roadmap::neighbour;
+use crate::pipeline::Analysis;
 
 /// All that decides the result, besides the design and the seed.
 #[derive(Debug, Serialize)]
@@ -31,19 +29,16 @@ pub struct SettingsEntry {
 }
 
 impl SettingsEntry {
-    pub(super) fn new(design: &Design, settings: &Settings, counts: &Counts) -> Self {
-        let problem = pipeline::problem(design);
+    pub(super) fn new(design: &Design, analysis: &Analysis) -> Self {
+        let settings = &analysis.settings;
         Self {
-            model: design.model.name(),
-            shields: (!design.shields.is_none()).then(|| design.shields.rule.name()),
+            model: design.interaction.model.name(),
+            shields: (!design.interaction.shields.is_none())
+                .then(|| design.interaction.shields.rule.name()),
             milestones: settings.milestones,
-            neighbours: settings
-                .neighbours
-                .unwrap_or_else(|| neighbour::neighbours_per_milestone(counts.milestones)),
+            neighbours: analysis.roadmap.neighbours,
             boltzmann_J: settings.boltzmann,
-            thermal_energy_J: settings
-                .thermal_energy
-                .unwrap_or_else(|| 0.01 * pipeline::energy_scale(design, &problem)),
+            thermal_energy_J: analysis.roadmap.edges.thermal_energy,
             settled: settings.settled,
             least_depth: settings.least_depth,
             far_starts: settings.far_starts,

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::{BarrierEntry, pose, positive_zero};
-use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::landscape::{Barrier, Proportion, State, StateKind};
+use crate::pipeline::Analysis;
 use crate::tile::Tile;
 
 /// A local minimum.
@@ -106,7 +106,7 @@ pub fn face_names(design: &Design, state: &State) -> Vec<[String; 2]> {
     state
         .faces
         .iter()
-        .map(|&(f, m)| [name(&design.fixed, f), name(&design.moving, m)])
+        .map(|&(f, m)| [name(&design.pair.fixed, f), name(&design.pair.moving, m)])
         .collect()
 }
 

@@ -8,8 +8,8 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Sample;
 use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
-use crate::landscape::{Proportion, State, StateKind};
-use crate::pipeline;
+use crate::landscape::{Inventory, Proportion, State, StateKind};
+use crate::problem::Problem;
 use crate::report::plots::Scene;
 use crate::units::si;
 
@@ -20,20 +20,20 @@ impl Page {
     /// The page of a docking experiment, with the trajectories that it plays.
     pub fn of_docking(
         design: &Design,
+        problem: &Problem,
         docking: &Docking,
         trajectories: &[(DockingRun, Vec<Sample>)],
         pictures: Vec<Illustration>,
     ) -> Self {
-        let problem = pipeline::problem(design);
-        let states = states(design, docking, problem.energy(&design.bound));
-        let landscape = Scene::before_analysis(design, &problem).map(|scene| {
-            let states = &states;
-            let scene = Scene { states, ..scene };
-            let played = trajectories.iter().map(|(run, samples)| {
-                Played::of_trajectory(name(docking, run), samples, scene.pair.contact)
-            });
-            Landscape::new(design, &scene, played.collect())
-        });
+        let inventory = Inventory {
+            states: states(problem, docking, design.pair.bound),
+            ..Inventory::default()
+        };
+        let scene = Scene::new(design, problem, &inventory);
+        let played = trajectories
+            .iter()
+            .map(|(run, samples)| Played::of_trajectory(name(docking, run), samples, problem));
+        let landscape = Some(Landscape::new(design, &scene, played.collect()));
         Self {
             title: format!("{}: docking", design.name),
             subtitle: design.description.clone(),
@@ -53,13 +53,13 @@ impl Page {
 }
 
 /// The bond and the traps, to be marked.
-fn states(design: &Design, docking: &Docking, bond: f64) -> Vec<State> {
-    let rule = MatchRule::new(design, docking.settings.threshold);
+fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<State> {
+    let rule = MatchRule::new(problem, docking.settings.threshold);
     let is_bond = |q: &Configuration| rule.as_ref().is_ok_and(|rule| rule.holds(q));
     let traps = docking.traps.iter().take(LISTED);
     let traps = traps.filter(|trap| !is_bond(&trap.configuration));
     let traps = traps.map(|trap| (StateKind::Misbound, trap.configuration, trap.energy));
-    let all = std::iter::once((StateKind::Bound, design.bound, bond)).chain(traps);
+    let all = std::iter::once((StateKind::Bound, bound, problem.energy(&bound))).chain(traps);
     all.enumerate()
         .map(|(id, (kind, configuration, energy))| State {
             id,
@@ -165,7 +165,7 @@ fn settings(design: &Design, docking: &Docking) -> Table {
     let range = |[low, high]: [f64; 2], unit: &str| json!(format!("{low} to {high} {unit}"));
     let most = |value: f64, unit: &str| json!(format!("up to {value:.4} {unit} either way"));
     let rows = [
-        ("magnets", json!(design.model.name())),
+        ("magnets", json!(design.interaction.model.name())),
         ("trajectories", json!(settings.runs)),
         ("each lasts", json!(si(settings.duration, "s", 3))),
         ("distance", range(starts.distance, "m")),

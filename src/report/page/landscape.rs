@@ -96,7 +96,7 @@ impl Landscape {
         let in_front = in_front(scene);
         let volumes = [&around, &in_front.volume];
         let energies = volumes.iter().flat_map(|volume| &volume.energies);
-        let states = scene.states.iter().map(|state| state.energy);
+        let states = scene.states().iter().map(|state| state.energy);
         let scale = EnergyScale::holding(states.chain(energies.copied().flatten()));
         let (around, in_front_packed) = rayon::join(
             || Packed::new(&around, &scale),
@@ -106,8 +106,8 @@ impl Landscape {
             most: scale.most(),
             decades: EnergyScale::DECADES,
             palette: &VIK,
-            fixed: Drawn::new(&design.fixed),
-            moving: Drawn::new(&design.moving),
+            fixed: Drawn::new(&design.pair.fixed),
+            moving: Drawn::new(&design.pair.moving),
             dipoles: is_sum_of_dipoles(design, scene),
             target: TargetFaces::new(design, scene),
             around,
@@ -117,9 +117,9 @@ impl Landscape {
                 .iter()
                 .map(|distance| distance.map(|d| fixed(d, 5)))
                 .collect(),
-            states: scene.states.iter().map(DrawnState::new).collect(),
+            states: scene.states().iter().map(DrawnState::new).collect(),
             pathways,
-            tree: if scene.barriers.is_empty() {
+            tree: if scene.barriers().next().is_none() {
                 Vec::new()
             } else {
                 nodes(scene, &scale)
@@ -131,23 +131,22 @@ impl Landscape {
 /// The map all around the fixed tile: at least so many orientations, and as many places as the
 /// number of grid points leaves.
 pub fn whole(scene: &Scene) -> Volume {
-    let repeats = crate::tile::symmetry::rotations(scene.pair.moving).len();
+    let repeats = crate::tile::symmetry::rotations(&scene.pair.moving).len();
     let orientations = ORIENTATIONS[usize::from(repeats == 1)];
     let reach = scene.reach();
     let shape = reach[0].min(reach[1]) / reach[0].max(reach[1]);
     let planes = orientations as f64 / repeats as f64;
     let side = (AROUND / planes / shape).sqrt().min(LONGEST);
-    around(&scene.pair, reach, orientations, side as usize)
+    around(scene.problem, reach, orientations, side as usize)
 }
 
 /// The map in front of the target face.
 pub fn in_front(scene: &Scene) -> InFront {
-    let pair = &scene.pair;
-    let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
-    let length = pair.fixed.faces[scene.target.0].length();
+    let approach = Approach::new(scene.pair);
+    let length = scene.pair.target_face().length();
     let [gaps, tilts, slides] = IN_FRONT;
     InFront::new(
-        pair,
+        scene.problem,
         &approach,
         // Closer together where the energy is steep.
         evenly(0.0, 1.0, gaps)
@@ -161,8 +160,8 @@ pub fn in_front(scene: &Scene) -> InFront {
 
 /// Whether the plain sum over point dipoles gives the states' energies.
 fn is_sum_of_dipoles(design: &Design, scene: &Scene) -> bool {
-    let dipoles = DipolePotential::new(&design.fixed.magnets, &design.moving.magnets);
-    scene.states.iter().all(|state| {
+    let dipoles = DipolePotential::new(&design.pair.fixed.magnets, &design.pair.moving.magnets);
+    scene.states().iter().all(|state| {
         let energy = dipoles.energy(&state.configuration);
         (energy - state.energy).abs() <= 1e-9 * state.energy.abs()
     })
@@ -200,12 +199,15 @@ impl Drawn {
 
 impl TargetFaces {
     fn new(design: &Design, scene: &Scene) -> Self {
-        let (fixed, moving) = design.target;
-        let face = &design.fixed.faces[fixed];
+        let (fixed, moving) = design.pair.target;
+        let face = &design.pair.fixed.faces[fixed];
         Self {
-            names: [face.name.clone(), design.moving.faces[moving].name.clone()],
-            bound: pose(&scene.bound),
-            pivot: point(design.moving.faces[moving].middle()),
+            names: [
+                face.name.clone(),
+                design.pair.moving.faces[moving].name.clone(),
+            ],
+            bound: pose(&scene.pair.bound),
+            pivot: point(design.pair.moving.faces[moving].middle()),
             tangent: point(face.tangent()),
             normal: point(face.normal()),
         }

@@ -24,8 +24,8 @@ pub use charts::Charts;
 pub use landscape::Landscape;
 
 use super::plots::Scene;
-use crate::analysis::Analysis;
 use crate::design::Design;
+use crate::pipeline::Analysis;
 
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");

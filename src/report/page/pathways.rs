@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::{finite, fixed, rounded};
-use crate::contact::Contact;
 use crate::dynamics::Sample;
 use crate::landscape::{Pathway, Place};
+use crate::problem::Problem;
 use crate::report::csv;
 use crate::report::plots::Scene;
 
@@ -29,10 +29,10 @@ pub struct Played {
 
 impl Played {
     /// A trajectory of moving tiles.
-    pub fn of_trajectory(name: String, samples: &[Sample], contact: &Contact) -> Self {
+    pub fn of_trajectory(name: String, samples: &[Sample], problem: &Problem) -> Self {
         let points = samples.iter().map(|sample| {
             let q = sample.motion.configuration;
-            let clearance = contact.clearance(&q).max(0.0);
+            let clearance = problem.clearance(&q).max(0.0);
             let [t, x, y, theta, clearance] =
                 [sample.time, q.x, q.y, q.theta, clearance].map(|v| fixed(v, 5));
             let [potential, kinetic] = [sample.potential, sample.kinetic].map(|e| rounded(e, 4));
@@ -51,15 +51,15 @@ impl Played {
 /// The way into the bond, the lowest way out of each class of states, and other barriers, as many
 /// as there is room for.
 pub fn played(scene: &Scene) -> Vec<Played> {
-    let docking = scene.docked().map(|(bound, pathway)| Played {
+    let docking = scene.docking().map(|pathway| Played {
         name: "docking: free to bound".to_owned(),
         timed: false,
-        ends: [None, Some(bound.id)],
+        ends: [None, scene.inventory.bound_state],
         bounds: None,
         points: points(&pathway),
     });
     let mut known = Vec::new();
-    let barriers = scene.main_escapes().into_iter().chain(scene.barriers);
+    let barriers = scene.main_escapes().into_iter().chain(scene.barriers());
     let others = barriers.filter_map(|barrier| {
         let ends = (barrier.from, barrier.to);
         if barrier.pathway.len() < 2 || known.contains(&ends) {
@@ -75,8 +75,8 @@ pub fn played(scene: &Scene) -> Vec<Played> {
                 Place::Free => None,
             }),
             bounds: barrier
-                .lower
-                .zip(barrier.upper)
+                .bounds
+                .both()
                 .and_then(|(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?])),
             points: points(&barrier.pathway),
         })

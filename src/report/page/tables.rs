@@ -3,13 +3,12 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Table, finite};
-use crate::analysis::Analysis;
 use crate::design::Design;
-use crate::landscape::{Barrier, Proportion, StateKind};
+use crate::landscape::{Barrier, Kind, StateKind};
+use crate::pipeline::Analysis;
 use crate::report::json::{face_names, kind, place_name};
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
-use crate::report::plots::scene::Class;
 use crate::units::{si, si_range};
 
 /// Significant digits of numbers in tables.
@@ -28,21 +27,11 @@ fn energy(value: f64) -> String {
 }
 
 /// The lowest way out of a class of states.
-fn escape<'a>(analysis: &'a Analysis, class: &Class) -> Option<&'a Barrier> {
-    analysis.escapes[class.state.id].as_ref()
-}
-
-/// Share of the far starts that end in any state of a class.
-fn captured(analysis: &Analysis, class: &Class) -> Option<Proportion> {
-    let copies = analysis.states.iter();
-    let counts: Option<Vec<usize>> = copies
-        .filter(|state| state.class == class.state.class)
-        .map(|state| Some(state.capture?.count))
-        .collect();
-    Some(Proportion::new(
-        counts?.iter().sum(),
-        analysis.uncaptured.of,
-    ))
+fn escape<'a>(analysis: &'a Analysis, kind: &Kind) -> Option<&'a Barrier> {
+    let Analysis {
+        problem, inventory, ..
+    } = analysis;
+    inventory.escape_of_kind(problem, kind.first().id)
 }
 
 /// What to know first: the bond, how often it is found, how it is left, the deepest trap.
@@ -52,18 +41,18 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         value,
         note,
     };
-    let classes = scene.classes();
-    let first = |kind| classes.iter().find(move |class| class.state.kind == kind);
+    let classes = scene.kinds();
+    let first = |kind| classes.iter().find(move |class| class.first().kind == kind);
     let mut facts = Vec::new();
-    let magnets = format!("magnets as {}s", design.model.name());
+    let magnets = format!("magnets as {}s", design.interaction.model.name());
     let Some(bond) = first(StateKind::Bound) else {
         let value = energy(analysis.bound.1);
         let note = "the tiles do not stay where the target faces coincide".to_owned();
         facts.push(fact("no bond", value, note));
         return facts;
     };
-    facts.push(fact("bond", energy(bond.state.energy), magnets));
-    if let Some(share) = captured(analysis, bond).filter(|share| share.of > 0) {
+    facts.push(fact("bond", energy(bond.first().energy), magnets));
+    if let Some(share) = Some(bond.captured()).filter(|share| share.of > 0) {
         facts.push(fact(
             "far starts that bind",
             format!("{:.1} %", 100.0 * share.share()),
@@ -76,11 +65,13 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             ),
         ));
     }
-    let way_out = |class: &Class| match escape(analysis, class) {
+    let way_out = |class: &Kind| match escape(analysis, class) {
         None => ("not known".to_owned(), "no way out was found".to_owned()),
-        Some(barrier) if barrier.caged => ("none".to_owned(), "proved: no way out".to_owned()),
+        Some(barrier) if barrier.bounds.caged => {
+            ("none".to_owned(), "proved: no way out".to_owned())
+        }
         Some(barrier) => {
-            let certified = match (barrier.lower, barrier.upper) {
+            let certified = match (barrier.bounds.lower, barrier.bounds.upper) {
                 (Some(lower), Some(upper)) => {
                     let from = barrier.from_energy;
                     let range = si_range(lower - from, upper - from, "J", 4);
@@ -99,10 +90,10 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         Some(trap) => {
             let note = format!(
                 "state {}; {:.2} of the bond",
-                trap.state.id,
-                trap.state.energy / bond.state.energy
+                trap.first().id,
+                trap.first().energy / bond.first().energy
             );
-            facts.push(fact("deepest trap", energy(trap.state.energy), note));
+            facts.push(fact("deepest trap", energy(trap.first().energy), note));
             let (height, note) = way_out(trap);
             facts.push(fact("barrier out of that trap", height, note));
         }
@@ -112,9 +103,9 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
 
 /// The classes of states.
 pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
-    let classes = scene.classes();
+    let classes = scene.kinds();
     let rows = classes.iter().map(|class| {
-        let state = class.state;
+        let state = class.first();
         let out = escape(analysis, class);
         let [x, y, theta] = state.configuration.to_array();
         let faces: Vec<_> = face_names(design, state)
@@ -124,11 +115,11 @@ pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
         vec![
             json!(state.id),
             json!(kind(state.kind)),
-            json!(class.copies),
+            json!(class.copies()),
             number(state.energy),
             optional(out.map(Barrier::forward)),
             out.map_or(Value::Null, |barrier| json!(place_name(barrier.to))),
-            optional(captured(analysis, class).map(|share| share.share())),
+            number(class.captured().share()),
             number(x),
             number(y),
             number(theta),
@@ -159,19 +150,19 @@ pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
             Column::new("faces", ""),
         ],
         rows: rows.collect(),
-        states: classes.iter().map(|class| class.state.id).collect(),
+        states: classes.iter().map(|class| class.first().id).collect(),
     }
 }
 
 /// The barriers between classes.
 pub fn barriers(analysis: &Analysis, scene: &Scene) -> Table {
-    let rows = analysis.barriers.iter().map(|barrier| {
+    let rows = analysis.inventory.barriers.iter().map(|barrier| {
         vec![
             json!(scene.name_of(barrier.from)),
             json!(scene.name_of(barrier.to)),
             number(barrier.saddle_energy),
-            optional(barrier.lower),
-            optional(barrier.upper),
+            optional(barrier.bounds.lower),
+            optional(barrier.bounds.upper),
             number(barrier.forward()),
             number(barrier.reverse()),
         ]
@@ -200,7 +191,7 @@ pub fn barriers(analysis: &Analysis, scene: &Scene) -> Table {
 pub fn settings(design: &Design, analysis: &Analysis) -> Table {
     let settings = &analysis.settings;
     let rows = [
-        ("magnets", json!(design.model.name())),
+        ("magnets", json!(design.interaction.model.name())),
         ("seed", json!(settings.seed)),
         ("milestones", json!(analysis.counts.milestones)),
         ("edges", json!(analysis.counts.edges)),

@@ -3,10 +3,11 @@
 use serde::Serialize;
 
 use super::rounded;
+use crate::landscape::Kind;
 use crate::report::plots::disconnectivity::merge_tree;
 use crate::report::plots::merge_tree::Tree;
 use crate::report::plots::scale::EnergyScale;
-use crate::report::plots::scene::{Class, Scene};
+use crate::report::plots::scene::Scene;
 
 /// Most classes of states in the graph.
 const MOST: usize = 24;
@@ -31,20 +32,20 @@ pub enum Node {
 
 /// The merge trees of the lowest classes of states.
 pub fn nodes(scene: &Scene, scale: &EnergyScale) -> Vec<Node> {
-    let classes = scene.classes();
-    let classes = &classes[..classes.len().min(MOST)];
-    let trees = merge_tree(scene, classes, scale);
-    trees.iter().map(|tree| node(tree, classes)).collect()
+    let kinds = scene.kinds();
+    let kinds = &kinds[..kinds.len().min(MOST)];
+    let trees = merge_tree(scene, kinds, scale);
+    trees.iter().map(|tree| node(tree, kinds)).collect()
 }
 
-fn node(tree: &Tree, classes: &[Class]) -> Node {
+fn node(tree: &Tree, kinds: &[Kind]) -> Node {
     match tree {
         Tree::Leaf { class, energy } => {
-            let class = classes.iter().find(|c| Some(c.state.class) == *class);
+            let kind = kinds.iter().find(|kind| Some(kind.first().class) == *class);
             Node::Leaf {
-                state: class.map(|class| class.state.id),
+                state: kind.map(|kind| kind.first().id),
                 energy: rounded(*energy, 6),
-                copies: class.map_or(1, |class| class.copies),
+                copies: kind.map_or(1, Kind::copies),
             }
         }
         Tree::Merge {
@@ -54,7 +55,7 @@ fn node(tree: &Tree, classes: &[Class]) -> Node {
         } => Node::Merge {
             energy: rounded(*energy, 6),
             bounds: bounds.map(|(lower, upper)| [rounded(lower, 6), rounded(upper, 6)]),
-            children: children.iter().map(|child| node(child, classes)).collect(),
+            children: children.iter().map(|child| node(child, kinds)).collect(),
         },
     }
 }

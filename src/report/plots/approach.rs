@@ -10,7 +10,7 @@ use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Axis, INK, LABEL, Text, chart, pixel, title, units};
 use crate::landscape::approach::{Approach, ApproachSlices, SliceSettings};
-use crate::landscape::map::{Grid, Pair, Sample};
+use crate::landscape::map::{Grid, Sample};
 use crate::units::prefix_of;
 
 const SIZE: (u32, u32) = (1000, 640);
@@ -25,16 +25,15 @@ const SAMPLES: usize = 161;
 
 /// The motion in front of the target face, and the slices to draw.
 pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {
-    let Pair { fixed, moving, .. } = scene.pair;
-    let approach = Approach::new(fixed, moving, scene.target, scene.bound);
-    let length = fixed.faces[scene.target.0].length();
+    let approach = Approach::new(scene.pair);
+    let length = scene.pair.target_face().length();
     let settings = SliceSettings {
         tilt: std::f64::consts::FRAC_PI_4,
         gap: 0.2 * length,
         slide: 0.5 * length,
         samples: SAMPLES,
     };
-    let slices = ApproachSlices::new(&scene.pair, &approach, &settings);
+    let slices = ApproachSlices::new(scene.problem, &approach, &settings);
     (approach, slices)
 }
 
@@ -73,8 +72,8 @@ pub fn draw(
         .flat_map(|panel| panel.grid.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let fixed = &scene.pair.fixed.faces[scene.target.0].name;
-    let moving = &scene.pair.moving.faces[scene.target.1].name;
+    let fixed = &scene.pair.target_face().name;
+    let moving = &scene.pair.moving.faces[scene.pair.target.1].name;
     Picture::draw(SIZE, |root, underlays| {
         let text = format!(
             "{}: {moving} face in front of the fixed {fixed} face",
@@ -101,9 +100,9 @@ pub fn draw(
 /// Tilt (rad), slide (m) and mark of the states that touch the target face with the target face.
 fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> {
     scene
-        .states
+        .states()
         .iter()
-        .filter(|state| state.faces.contains(&scene.target))
+        .filter(|state| state.faces.contains(&scene.pair.target))
         .map(|state| {
             let (tilt, slide) = approach.tilt_and_slide(&state.configuration);
             (tilt, slide, state.kind.into())

@@ -11,22 +11,20 @@ use super::marks::{Mark, Pixel, marker, polyline};
 use super::merge_tree::{Join, Tree, merge};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
-use super::scene::{Class, Scene};
+use super::scene::Scene;
 use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
-use crate::landscape::{Place, StateKind};
+use crate::landscape::{Kind, Place, State, StateKind};
 
 const SIZE: (u32, u32) = (1000, 700);
 /// Classes shown.
 const MOST: usize = 11;
 
 /// The merge tree of the classes, with free tiles at U = 0.
-pub fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<Tree> {
-    let mut leaves: Vec<_> = classes
-        .iter()
-        .map(|class| (Some(class.state.class), class.state.energy))
-        .collect();
+pub fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tree> {
+    let leaf = |state: &State| (Some(state.class), state.energy);
+    let mut leaves: Vec<_> = kinds.iter().map(|kind| leaf(kind.first())).collect();
     leaves.push((None, 0.0));
-    let joins = scene.all_barriers().filter_map(|barrier| {
+    let joins = scene.barriers().filter_map(|barrier| {
         let end = |place: Place| match place {
             Place::Free => Some(None),
             Place::State(_) => Some(Some(scene.class_of(place)?)),
@@ -37,7 +35,7 @@ pub fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<
         } else {
             f64::NEG_INFINITY
         };
-        let bounds = barrier.lower.zip(barrier.upper);
+        let bounds = barrier.bounds.both();
         Some(Join {
             ends: [end(barrier.from)?, end(barrier.to)?],
             energy: barrier.saddle_energy.max(least),
@@ -49,12 +47,12 @@ pub fn merge_tree(scene: &Scene, classes: &[Class], scale: &EnergyScale) -> Vec<
 
 /// The graph of the lowest classes of states; `None` where there is no state.
 pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let all = scene.classes();
+    let all = scene.kinds();
     if all.is_empty() {
         return Ok(None);
     }
-    let classes = &all[..all.len().min(MOST)];
-    let trees = merge_tree(scene, classes, scale);
+    let kinds = &all[..all.len().min(MOST)];
+    let trees = merge_tree(scene, kinds, scale);
     let leaves: usize = trees.iter().map(Tree::leaves).sum();
     let (low, high) = extent(&trees, scale);
     Picture::draw(SIZE, |root, _| {
@@ -62,8 +60,8 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             root,
             &format!("{}: which states merge at which energy", scene.name),
         )?;
-        if all.len() > classes.len() {
-            let left_out = format!("{} shallower states not shown", all.len() - classes.len());
+        if all.len() > kinds.len() {
+            let left_out = format!("{} shallower states not shown", all.len() - kinds.len());
             Text::new(SMALL).colour(SOFT).write(
                 root,
                 &left_out,
@@ -105,7 +103,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         let mut drawing = Drawing {
             root,
             scale,
-            classes,
+            kinds,
             at: &at,
             labels: Labels::new(frame),
             next_leaf: 0,
@@ -127,10 +125,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         let mut key = "each line a kind of state: its number, its energy, \u{d7} the copies of it \
             that symmetry makes"
             .to_owned();
-        if scene
-            .all_barriers()
-            .any(|b| b.lower.is_some() && b.upper.is_some())
-        {
+        if scene.barriers().any(|b| b.bounds.both().is_some()) {
             key.push_str("; green: certified bounds");
         }
         Text::new(SMALL).colour(SOFT).write(
@@ -163,7 +158,7 @@ fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
 struct Drawing<'a, 'b> {
     root: &'a Area<'b>,
     scale: &'a EnergyScale,
-    classes: &'a [Class<'a>],
+    kinds: &'a [Kind<'a>],
     at: &'a dyn Fn(f64, f64) -> Pixel,
     labels: Labels,
     next_leaf: usize,
@@ -216,23 +211,23 @@ impl Drawing<'_, '_> {
         let x = self.next_leaf as f64 + 0.5;
         self.next_leaf += 1;
         let foot = (self.at)(x, energy);
-        let class = class.and_then(|number| {
-            self.classes
-                .iter()
-                .find(|class| class.state.class == number)
+        let kind = class.and_then(|class| {
+            let mut kinds = self.kinds.iter();
+            kinds.find(|kind| kind.first().class == class)
         });
-        let (mark, lines) = match class {
+        let (mark, lines) = match kind {
             None => (Mark::Free, vec!["free".to_owned(), "0 J".to_owned()]),
-            Some(class) => {
-                let name = match class.state.kind {
-                    StateKind::Bound => format!("bound {}", class.state.id),
-                    StateKind::Misbound => class.state.id.to_string(),
+            Some(kind) => {
+                let first = kind.first();
+                let name = match first.kind {
+                    StateKind::Bound => format!("bound {}", first.id),
+                    StateKind::Misbound => first.id.to_string(),
                 };
                 let mut lines = vec![name, self.scale.label(energy, 3)];
-                if class.copies > 1 {
-                    lines.push(format!("\u{d7}{}", class.copies));
+                if kind.copies() > 1 {
+                    lines.push(format!("\u{d7}{}", kind.copies()));
                 }
-                (class.state.kind.into(), lines)
+                (first.kind.into(), lines)
             }
         };
         marker(self.root, mark, foot, 7.0)?;

@@ -210,9 +210,15 @@ pub fn trajectories(
             centre: nalgebra::Vector2::zeros(),
             turn: 0.0,
         };
-        tile(root, &view, &design.moving, &design.bound, MOVING_FILL)?;
+        tile(
+            root,
+            &view,
+            &design.pair.moving,
+            &design.pair.bound,
+            MOVING_FILL,
+        )?;
         let origin = Configuration::new(0.0, 0.0, 0.0);
-        tile(root, &view, &design.fixed, &origin, FIXED_FILL)?;
+        tile(root, &view, &design.pair.fixed, &origin, FIXED_FILL)?;
         for (end, samples) in trajectories {
             let points: Vec<_> = samples
                 .iter()

@@ -13,7 +13,8 @@ use super::scene::Scene;
 use super::style::{Axis, FIXED_FILL, INK, LABEL, SMALL, SOFT, Text, chart, title, units};
 use crate::configuration::Configuration;
 use crate::landscape::StateKind;
-use crate::landscape::map::{EnergyMap, Pair, Window};
+use crate::landscape::map::{EnergyMap, Window};
+use crate::tile::Pair;
 use crate::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
@@ -54,7 +55,7 @@ impl Maps {
         let whole = whole_window(scene);
         let target = target_window(scene, plot_height(&whole));
         let [whole, target] =
-            [whole, target].map(|window| EnergyMap::new(&scene.pair, &window, ORIENTATIONS));
+            [whole, target].map(|window| EnergyMap::new(scene.problem, &window, ORIENTATIONS));
         Self { whole, target }
     }
 }
@@ -68,13 +69,13 @@ fn whole_window(scene: &Scene) -> Window {
 /// proportion to the plot. What lies behind the bound position is mostly blocked and leaves room
 /// for labels.
 fn target_window(scene: &Scene, height: f64) -> Window {
-    let face = &scene.pair.fixed.faces[scene.target.0];
+    let face = scene.pair.target_face();
     let normal = face.normal();
     let half = 0.6 * face.length();
     let across = 2.0 * half * (TARGET.1 - TARGET.0) / height;
     window(
         scene,
-        scene.bound.position(),
+        scene.pair.bound.position(),
         normal.y.atan2(normal.x),
         [-LABELS * across, -half],
         [(1.0 - LABELS) * across, half],
@@ -139,7 +140,7 @@ pub fn draw(scene: &Scene, maps: &Maps, scale: &EnergyScale) -> Result<Picture, 
         }
         let [whole, target] = plots.map(|plot| plot.view());
         let origin = Configuration::new(0.0, 0.0, 0.0);
-        tile(root, &whole.0, scene.pair.fixed, &origin, FIXED_FILL)?;
+        tile(root, &whole.0, &scene.pair.fixed, &origin, FIXED_FILL)?;
         for (view, place) in [whole, target] {
             pathways(root, &view, scene, place)?;
             states(root, &view, scene, place)?;
@@ -160,7 +161,7 @@ pub fn draw(scene: &Scene, maps: &Maps, scale: &EnergyScale) -> Result<Picture, 
             keys(root, underlays, (left, top), column)?;
             left += 220.0;
         }
-        let left_out = scene.classes().len().saturating_sub(NAMED);
+        let left_out = scene.kinds().len().saturating_sub(NAMED);
         if left_out > 0 {
             let text = format!("{left_out} shallower kinds of state not named");
             let at = (WIDTH - 20.0, 24.0);
@@ -278,7 +279,7 @@ fn inside([left, top, right, bottom]: Box4, (x, y): Pixel) -> bool {
 fn states(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), PictureError> {
     let mut drawn: Vec<Pixel> = Vec::new();
     // Bound states last, on top.
-    let mut states: Vec<_> = scene.states.iter().collect();
+    let mut states: Vec<_> = scene.states().iter().collect();
     states.sort_by_key(|state| state.kind == StateKind::Bound);
     for state in states {
         let at = view.pixel(state.configuration.position());
@@ -302,14 +303,15 @@ fn name_states(
 ) -> Result<(), PictureError> {
     let font = Text::new(SMALL);
     let mut labels = Labels::new(whole_frame);
-    for state in scene.states {
+    for state in scene.states() {
         labels.keep_off(whole.pixel(state.configuration.position()), 6.5);
     }
     let mut column = Vec::new();
-    for class in scene.classes().iter().take(NAMED) {
-        let place = class.state.configuration.position();
-        let energy = scale.label(class.state.energy, 3);
-        let text = format!("{}: {energy}", class.state.id);
+    for kind in scene.kinds().iter().take(NAMED) {
+        let state = kind.first();
+        let place = state.configuration.position();
+        let energy = scale.label(state.energy, 3);
+        let text = format!("{}: {energy}", state.id);
         let (enlarged, at) = (target.pixel(place), whole.pixel(place));
         if inside(target_frame, enlarged) {
             column.push((enlarged, text));

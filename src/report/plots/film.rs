@@ -70,11 +70,11 @@ fn draw_frame(
     let [left, _, right, bottom] = frame;
     outline(root, frame, GRID)?;
     let origin = Configuration::new(0.0, 0.0, 0.0);
-    tile(root, view, scene.pair.fixed, &origin, FIXED_FILL)?;
+    tile(root, view, &scene.pair.fixed, &origin, FIXED_FILL)?;
     tile(
         root,
         view,
-        scene.pair.moving,
+        &scene.pair.moving,
         &point.configuration,
         MOVING_FILL,
     )?;
@@ -148,9 +148,9 @@ fn extent(scene: &Scene, frames: &[PathwayPoint]) -> [[f64; 2]; 2] {
             }
         }
     };
-    hold(scene.pair.fixed, &Configuration::new(0.0, 0.0, 0.0));
+    hold(&scene.pair.fixed, &Configuration::new(0.0, 0.0, 0.0));
     for point in frames {
-        hold(scene.pair.moving, &point.configuration);
+        hold(&scene.pair.moving, &point.configuration);
     }
     let margin = 0.06 * (high[0] - low[0]).max(high[1] - low[1]);
     [low.map(|v| v - margin), high.map(|v| v + margin)]

@@ -64,7 +64,13 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
         .iter()
         .flat_map(|grid| grid.values.iter().flatten())
         .map(|sample| sample.energy);
-    let scale = EnergyScale::holding(scene.states.iter().map(|state| state.energy).chain(sampled));
+    let scale = EnergyScale::holding(
+        scene
+            .states()
+            .iter()
+            .map(|state| state.energy)
+            .chain(sampled),
+    );
 
     type Drawing<'a> = &'a (dyn Fn() -> Result<Option<Picture>, PictureError> + Sync);
     let drawings: [(&str, Drawing); 6] = [

@@ -8,7 +8,7 @@ use super::picture::{Area, Picture, PictureError};
 use super::scene::Scene;
 use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel, title, units};
 use crate::landscape::approach::Approach;
-use crate::potential::{MagnetModel, of_tiles};
+use crate::potential::{Interaction, MagnetModel};
 use crate::units::{prefix_of, si};
 
 const SIZE: (u32, u32) = (1000, 440);
@@ -31,7 +31,7 @@ struct Curves {
 impl Curves {
     /// `None` where there are no magnets, or the faces cannot meet along the normal.
     fn new(scene: &Scene) -> Option<Self> {
-        let pair = &scene.pair;
+        let pair = scene.pair;
         let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
         let size = magnets
             .map(|magnet| magnet.size[0].max(magnet.size[1]))
@@ -39,13 +39,17 @@ impl Curves {
         if size == 0.0 {
             return None;
         }
-        let approach = Approach::new(pair.fixed, pair.moving, scene.target, scene.bound);
-        let landing = approach.landing(pair.contact, 0.0, 0.0)?;
+        let approach = Approach::new(pair);
+        let landing = approach.landing(scene.problem, 0.0, 0.0)?;
         let gaps: Vec<f64> = (0..SAMPLES)
             .map(|k| FARTHEST * size * k as f64 / (SAMPLES - 1) as f64)
             .collect();
         let energies = |model| {
-            let potential = of_tiles(model, pair.fixed, pair.moving, scene.shields);
+            let interaction = Interaction {
+                model,
+                ..scene.interaction.clone()
+            };
+            let potential = interaction.between(pair).potential;
             let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
             gaps.iter().map(at).collect::<Vec<_>>()
         };

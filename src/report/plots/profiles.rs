@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::style::{
     Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title, units,
 };
-use crate::landscape::{Barrier, Place};
+use crate::landscape::{Barrier, Place, SaddleBounds};
 use crate::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
@@ -110,7 +110,7 @@ fn draw_panel(
 /// an end that lies far below the start only the beginning of the fall.
 fn shown_energies(barrier: &Barrier) -> (f64, f64) {
     let energies = || barrier.pathway.iter().map(|p| p.energy);
-    let (lower, upper) = (barrier.lower, barrier.upper);
+    let SaddleBounds { lower, upper, .. } = barrier.bounds;
     let high = energies().fold(
         upper.unwrap_or(0.0).max(barrier.saddle_energy).max(0.0),
         f64::max,
@@ -172,7 +172,7 @@ impl Panel<'_, '_> {
 
     /// The certified bounds of the saddle energy as a band with its figures.
     fn bounds(&self) -> Result<(), PictureError> {
-        let (Some(lower), Some(upper)) = (self.barrier.lower, self.barrier.upper) else {
+        let Some((lower, upper)) = self.barrier.bounds.both() else {
             return Ok(());
         };
         let top = (self.at)(0.0, upper).1;

@@ -29,7 +29,7 @@ const ROUNDS: usize = 7;
 
 fn main() {
     let design = designs::load("shapes/paper-tile.toml");
-    let problem = pipeline::problem(&design);
+    let problem = design.problem();
     let depth = pipeline::energy_scale(&design, &problem);
     let arguments: Vec<String> = std::env::args().collect();
     let value = |name: &str| {

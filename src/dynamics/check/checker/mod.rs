@@ -74,12 +74,12 @@ impl<'a> Checker<'a> {
         barrier: &'a Barrier,
         settings: &'a CheckSettings,
     ) -> Self {
-        let ceiling = match barrier.lower {
-            _ if barrier.caged => f64::INFINITY,
+        let ceiling = match barrier.bounds.lower {
+            _ if barrier.bounds.caged => f64::INFINITY,
             Some(lower) => lower,
             None => barrier.saddle_energy - settings.settled * barrier.forward(),
         };
-        let climb = if barrier.caged {
+        let climb = if barrier.bounds.caged {
             barrier.from_energy.abs()
         } else {
             ceiling - barrier.from_energy
@@ -122,7 +122,7 @@ impl<'a> Checker<'a> {
             from: self.barrier.from,
             to: self.barrier.to,
             ceiling: self.ceiling,
-            certified: self.barrier.caged || self.barrier.lower.is_some(),
+            certified: self.barrier.bounds.caged || self.barrier.bounds.lower.is_some(),
             below: Below::default(),
             above: (0, 0),
             sides: [None; 2],
@@ -135,7 +135,7 @@ impl<'a> Checker<'a> {
             return result;
         }
         self.run_below(&lossless, seed, &mut result);
-        if !self.barrier.caged {
+        if !self.barrier.bounds.caged {
             self.run_above(&lossless, seed, &mut result);
             result.sides = self.sides(&settling, &mut result.steps);
             result.kick = self.kick(&lossless, &mut result.steps);

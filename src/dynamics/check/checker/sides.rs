@@ -7,7 +7,7 @@ use super::{ARRIVED, Checker, moving};
 use crate::configuration::Configuration;
 use crate::dynamics::docking::stream;
 use crate::dynamics::{Motion, Simulation};
-use crate::landscape::{Barrier, PathwayPoint, Place, State, pathway};
+use crate::landscape::{Barrier, PathwayPoint, Place, State, highest_point};
 
 /// How far below the saddle the tile is released on either side, in barriers.
 const BESIDE: f64 = 0.01;
@@ -19,7 +19,7 @@ impl Checker<'_> {
     /// either end first rises that high.
     pub(super) fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
         let path = &self.barrier.pathway;
-        let Some(highest) = pathway::highest_point(path) else {
+        let Some(highest) = highest_point(path) else {
             return [None; 2];
         };
         let top = path.iter().position(|p| p == highest).unwrap_or(0);

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 /// Squares of 8 cm with two magnets on each face.
 fn tiles() -> (Tile, Tile) {
     let design = Design::load("shapes/shielded-backs.toml".as_ref()).unwrap();
-    (design.fixed, design.moving)
+    (design.pair.fixed.clone(), design.pair.moving.clone())
 }
 
 /// Shields on all faces of the one tile and on all but one of the other's.

@@ -1,14 +1,19 @@
 //! What is asked about: a space of configurations, the energy on it, and the contact that blocks
 //! part of it.
 
+mod symmetry;
+
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::{Contact, TOUCH};
-use crate::potential::Potential;
-use crate::tile::{Face, Tile};
+use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
+use crate::tile::{Face, Pair, face_to_face};
+
+pub use symmetry::Symmetry;
 
 /// Counters for energy evaluations are spread over this many cache lines, so that threads do not
 /// wait for each other.
@@ -18,66 +23,139 @@ const COUNTERS: usize = 64;
 #[derive(Default)]
 struct Counter(AtomicU64);
 
-/// An energy landscape over free configurations.
+/// An energy landscape over free configurations. Made once, it travels with what is found out
+/// about it.
 pub struct Problem {
+    /// Where the moving tile may be.
     pub space: ConfigurationSpace,
+    /// The two tiles; `None` for analytic landscapes.
+    pub pair: Option<Arc<Pair>>,
     /// `None` where nothing blocks a configuration (analytic landscapes).
     pub contact: Option<Contact>,
-    /// Faces of the two tiles, for proposals near contact; empty where there are none.
-    pub fixed_faces: Vec<Face>,
-    pub moving_faces: Vec<Face>,
-    potential: Box<dyn Potential + Send>,
+    /// Maps of configurations that change neither energy nor clearance, the identity first.
+    pub symmetries: Vec<Symmetry>,
+    energy: Energy,
     centre_of_mass: Vector2<f64>,
+    flush_meetings: OnceLock<Vec<Configuration>>,
+    depth: OnceLock<f64>,
     evaluations: Vec<Counter>,
 }
 
 impl Problem {
     /// The problem of two tiles.
-    pub fn of_tiles(
-        space: ConfigurationSpace,
-        fixed: &Tile,
-        moving: &Tile,
-        potential: Box<dyn Potential + Send>,
-    ) -> Self {
+    pub fn new(space: ConfigurationSpace, pair: Arc<Pair>, interaction: &Interaction) -> Self {
         Self {
-            contact: Some(Contact::new(&fixed.outline, &moving.outline)),
-            fixed_faces: fixed.faces.clone(),
-            moving_faces: moving.faces.clone(),
-            centre_of_mass: moving.outline.centroid(),
-            ..Self::without_contact(space, potential)
+            symmetries: Symmetry::all(&pair, &interaction.shields),
+            ..Self::bare(space, interaction.between(&pair)).with_tiles(pair)
         }
     }
 
-    /// An energy landscape in which nothing blocks the way.
+    /// The same energy where two tiles must not overlap, whatever it comes from: no symmetry is
+    /// taken for granted.
+    pub fn with_tiles(self, pair: Arc<Pair>) -> Self {
+        Self {
+            contact: Some(Contact::new(&pair.fixed.outline, &pair.moving.outline)),
+            centre_of_mass: pair.moving.outline.centroid(),
+            pair: Some(pair),
+            ..self
+        }
+    }
+
+    /// An energy landscape in which nothing blocks the way, and of which no bounds are known.
     pub fn without_contact(
         space: ConfigurationSpace,
         potential: Box<dyn Potential + Send>,
     ) -> Self {
+        let bounds = Err(Unbounded::Unknown);
+        Self::bare(space, Energy { potential, bounds })
+    }
+
+    fn bare(space: ConfigurationSpace, energy: Energy) -> Self {
         Self {
             space,
+            pair: None,
             contact: None,
-            fixed_faces: Vec::new(),
-            moving_faces: Vec::new(),
-            potential,
+            symmetries: vec![Symmetry::IDENTITY],
+            energy,
             centre_of_mass: Vector2::zeros(),
+            flush_meetings: OnceLock::new(),
+            depth: OnceLock::new(),
             evaluations: (0..COUNTERS).map(|_| Counter::default()).collect(),
         }
     }
 
+    /// Faces of the fixed and of the moving tile, for proposals near contact; none for analytic
+    /// landscapes.
+    pub fn faces(&self) -> [&[Face]; 2] {
+        self.pair
+            .as_ref()
+            .map_or([&[], &[]], |pair| [&pair.fixed.faces, &pair.moving.faces])
+    }
+
+    /// Where minima may be expected: the bound configuration, and every pair of faces set flush
+    /// against each other, pushed out into contact where their shapes overlap. None for analytic
+    /// landscapes.
+    pub fn flush_meetings(&self) -> &[Configuration] {
+        self.flush_meetings.get_or_init(|| {
+            let mut all: Vec<Configuration> = self.pair.iter().map(|pair| pair.bound).collect();
+            let [fixed, moving] = self.faces();
+            for fixed in fixed {
+                for moving in moving {
+                    let flush = face_to_face(fixed, moving, 0.0, 0.0);
+                    let lift = self.lift(&flush, fixed.normal());
+                    let position = flush.position() + fixed.normal() * lift;
+                    let q = Configuration::new(position.x, position.y, flush.theta);
+                    if self.is_free(&q) {
+                        all.push(q);
+                    }
+                }
+            }
+            all
+        })
+    }
+
+    /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
+    /// of the flush meetings of two faces where the bound one does not attract.
+    pub fn depth(&self) -> f64 {
+        *self.depth.get_or_init(|| {
+            let depths = self.flush_meetings().iter().map(|q| self.energy(q).abs());
+            depths.fold(f64::MIN_POSITIVE, f64::max)
+        })
+    }
+
+    /// How far (m) the moving tile has to go in a direction until the tiles do not overlap.
+    pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
+        self.contact
+            .as_ref()
+            .map_or(0.0, |contact| contact.lift(q, direction))
+    }
+
+    /// The energy's bounds over cells.
+    ///
+    /// # Errors
+    /// Where no such bounds are known.
+    pub fn bounds(&self) -> Result<&dyn CellBounds, Unbounded> {
+        match &self.energy.bounds {
+            Ok(bounds) => Ok(bounds.as_ref()),
+            Err(why) => Err(*why),
+        }
+    }
+
+    /// The energy by itself, uncounted.
     pub fn potential(&self) -> &dyn Potential {
-        self.potential.as_ref()
+        self.energy.potential.as_ref()
     }
 
     /// U (J), counted.
     pub fn energy(&self, q: &Configuration) -> f64 {
         self.count(1);
-        self.potential.energy(q)
+        self.energy.potential.energy(q)
     }
 
     /// U (J) and its gradient, counted as one evaluation.
     pub fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
         self.count(1);
-        self.potential.energy_and_gradient(q)
+        self.energy.potential.energy_and_gradient(q)
     }
 
     /// How many energies have been computed so far.

@@ -3,35 +3,33 @@
 use std::collections::HashSet;
 
 use super::{Inventory, SAME};
-use crate::analysis::{Alternative, PathwayCost, Settings};
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::landscape::meeting::{magnet_pairs, touching_faces};
 use crate::landscape::network::Cost;
 use crate::landscape::pathway::{self, Lowest};
-use crate::landscape::results::{Barrier, Pathway, Place, State, StateKind};
+use crate::landscape::results::{
+    Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
+};
 use crate::landscape::survey::Survey;
-use crate::landscape::symmetry::Symmetry;
 use crate::problem::Problem;
 
 /// A state this close (m, metric of the space) to the bound configuration is the bound one: the
 /// bond may settle a little beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
-pub(super) struct Taker<'a> {
-    pub design: &'a Design,
+pub(super) struct Reader<'a> {
     pub problem: &'a Problem,
-    pub symmetries: &'a [Symmetry],
     pub survey: &'a Survey,
-    pub settings: &'a Settings,
+    /// Least escape barrier of what is reported, as a fraction of the deepest energy.
+    pub least_depth: f64,
 }
 
 /// States of a survey (by their number in it) that symmetries map onto each other; the first is
 /// the one closest to the bound configuration.
 type Class = Vec<usize>;
 
-impl Taker<'_> {
-    pub fn take(&self) -> Inventory {
+impl Reader<'_> {
+    pub fn inventory(&self) -> Inventory {
         let (classes, shallow) = self.deep_classes();
         let order: Vec<usize> = classes.iter().flatten().copied().collect();
         let bound_state = order
@@ -46,24 +44,13 @@ impl Taker<'_> {
                 states.push(self.state(found, states.len(), lowest_id, is_bound));
             }
         }
-        let mut escapes = vec![None; states.len()];
-        let mut first = 0;
-        for class in &classes {
-            escapes[first] = self.barrier_to(class[0], &self.lower_nodes(class[0]), &order);
-            first += class.len();
-        }
-        let barriers = self.barriers(&classes, &states, &order, &escapes, bound_state);
-        let alternatives = self.alternatives(&states, &order, bound_state);
-        let mut inventory = Inventory {
+        Inventory {
+            barriers: self.barriers(&classes, &order, bound_state),
+            alternatives: self.alternatives(&states, &order, bound_state),
             states,
-            escapes,
-            barriers,
-            alternatives,
             bound_state,
             shallow,
-        };
-        inventory.copy_escapes(self.problem, self.symmetries);
-        inventory
+        }
     }
 
     fn energy(&self, found: usize) -> f64 {
@@ -75,9 +62,13 @@ impl Taker<'_> {
     }
 
     fn distance_to_bound(&self, found: usize) -> f64 {
-        self.problem
-            .space
-            .distance(&self.configuration(found), &self.design.bound)
+        let distance = |bound| {
+            self.problem
+                .space
+                .distance(&self.configuration(found), bound)
+        };
+        let pair = self.problem.pair.as_ref();
+        pair.map_or(f64::INFINITY, |pair| distance(&pair.bound))
     }
 
     /// Classes of states deep enough to be reported: the bound one first, then by energy. And the
@@ -90,6 +81,7 @@ impl Taker<'_> {
                 continue;
             }
             let mut class: Class = self
+                .problem
                 .symmetries
                 .iter()
                 .filter_map(|s| {
@@ -112,7 +104,7 @@ impl Taker<'_> {
         let deepest = (0..self.survey.states.len())
             .map(|found| self.energy(found).abs())
             .fold(0.0, f64::max);
-        let least = self.settings.least_depth * deepest;
+        let least = self.least_depth * deepest;
         let count = self.survey.states.len();
         classes.retain(|class| self.depth(class[0]) >= least);
         let kept: usize = classes.iter().map(Vec::len).sum();
@@ -145,7 +137,7 @@ impl Taker<'_> {
             .survey
             .states
             .iter()
-            .filter(|s| s.minimum.point.energy < energy - 1e-6 * energy.abs())
+            .filter(|s| s.minimum.point.energy < energy - SAME_ENERGY * energy.abs())
             .map(|s| s.node)
             .collect();
         nodes.insert(self.survey.free);
@@ -154,8 +146,14 @@ impl Taker<'_> {
 
     fn state(&self, found: usize, id: usize, class: usize, is_bound: bool) -> State {
         let configuration = self.configuration(found);
-        let (fixed, moving) = (&self.design.fixed, &self.design.moving);
-        let (attracting, repelling) = magnet_pairs(fixed, moving, &configuration);
+        let pair = self.problem.pair.as_deref();
+        let (attracting, repelling) = pair.map_or((0, 0), |pair| {
+            magnet_pairs(&pair.fixed, &pair.moving, &configuration)
+        });
+        let faces = pair.zip(self.problem.contact.as_ref());
+        let faces = faces.map(|(pair, contact)| {
+            touching_faces(contact, &pair.fixed, &pair.moving, &configuration)
+        });
         State {
             id,
             kind: if is_bound {
@@ -166,13 +164,7 @@ impl Taker<'_> {
             configuration,
             energy: self.energy(found),
             class,
-            faces: self
-                .problem
-                .contact
-                .as_ref()
-                .map_or_else(Vec::new, |contact| {
-                    touching_faces(contact, fixed, moving, &configuration)
-                }),
+            faces: faces.unwrap_or_default(),
             attracting,
             repelling,
             block_energy: None,
@@ -200,11 +192,7 @@ impl Taker<'_> {
                     || order.iter().any(|&o| self.survey.states[o].node == goal)
             })
             .collect();
-        let Lowest {
-            saddle,
-            end,
-            pathway,
-        } = pathway::lowest(
+        let Lowest { end, pathway } = pathway::lowest(
             self.problem,
             &self.survey.network,
             node,
@@ -216,51 +204,47 @@ impl Taker<'_> {
             Place::Free => 0.0,
             Place::State(id) => self.energy(order[id]),
         };
-        Some(Barrier {
-            from: self.place(node, order),
-            to,
-            saddle_energy: saddle.energy,
-            saddle: saddle.configuration,
-            lower: None,
-            upper: None,
-            caged: false,
-            from_energy: self.energy(found),
-            to_energy,
-            spread: None,
-            pathway,
-        })
+        let from = (self.place(node, order), self.energy(found));
+        let mut barrier = Barrier::without_a_way(from, self.configuration(found), (to, to_energy));
+        barrier.lead_along(pathway);
+        Some(barrier)
     }
 
-    /// From the first state of each class: its escape, the way to the bound state, and to `free`.
+    /// From the first state of each class: its escape, the way to the bound state, and to `free`;
+    /// and the bond's to `free` where none is known.
     fn barriers(
         &self,
         classes: &[Class],
-        states: &[State],
         order: &[usize],
-        escapes: &[Option<Barrier>],
         bound_state: Option<usize>,
     ) -> Vec<Barrier> {
         let mut barriers: Vec<Barrier> = Vec::new();
-        for class in classes {
-            let id = states
-                .iter()
-                .position(|s| order[s.id] == class[0])
-                .unwrap_or(0);
-            let mut goals = Vec::new();
-            if let Some(bound) = bound_state.filter(|&bound| bound != id) {
-                goals.push(self.survey.states[order[bound]].node);
-            }
-            goals.push(self.survey.free);
-            let mut found: Vec<Barrier> = escapes[id].iter().cloned().collect();
-            for goal in goals {
+        let bound = bound_state.map(|bound| order[bound]);
+        for first in classes.iter().map(|class| class[0]) {
+            let lower = self.lower_nodes(first);
+            let mut found: Vec<Barrier> =
+                self.barrier_to(first, &lower, order).into_iter().collect();
+            let bound = bound.filter(|&bound| bound != first);
+            let goals = bound.map(|bound| self.survey.states[bound].node);
+            for goal in goals.into_iter().chain([self.survey.free]) {
                 let place = self.place(goal, order);
                 if found.iter().all(|barrier| barrier.to != place) {
-                    found.extend(self.barrier_to(class[0], &HashSet::from([goal]), order));
+                    found.extend(self.barrier_to(first, &HashSet::from([goal]), order));
                 }
             }
             barriers.extend(found);
         }
+        barriers.extend(bound.and_then(|bound| self.missing_way_out(bound, &barriers)));
         barriers
+    }
+
+    /// The barrier from the bond to `free`, where no way over it was found.
+    fn missing_way_out(&self, bound: usize, barriers: &[Barrier]) -> Option<Barrier> {
+        let ends = (Place::State(0), Place::Free);
+        let is_known = barriers.iter().any(|known| (known.from, known.to) == ends);
+        let start = self.configuration(bound);
+        let from = (ends.0, self.energy(bound));
+        (!is_known).then(|| Barrier::without_a_way(from, start, (Place::Free, 0.0)))
     }
 
     /// The least-work and the most probable pathways between the bound state, the deepest trap and
@@ -284,7 +268,7 @@ impl Taker<'_> {
         let mut all = Vec::new();
         for from in &ends {
             for to in ends.iter().filter(|to| to.0 != from.0) {
-                for by in [PathwayCost::Work, PathwayCost::Improbability] {
+                for by in [PathwayCost::Work, PathwayCost::Probability] {
                     all.extend(self.alternative(*from, *to, by));
                 }
             }
@@ -301,11 +285,11 @@ impl Taker<'_> {
         let network = &self.survey.network;
         let cost = match by {
             PathwayCost::Work => Cost::Work,
-            PathwayCost::Improbability => Cost::Improbability,
+            PathwayCost::Probability => Cost::Improbability,
         };
         let (_, cost, route) = network.cheapest(from.1, &HashSet::from([to.1]), cost)?;
         let depth = self.energy(0).abs();
-        let pathway: Pathway = pathway::along(
+        let pathway = pathway::along(
             self.problem,
             network,
             &route,

@@ -1,10 +1,9 @@
 //! Symmetries of a pair of tiles as maps of configurations.
 
 use crate::configuration::{Configuration, wrap_angle};
-use crate::design::Design;
 use crate::potential::shielding::{Shield, Shields};
-use crate::tile::Tile;
 use crate::tile::symmetry::{rotations, turned_faces};
+use crate::tile::{Pair, Tile};
 
 /// A turn of the fixed tile onto itself together with a turn of the moving one: it maps every
 /// configuration onto one with the same energy and the same clearance.
@@ -17,16 +16,16 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
+    /// No turn at all.
     pub const IDENTITY: Self = Self {
         fixed: 0.0,
         moving: 0.0,
     };
 
-    /// All symmetries of a design, the identity first.
-    pub fn all(design: &Design) -> Vec<Self> {
-        let (fixed, moving, shields) = (&design.fixed, &design.moving, &design.shields);
-        let of_moving = turns(moving, shields, &shields.moving);
-        turns(fixed, shields, &shields.fixed)
+    /// All symmetries of two tiles behind shields, the identity first.
+    pub fn all(pair: &Pair, shields: &Shields) -> Vec<Self> {
+        let of_moving = turns(&pair.moving, shields, &shields.moving);
+        turns(&pair.fixed, shields, &shields.fixed)
             .into_iter()
             .flat_map(|fixed| of_moving.iter().map(move |&moving| Self { fixed, moving }))
             .collect()

@@ -1,0 +1,17 @@
+//! Who is told what long work is doing.
+
+/// Is told what the main job is doing.
+pub trait Observer: Sync {
+    /// A stage begins; `share` of the whole time (0 to 1) is behind.
+    fn stage(&self, name: &'static str, share: f64);
+
+    /// Of a stage that has `count` parts, `done` are done.
+    fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
+}
+
+/// An observer that looks away.
+pub struct Silent;
+
+impl Observer for Silent {
+    fn stage(&self, _: &'static str, _: f64) {}
+}

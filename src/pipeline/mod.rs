@@ -1,0 +1,148 @@
+//! The main job in one readable page: from a design to its states, barriers and pathways.
+
+mod analysis;
+mod clock;
+mod settings;
+
+pub use analysis::{Analysis, Counts, Stage};
+pub use settings::Settings;
+
+pub(crate) use clock::Clock;
+
+use std::sync::Arc;
+
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::dynamics::Body;
+use crate::dynamics::check::{self, BarrierCheck};
+use crate::landscape::survey::Survey;
+use crate::landscape::{Barrier, Inventory, capture, certification};
+use crate::observer::Observer;
+use crate::potential::{Interaction, MagnetModel};
+use crate::problem::Problem;
+use crate::roadmap::{Roadmap, RoadmapSettings};
+
+/// The main job. The same design and settings give the same result on any number of threads, as
+/// long as the certificate keeps within its time.
+pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
+    let problem = Arc::new(design.problem());
+    let roadmap = settings.roadmap(&problem);
+    let mut clock = Clock::new(&problem, observer);
+
+    let (survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    clock.start("states and barriers", 0.6);
+    let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
+    clock.start("capture shares", 0.7);
+    let ends = capture::ends(&problem, &settings.far_starts());
+    let uncaptured = inventory.count_captures(&problem, &ends);
+    for repeat in 1..settings.repeats as u64 {
+        let mut again = roadmap;
+        again.milestones.seed += repeat;
+        let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
+        let other = Inventory::of_survey(&problem, &survey, settings.least_depth);
+        inventory.widen_spread(&problem, &other);
+    }
+    weigh_blocks(design, &mut inventory);
+    clock.start("certificate", 0.75);
+    let certified = certification::certify(
+        &problem,
+        &mut inventory,
+        &settings.certification(),
+        observer,
+    );
+    let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
+    let stages = clock.stop();
+    Analysis {
+        settings: settings.clone(),
+        roadmap,
+        bound: (design.pair.bound, problem.energy(&design.pair.bound)),
+        inventory,
+        uncaptured,
+        ring: capture::ring(&problem),
+        uncertified: certified.err(),
+        dynamics,
+        counts: Counts {
+            energy_evaluations: problem.evaluations(),
+            cells: certified.unwrap_or(0),
+            ..counts
+        },
+        stages,
+        problem,
+    }
+}
+
+/// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
+/// besides those that the faces suggest.
+pub(crate) fn survey(
+    problem: &Problem,
+    settings: &Settings,
+    roadmap: &RoadmapSettings,
+    guesses: &[Configuration],
+    clock: &mut Clock,
+) -> (Survey, Counts) {
+    let shares = |name| match name {
+        "milestones" => 0.0,
+        "neighbours" => 0.05,
+        _ => 0.06,
+    };
+    let built = Roadmap::build(problem, roadmap, &mut |name| {
+        clock.start(name, shares(name))
+    });
+    let counts = Counts {
+        milestones: built.milestones.len(),
+        edges: built.edges.len(),
+        ..Counts::default()
+    };
+    clock.start("states and transition states", 0.4);
+    let survey = Survey::new(problem, built, guesses, &settings.survey(roadmap));
+    let transition_states = survey.transition_states.len();
+    let counts = Counts {
+        transition_states,
+        ..counts
+    };
+    (survey, counts)
+}
+
+/// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
+/// there (behind the same shields), so that nobody takes the dipoles' depth for the real one.
+fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
+    let blocks = Interaction {
+        model: MagnetModel::Cuboid,
+        ..design.interaction.clone()
+    };
+    if blocks == design.interaction {
+        return;
+    }
+    let blocks = blocks.between(&design.pair).potential;
+    for state in &mut inventory.states {
+        state.block_energy = Some(blocks.energy(&state.configuration));
+    }
+}
+
+/// What moving tiles say of the barriers that are claimed, if they are asked.
+fn check_barriers(
+    problem: &Problem,
+    inventory: &Inventory,
+    settings: &Settings,
+    observer: &dyn Observer,
+    clock: &mut Clock,
+) -> Option<Vec<BarrierCheck>> {
+    let pair = problem.pair.as_deref()?;
+    if settings.dynamics_runs == 0 {
+        return None;
+    }
+    clock.start("dynamics", 0.8);
+    let is_claimed = |barrier: &&Barrier| settings.claims.include(barrier, inventory);
+    let claimed: Vec<&Barrier> = inventory.barriers.iter().filter(is_claimed).collect();
+    Some(check::check(
+        problem,
+        Body::of_tile(&pair.moving),
+        &inventory.states,
+        &claimed,
+        &settings.check(),
+        &|done, count| observer.part("dynamics", done, count),
+    ))
+}
+
+#[cfg(test)]
+mod tests;

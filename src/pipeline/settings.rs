@@ -1,0 +1,132 @@
+//! What the main job is asked for, and what that means for each of its stages.
+
+use crate::dynamics::check::CheckSettings;
+use crate::landscape::Claims;
+use crate::landscape::capture::FarStarts;
+use crate::landscape::certification::CertificationSettings;
+use crate::landscape::survey::SurveySettings;
+use crate::problem::Problem;
+use crate::roadmap::{
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
+};
+
+/// All that decides the result, besides the design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Milestones of the roadmap.
+    pub milestones: usize,
+    /// Neighbours of each milestone; by the PRM* rule where `None`.
+    pub neighbours: Option<usize>,
+    /// Accept milestones by Boltzmann's rule at this energy (J) instead of the linear rule.
+    pub boltzmann: Option<f64>,
+    /// Thermal energy (J) of the transition probabilities; a hundredth of the bond where `None`.
+    pub thermal_energy: Option<f64>,
+    /// A barrier is settled when it moves by less than this fraction.
+    pub settled: f64,
+    /// Minima are left out whose escape barrier is below this fraction of the deepest energy.
+    pub least_depth: f64,
+    /// Number of far starts.
+    pub far_starts: usize,
+    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the bond or a
+    /// twentieth of the barrier, whichever is less.
+    pub tolerance: Option<f64>,
+    /// Time (s) after which the certificate keeps the bounds it has; 0 for no certificate.
+    pub certify_seconds: f64,
+    /// Cells spent on the bounds of one barrier at most, so that a hard one leaves time for the
+    /// others.
+    pub certify_cells: usize,
+    /// Which barriers are certified, and checked by moving tiles.
+    pub claims: Claims,
+    /// Number of runs, each with the next seed, whose spread is reported.
+    pub repeats: usize,
+    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
+    pub dynamics_runs: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            milestones: 8000,
+            neighbours: None,
+            boltzmann: None,
+            thermal_energy: None,
+            settled: 0.005,
+            least_depth: 1e-4,
+            far_starts: 1000,
+            tolerance: None,
+            certify_seconds: 60.0,
+            certify_cells: 1_000_000,
+            claims: Claims::All,
+            repeats: 1,
+            dynamics_runs: 0,
+        }
+    }
+}
+
+impl Settings {
+    /// The roadmap's settings for a problem, with nothing left open.
+    pub fn roadmap(&self, problem: &Problem) -> RoadmapSettings {
+        let depth = problem.depth();
+        let linear = Acceptance::Linear {
+            lowest: -depth,
+            highest: 0.1 * depth,
+        };
+        let boltzmann = |energy| Acceptance::Boltzmann { energy };
+        RoadmapSettings {
+            milestones: MilestoneSettings {
+                count: self.milestones,
+                acceptance: self.boltzmann.map_or(linear, boltzmann),
+                seed: self.seed,
+            },
+            neighbours: self
+                .neighbours
+                .unwrap_or_else(|| neighbour::neighbours_per_milestone(self.milestones)),
+            edges: EdgeSettings {
+                tolerance: ProfileTolerance {
+                    relative: 0.01,
+                    absolute: 1e-5 * depth,
+                },
+                thermal_energy: self.thermal_energy.unwrap_or(0.01 * depth),
+                probability_step: 5e-3,
+            },
+        }
+    }
+
+    pub(super) fn survey(&self, roadmap: &RoadmapSettings) -> SurveySettings {
+        SurveySettings {
+            edge: roadmap.edges,
+            settled: self.settled,
+            added_milestones: 100,
+            most_rounds: 8,
+            seed: roadmap.milestones.seed,
+        }
+    }
+
+    pub(super) fn far_starts(&self) -> FarStarts {
+        FarStarts {
+            count: self.far_starts,
+            seed: self.seed,
+        }
+    }
+
+    pub(super) fn certification(&self) -> CertificationSettings {
+        CertificationSettings {
+            tolerance: self.tolerance,
+            seconds: self.certify_seconds,
+            cells: self.certify_cells,
+            claims: self.claims,
+        }
+    }
+
+    pub(super) fn check(&self) -> CheckSettings {
+        CheckSettings {
+            seed: self.seed,
+            runs: self.dynamics_runs,
+            settled: self.settled,
+            ..CheckSettings::default()
+        }
+    }
+}

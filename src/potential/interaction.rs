@@ -1,0 +1,110 @@
+//! Which energy acts between two tiles: the one place where it is chosen.
+//!
+//! An [`Interaction`] is what a design says of the physics; [`Interaction::between`] makes of it an
+//! [`Energy`]: the potential with its feature length, and its bounds over cells, or why there are
+//! none. Everything above asks a [`Problem`](crate::problem::Problem) and knows no model.
+//!
+//! # Adding physics
+//! Another force between tiles (say, capillary attraction of faces coded by wetting) takes:
+//!
+//! 1. a module of its own here with its `Potential` (energy, gradient, bounds of derivatives,
+//!    feature length), and one with its `CellBounds`, or none;
+//! 2. `potential/mod.rs`: the module's name and a line of the table of models;
+//! 3. this file: what a design says of it, as a field of [`Interaction`], and its arm in
+//!    [`Interaction::between`]; a sum of two energies is a `Potential` of its own, whose
+//!    enclosures are the sums of theirs;
+//! 4. `tile/mod.rs`: what a face carries beside its magnets;
+//! 5. `problem/symmetry.rs`: which turns of a tile onto itself keep it;
+//! 6. `landscape/meeting.rs`: what is reported of faces that meet;
+//! 7. `report/settings.rs`: how the model is named in results;
+//!
+//! and its keys in the design reader. Roadmap, landscape, certificates, dynamics and pictures stay
+//! as they are.
+
+use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use super::shielding::{ShieldRule, Shields};
+use super::{CuboidPotential, DipolePotential, Potential, ShieldedPotential};
+use crate::tile::Pair;
+
+/// How magnets are modelled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MagnetModel {
+    /// Point dipoles at the blocks' centres.
+    #[default]
+    Dipole,
+    /// Uniformly magnetised blocks.
+    Cuboid,
+}
+
+impl MagnetModel {
+    /// What design files call each model.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+
+    /// What design files call this model.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dipole => "dipole",
+            Self::Cuboid => "cuboid",
+        }
+    }
+}
+
+/// What acts between two tiles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Interaction {
+    /// How magnets are modelled.
+    pub model: MagnetModel,
+    /// The soft-iron shields of the faces, and how they act.
+    pub shields: Shields,
+}
+
+/// Why an energy has no bounds over cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unbounded {
+    /// Blocks behind shields.
+    #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]
+    ShieldedBlocks,
+    /// The nearest-face rule, see [`super::shielding`].
+    #[error("the energy jumps where the nearest-face rule changes faces")]
+    NearestFace,
+    /// An energy that came without bounds.
+    #[error("bounds over cells are not known for this energy")]
+    Unknown,
+}
+
+/// An energy and what is proved of it.
+pub struct Energy {
+    /// U and its derivatives.
+    pub potential: Box<dyn Potential + Send>,
+    /// Its bounds over cells, or why there are none.
+    pub bounds: Result<Box<dyn CellBounds + Send>, Unbounded>,
+}
+
+impl Interaction {
+    /// The energy between two tiles.
+    pub fn between(&self, pair: &Pair) -> Energy {
+        let Pair { fixed, moving, .. } = pair;
+        let Self { model, shields } = self;
+        let (first, second) = (&fixed.magnets, &moving.magnets);
+        let bounds: Result<Box<dyn CellBounds + Send>, _> = match model {
+            _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
+            MagnetModel::Dipole if shields.is_none() => {
+                Ok(Box::new(DipoleBounds::new(fixed, moving)))
+            }
+            MagnetModel::Dipole => Ok(Box::new(ShieldedBounds::new(fixed, moving, shields))),
+            MagnetModel::Cuboid if shields.is_none() => {
+                Ok(Box::new(CuboidBounds::new(fixed, moving)))
+            }
+            MagnetModel::Cuboid => Err(Unbounded::ShieldedBlocks),
+        };
+        let potential: Box<dyn Potential + Send> = match model {
+            _ if !shields.is_none() => {
+                Box::new(ShieldedPotential::new(*model, fixed, moving, shields))
+            }
+            MagnetModel::Dipole => Box::new(DipolePotential::new(first, second)),
+            MagnetModel::Cuboid => Box::new(CuboidPotential::new(first, second)),
+        };
+        Energy { potential, bounds }
+    }
+}

@@ -1,0 +1,44 @@
+//! Two tiles and how they are meant to meet.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+
+use super::{Face, Tile};
+use crate::configuration::{Configuration, wrap_angle};
+
+/// Two tiles and how they are meant to bind.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The tile at the table's centre, unrotated.
+    pub fixed: Tile,
+    /// The tile that moves.
+    pub moving: Tile,
+    /// The faces of the fixed and of the moving tile that are meant to bind.
+    pub target: (usize, usize),
+    /// The configuration in which the target faces coincide.
+    pub bound: Configuration,
+}
+
+impl Pair {
+    /// The fixed tile's target face.
+    pub fn target_face(&self) -> &Face {
+        &self.fixed.faces[self.target.0]
+    }
+
+    /// The distance of the reference points (m) from which on the tiles are free of each other in
+    /// any orientation: that of their circles about the reference points.
+    pub fn free_distance(&self) -> f64 {
+        self.fixed.outline.circumradius() + self.moving.outline.circumradius()
+    }
+}
+
+/// The configuration in which the base lines of two faces lie against each other, the moving one
+/// `slide` (m) along the fixed one and turned by `tilt` (rad) about its middle.
+pub fn face_to_face(fixed: &Face, moving: &Face, slide: f64, tilt: f64) -> Configuration {
+    let direction = |v: Vector2<f64>| v.y.atan2(v.x);
+    let theta = wrap_angle(direction(fixed.normal()) + PI - direction(moving.normal()) + tilt);
+    let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
+    let position = fixed.point(slide, 0.0) - turned;
+    Configuration::new(position.x, position.y, theta)
+}
