@@ -1,8 +1,8 @@
 //! Landscapes whose saddles are known.
 
+use crate::surfaces::{DoubleWell, MuellerBrown};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::certificate::{Certifier, End, Ordering};
-use tilebind::potential::analytic::{DoubleWell, MuellerBrown};
 
 use crate::scene::effort;
 

@@ -8,3 +8,5 @@ mod grid;
 mod paper_tile;
 mod random_designs;
 mod scene;
+#[path = "../landscape/surfaces.rs"]
+mod surfaces;

@@ -3,5 +3,6 @@
 
 mod analytic;
 mod roadmap;
+mod surfaces;
 mod symmetry;
 mod walls;

@@ -1,11 +1,11 @@
-//! Test landscapes with known minima and saddles, in x and y; theta does not matter to them.
+//! Landscapes with known minima and saddles, in x and y; theta does not matter to them.
 
 use nalgebra::Vector3;
 
-use super::Potential;
-use super::bounds::{CellBounds, Enclosure};
-use crate::cell::{Cell, Quadratic};
-use crate::configuration::Configuration;
+use tilebind::Configuration;
+use tilebind::cell::{Cell, Quadratic};
+use tilebind::potential::Potential;
+use tilebind::potential::bounds::{CellBounds, Enclosure};
 
 /// Relative rounding errors allowed for in the enclosures: far more than the dozens of roundings
 /// (and the exponential's few units in the last place) that there are.

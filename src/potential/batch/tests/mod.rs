@@ -1,3 +1,5 @@
+mod operations;
+
 use std::f64::consts::PI;
 
 use nalgebra::Vector2;
@@ -197,21 +199,6 @@ fn many_turns_change_little() {
             assert!((kernel.energy(&q) - scalar.energy(&q)).abs() <= 1e-12 * size);
         }
     }
-}
-
-/// A change of these numbers is a change of the kernel's speed; the bench measures how much.
-#[test]
-fn operations_a_pair() {
-    let count = |gradient| {
-        let Operations {
-            simple,
-            fused,
-            estimates,
-        } = Operations::per_pair(gradient, false);
-        (simple, fused, estimates)
-    };
-    assert_eq!(count(false), (9, 10, 1));
-    assert_eq!(count(true), (13, 16, 1));
 }
 
 /// The vector functions at one argument.
