@@ -16,9 +16,9 @@
 //! dipole is wrong by much: for blocks of 10 x 10 x 3 mm magnetised along a long side, face to
 //! face, its energy is 35 % too weak at a gap of 1 mm and 18 % at 5 mm, and for the same block
 //! magnetised through its 3 mm side it is 6.7 times too strong at 1 mm and 2.4 times at 5 mm.
-//! [`cuboid::ModelComparison`] gives both energies at any configuration; every analysis draws them
-//! over the gap (its picture `models`; that of the paper's tile is `results/paper-tile/models.svg`),
-//! and with dipoles its table of states has the blocks' energy and the dipoles' error in each.
+//! Every analysis draws both energies over the gap (its picture `models`; that of the paper's tile
+//! is `results/paper-tile/models.svg`), and with dipoles its table of states has the blocks' energy
+//! and the dipoles' error in each.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), of which barriers are certified; not so with shields.
@@ -27,7 +27,6 @@
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, of whose integrals
 //! [`cuboid`] uses those that stay closed at an angle.
 
-pub mod analytic;
 pub mod batch;
 pub mod bounds;
 pub mod cuboid;

@@ -8,14 +8,17 @@
 //!
 //! `cargo bench --bench kernel`
 
+mod operations;
+
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::{Vector2, Vector3};
+use operations::Operations;
 use tilebind::Configuration;
+use tilebind::potential::batch::Level;
 use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
-use tilebind::potential::batch::{Level, Operations};
 use tilebind::potential::dipole::{Dipole, ScalarDipoles};
 use tilebind::potential::{DipolePotential, Potential};
 

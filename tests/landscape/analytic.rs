@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
+use crate::surfaces::{DoubleWell, MuellerBrown};
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::survey::{Survey, SurveySettings};
 use tilebind::potential::Potential;
-use tilebind::potential::analytic::{DoubleWell, MuellerBrown};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap};
 

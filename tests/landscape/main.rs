@@ -1,7 +1,12 @@
-//! Roadmaps and surveys, tested on landscapes whose answers are known and by symmetries that every
-//! answer must have.
+//! Roadmaps, surveys and certificates, tested on landscapes whose answers are known and by
+//! symmetries that every answer must have.
 
 mod analytic;
+mod certificate;
+mod counts;
+#[path = "../shared/designs.rs"]
+mod designs;
 mod roadmap;
+mod surfaces;
 mod symmetry;
 mod walls;

@@ -1,11 +1,11 @@
 //! Milestones and edges against what their definitions say.
 
+use crate::surfaces::DoubleWell;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
 use tilebind::pipeline;
 use tilebind::potential::Potential;
-use tilebind::potential::analytic::DoubleWell;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
     Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,

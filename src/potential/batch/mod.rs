@@ -17,7 +17,6 @@ mod derivative;
 mod field;
 pub mod lanes;
 mod level;
-mod operations;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sin_cos;
@@ -28,7 +27,6 @@ mod x86;
 use nalgebra::Vector3;
 
 pub use level::Level;
-pub use operations::Operations;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};

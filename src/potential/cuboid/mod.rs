@@ -42,9 +42,9 @@ mod sum;
 
 use nalgebra::{Complex, Vector3};
 
+use super::Potential;
 use super::batch::Level;
 use super::lever::Lever;
-use super::{DipolePotential, Potential};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};
@@ -309,42 +309,5 @@ impl Potential for CuboidPotential {
     /// integral of the gradient.
     fn noise(&self) -> f64 {
         1e-6
-    }
-}
-
-/// What the two models say of the same magnets.
-#[derive(Clone, Debug)]
-pub struct ModelComparison {
-    dipoles: DipolePotential,
-    blocks: CuboidPotential,
-}
-
-/// The energies (J) of one configuration by both models.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModelEnergies {
-    pub dipole: f64,
-    pub cuboid: f64,
-}
-
-impl ModelEnergies {
-    /// The dipole's error relative to the block's energy; infinite or NaN where that is 0.
-    pub fn relative_error(&self) -> f64 {
-        (self.dipole - self.cuboid) / self.cuboid.abs()
-    }
-}
-
-impl ModelComparison {
-    pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
-        Self {
-            dipoles: DipolePotential::new(fixed, moving),
-            blocks: CuboidPotential::new(fixed, moving),
-        }
-    }
-
-    pub fn at(&self, q: &Configuration) -> ModelEnergies {
-        ModelEnergies {
-            dipole: self.dipoles.energy(q),
-            cuboid: self.blocks.energy(q),
-        }
     }
 }

@@ -1,0 +1,112 @@
+//! How much arithmetic the kernel does, counted.
+
+use std::cell::Cell;
+
+use super::super::field::{Source, TOGETHER, field};
+use super::super::lanes::Arithmetic;
+
+#[path = "../../../../tests/bench/operations.rs"]
+mod known;
+
+use known::Operations;
+
+/// A change of the known numbers is a change of the kernel's speed; the bench measures how much.
+#[test]
+fn operations_a_pair() {
+    check::<false, false>();
+    check::<false, true>();
+    check::<true, false>();
+    check::<true, true>();
+}
+
+fn check<const SLOPE: bool, const EXACT: bool>() {
+    let (none, some) = (
+        of_field::<SLOPE, EXACT>(0),
+        of_field::<SLOPE, EXACT>(TOGETHER),
+    );
+    let a_pair = Operations {
+        simple: (some.simple - none.simple) / TOGETHER,
+        fused: (some.fused - none.fused) / TOGETHER,
+        estimates: (some.estimates - none.estimates) / TOGETHER,
+    };
+    assert_eq!(a_pair, Operations::per_pair(SLOPE, EXACT));
+}
+
+fn of_field<const SLOPE: bool, const EXACT: bool>(sources: usize) -> Operations {
+    let counted = Cell::default();
+    let source = Source {
+        position: [0.0; 2],
+        moment: [0.0; 2],
+        thrice: [0.0; 2],
+        magnitude: 0.0,
+    };
+    field::<_, 1, SLOPE>(
+        Counter::<EXACT>(&counted),
+        &vec![source; sources],
+        &[[(); 2]],
+    );
+    counted.get()
+}
+
+/// Arithmetic that computes nothing, but counts.
+#[derive(Clone, Copy)]
+struct Counter<'a, const EXACT: bool>(&'a Cell<Operations>);
+
+impl<const EXACT: bool> Counter<'_, EXACT> {
+    fn simple(self) {
+        let mut counted = self.0.get();
+        counted.simple += 1;
+        self.0.set(counted);
+    }
+
+    fn fused(self) {
+        let mut counted = self.0.get();
+        counted.fused += 1;
+        self.0.set(counted);
+    }
+
+    fn estimate(self) {
+        let mut counted = self.0.get();
+        counted.estimates += 1;
+        self.0.set(counted);
+    }
+}
+
+impl<const EXACT: bool> Arithmetic for Counter<'_, EXACT> {
+    type F = ();
+    const ESTIMATE_IS_EXACT: bool = EXACT;
+
+    fn splat(self, _: f64) {}
+
+    fn add(self, _: (), _: ()) {
+        self.simple();
+    }
+
+    fn sub(self, _: (), _: ()) {
+        self.simple();
+    }
+
+    fn mul(self, _: (), _: ()) {
+        self.simple();
+    }
+
+    fn mul_add(self, _: (), _: (), _: ()) {
+        self.fused();
+    }
+
+    fn neg_mul_add(self, _: (), _: (), _: ()) {
+        self.fused();
+    }
+
+    fn min(self, _: (), _: ()) {
+        self.simple();
+    }
+
+    fn reciprocal_sqrt_estimate(self, _: ()) {
+        self.estimate();
+    }
+
+    fn reciprocal_estimate(self, _: ()) {
+        self.estimate();
+    }
+}

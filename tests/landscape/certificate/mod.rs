@@ -1,0 +1,8 @@
+//! Certified barriers, attacked from all sides.
+
+mod analytic;
+mod caged;
+mod grid;
+mod paper_tile;
+mod random_designs;
+mod scene;

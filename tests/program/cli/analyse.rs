@@ -1,0 +1,275 @@
+//! `tilebind analyse`: files, keys, and the same bytes every time.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{numbers, tilebind};
+use crate::folder::contents;
+use crate::program::{command, stderr, stdout};
+
+const DESIGN: &str = "shapes/paper-tile.toml";
+
+/// A quick analysis into `out`.
+fn analyse(out: &Path, more: &[&str]) -> std::process::Output {
+    let mut arguments = vec![
+        "analyse",
+        DESIGN,
+        "--out",
+        out.to_str().unwrap(),
+        "--milestones",
+        "2000",
+        "--far-starts",
+        "100",
+    ];
+    arguments.extend(more);
+    let output = tilebind(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    output
+}
+
+fn report(out: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(out.join("report.json")).unwrap()).unwrap()
+}
+
+fn untimed(mut report: Value) -> Value {
+    report.as_object_mut().unwrap().remove("timing").unwrap();
+    report
+}
+
+/// All files but the report, with their contents.
+fn contents_but_the_report(out: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = contents(out);
+    all.remove("report.json").expect("a report");
+    all
+}
+
+#[test]
+fn everything_but_the_timing_is_the_same_on_one_thread_and_two_and_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, two, again] = ["one", "two", "again"].map(|name| folder.path().join(name));
+    analyse(&one, &["--threads", "1", "--arrays"]);
+    analyse(&two, &["--threads", "2", "--arrays"]);
+    analyse(&again, &["--threads", "2", "--quiet", "--arrays"]);
+    for other in [&two, &again] {
+        assert_eq!(untimed(report(&one)), untimed(report(other)));
+        let [a, b] = [&one, other].map(|out| contents_but_the_report(out));
+        assert_eq!(a.len(), b.len());
+        for (name, content) in a {
+            assert!(b[&name] == content, "{name} differs");
+        }
+    }
+    let other = folder.path().join("other");
+    analyse(&other, &["--seed", "2"]);
+    assert_eq!(report(&other)["seed"], 2);
+    assert_ne!(untimed(report(&one)), untimed(report(&other)));
+}
+
+#[test]
+fn the_report_has_every_key_and_every_file_that_it_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("new/folder");
+    analyse(&out, &[]);
+    let report = report(&out);
+    for key in [
+        "tilebind", "design", "seed", "settings", "bound", "states", "barriers", "counts", "timing",
+    ] {
+        assert!(report.get(key).is_some(), "{key}");
+    }
+    assert_eq!(report["tilebind"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(report["design"]["name"], "paper-tile");
+    assert_eq!(report["design"]["sha256"].as_str().unwrap().len(), 64);
+    for key in ["milestones", "edges", "energy_evaluations"] {
+        assert!(report["counts"][key].as_u64().unwrap() > 0, "{key}");
+    }
+    assert!(report["timing"]["total_wall_s"].as_f64().unwrap() > 0.0);
+    let bound = &report["bound"];
+    assert_eq!(numbers(&bound["pose"]), [0.43, 0.0, 0.0]);
+    assert!((bound["energy_J"].as_f64().unwrap() + 65.47e-3).abs() < 1e-5);
+
+    let states = report["states"].as_array().unwrap();
+    assert_eq!(states[0]["kind"], "bound");
+    for (id, state) in states.iter().enumerate() {
+        assert_eq!(state["id"], id);
+        assert_eq!(numbers(&state["pose"]).len(), 3);
+        let capture = &state["capture"];
+        let bounds = ["low", "share", "high"].map(|key| capture[key].as_f64().unwrap());
+        assert!(bounds.is_sorted() && bounds[0] >= 0.0 && bounds[2] <= 1.0);
+        check_barrier(&out, states, &state["escape"], Some(id));
+    }
+    for barrier in report["barriers"].as_array().unwrap() {
+        check_barrier(&out, states, barrier, None);
+    }
+    let shares: f64 = states
+        .iter()
+        .map(|state| state["capture"]["share"].as_f64().unwrap())
+        .sum();
+    let uncaptured = report["free"]["capture"]["share"].as_f64().unwrap();
+    assert!((shares + uncaptured - 1.0).abs() < 1e-9);
+}
+
+/// A barrier's numbers agree with its ends and with its pathway.
+fn check_barrier(out: &Path, states: &[Value], barrier: &Value, from: Option<usize>) {
+    if let Some(from) = from {
+        assert_eq!(barrier["from"], from);
+    }
+    let number = |key: &str| barrier[key].as_f64().unwrap_or_else(|| panic!("{key}"));
+    let energy = |place: &Value| match place.as_u64() {
+        Some(id) => states[id as usize]["energy_J"].as_f64().unwrap(),
+        None => 0.0,
+    };
+    let saddle = number("saddle_energy_J");
+    let difference = |key: &str, end: &str| number(key) - (saddle - energy(&barrier[end]));
+    assert!(difference("forward_J", "from").abs() < 1e-12);
+    assert!(difference("reverse_J", "to").abs() < 1e-12);
+    assert!(number("forward_J") > 0.0);
+    assert_eq!(numbers(&barrier["saddle_pose"]).len(), 3);
+    assert!(barrier.get("lower_J").is_some() && barrier.get("upper_J").is_some());
+
+    let table = std::fs::read_to_string(out.join(barrier["pathway"].as_str().unwrap())).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("s,x,y,theta,energy_J,clearance_m"));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    let ends = [
+        (&barrier["from"], &rows[0]),
+        (&barrier["to"], &rows[rows.len() - 1]),
+    ];
+    for (place, row) in ends {
+        match place.as_u64() {
+            Some(id) => {
+                let pose = numbers(&states[id as usize]["pose"]);
+                let turn = (row[3] - pose[2]).rem_euclid(std::f64::consts::TAU);
+                // -pi and pi are the same angle.
+                let turn = turn.min(std::f64::consts::TAU - turn);
+                let off = [row[1] - pose[0], row[2] - pose[1], turn].map(f64::abs);
+                let off = off.into_iter().fold(0.0, f64::max);
+                assert!(off < 1e-6, "{barrier} ends at {row:?}");
+            }
+            // Circles about the two squares no longer meet.
+            None => assert!(row[1].hypot(row[2]) >= 0.43 * 2f64.sqrt() - 1e-9),
+        }
+    }
+    assert!(rows.iter().all(|row| row[5] > -1e-9), "{barrier} overlaps");
+    assert!(rows.is_sorted_by(|a, b| a[0] < b[0]), "{barrier} goes back");
+}
+
+#[test]
+fn tables_pictures_and_the_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = analyse(folder.path(), &["--repeats", "2"]);
+    let report = report(folder.path());
+    let table = std::fs::read_to_string(folder.path().join("states.csv")).unwrap();
+    let states = report["states"].as_array().unwrap();
+    assert_eq!(table.lines().count(), 1 + states.len());
+    assert!(table.starts_with("id,kind,class,copies,x_m,y_m,theta_rad,energy_J,"));
+    let header = table.lines().next().unwrap();
+    assert!(header.ends_with("faces,block_energy_J,dipole_error_J"));
+    for (row, state) in table.lines().skip(1).zip(states) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let [blocks, error] = [cells.len() - 2, cells.len() - 1].map(|k| cells[k].parse::<f64>());
+        let energy = state["energy_J"].as_f64().unwrap();
+        let expected = energy - state["block_energy_J"].as_f64().unwrap();
+        assert!((error.unwrap() - expected).abs() < 1e-9 * expected.abs());
+        assert!((blocks.unwrap() + expected - energy).abs() < 1e-9);
+    }
+    let table = std::fs::read_to_string(folder.path().join("barriers.csv")).unwrap();
+    let barriers = report["barriers"].as_array().unwrap();
+    assert_eq!(table.lines().count(), 1 + barriers.len());
+    let columns: Vec<usize> = table.lines().map(|l| l.split(',').count()).collect();
+    assert!(columns.iter().all(|n| *n == columns[0]));
+    assert!(barriers.iter().any(|b| b["spread_J"].is_array()));
+    for name in [
+        "map",
+        "approach",
+        "profiles",
+        "docking",
+        "models",
+        "disconnectivity",
+    ] {
+        for (kind, start) in [("svg", "<svg"), ("png", "\u{89}PNG")] {
+            let file = folder.path().join(format!("pictures/{name}.{kind}"));
+            let content = std::fs::read(&file).unwrap_or_else(|_| panic!("{}", file.display()));
+            let text: String = content.iter().take(400).map(|&b| b as char).collect();
+            assert!(text.contains(start), "{}", file.display());
+        }
+    }
+    let summary = stdout(&output);
+    for said in [
+        "far starts",
+        "end bound",
+        "in traps",
+        "-65.47 mJ",
+        "trap",
+        "selectivity",
+        "dipoles are off by up to",
+    ] {
+        assert!(summary.contains(said), "{said:?} in\n{summary}");
+    }
+    assert!((8..=14).contains(&summary.lines().count()), "{summary}");
+    assert!(summary.lines().all(|line| line.chars().count() <= 110));
+    assert!(stderr(&output).is_empty(), "silent where nobody watches");
+}
+
+#[test]
+fn compact_results_leave_out_copies_and_pixels() {
+    let folder = tempfile::tempdir().unwrap();
+    analyse(folder.path(), &["--compact"]);
+    let files = contents(folder.path());
+    assert!(!files.keys().any(|name| name.ends_with(".png")));
+    assert!(files.values().map(Vec::len).sum::<usize>() < 900_000);
+    let report = report(folder.path());
+    for state in report["states"].as_array().unwrap() {
+        let pathway = &state["escape"]["pathway"];
+        assert_eq!(pathway.is_string(), state["id"] == state["class"]);
+        if let Some(name) = pathway.as_str() {
+            assert!(files.contains_key(name));
+        }
+    }
+}
+
+#[test]
+fn json_goes_to_standard_output_and_quiet_says_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let quiet = analyse(folder.path(), &["--quiet"]);
+    assert!(quiet.stdout.is_empty() && quiet.stderr.is_empty());
+    let json = analyse(folder.path(), &["--json"]);
+    let written = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
+    assert_eq!(stdout(&json), written);
+}
+
+#[test]
+fn results_replace_those_of_an_earlier_analysis_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    analyse(folder.path(), &["--quiet"]);
+    let stale = folder.path().join("pathways/999-0.csv");
+    std::fs::write(&stale, "left over").unwrap();
+    let notes = folder.path().join("notes.txt");
+    std::fs::write(&notes, "mine").unwrap();
+    analyse(folder.path(), &["--quiet"]);
+    assert!(!stale.exists() && notes.exists());
+    let mut names = contents(folder.path()).into_keys();
+    assert!(!names.any(|name| name.contains("partial")));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_analysis_leaves_nothing() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("results");
+    let mut child = command(&["analyse", DESIGN, "--milestones", "3000000", "--out"])
+        .arg(&out)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    let kill = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(75));
+    assert!(!out.exists());
+}

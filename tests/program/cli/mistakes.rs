@@ -1,0 +1,129 @@
+//! What is wrong on the command line or in a design file ends with status 2, says how to mend it,
+//! and leaves nothing behind.
+
+use std::path::Path;
+
+use super::tilebind;
+use crate::folder::contents;
+use crate::program::stderr;
+
+fn refused(arguments: &[&str], said: &[&str]) {
+    let output = tilebind(arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty());
+    for part in said {
+        assert!(message.contains(part), "{part:?} in {message:?}");
+    }
+    assert!(!message.contains("panicked"));
+}
+
+#[test]
+fn every_broken_design_is_refused_with_its_place_and_leaves_no_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("results");
+    let designs = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/designs/bad");
+    let mut tried = 0;
+    for entry in std::fs::read_dir(designs).unwrap() {
+        let path = entry.unwrap().path();
+        let name = format!(
+            "tests/designs/bad/{}",
+            path.file_name().unwrap().to_str().unwrap()
+        );
+        // What is wrong with a drawing is told at the drawing's line.
+        let place = match name.ends_with("svg-without-id.toml") {
+            true => "tests/designs/bad/../drawings/inkscape.svg:35:",
+            false => &format!("{name}:"),
+        };
+        let out = out.to_str().unwrap();
+        refused(&["analyse", &name, "--out", out], &[place, "help:"]);
+        refused(&["energy", &name, "--pose", "0.5,0,0"], &[place]);
+        refused(
+            &["barrier", &name, "--from", "0.5,0,0", "--to", "free"],
+            &[place],
+        );
+        tried += 1;
+    }
+    assert!(tried > 50);
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_design_that_is_not_there() {
+    refused(
+        &["energy", "nowhere.toml", "--pose", "0,0,0"],
+        &["nowhere.toml", "cannot read"],
+    );
+}
+
+#[test]
+fn wrong_poses() {
+    for pose in ["1,2", "1,2,three", "1,2,nan", "1,2,3,4", ""] {
+        refused(
+            &["energy", "shapes/paper-tile.toml", "--pose", pose],
+            &["X,Y,THETA"],
+        );
+    }
+    refused(&["energy", "shapes/paper-tile.toml"], &["--pose"]);
+}
+
+#[test]
+fn ends_of_a_barrier_that_overlap_or_lie_off_the_table() {
+    let design = "shapes/paper-tile.toml";
+    for (from, to, said) in [
+        ("0.4,0,0", "0.43,0,0", "overlap by 30.0000 mm"),
+        ("0.43,0,0", "0.4,0,0", "overlap"),
+        ("1.2,0,0", "free", "off the table"),
+        ("0.43,0,0", "0,-1.01,0", "off the table"),
+    ] {
+        refused(&["barrier", design, "--from", from, "--to", to], &[said]);
+    }
+}
+
+#[test]
+fn wrong_options() {
+    let design = "shapes/paper-tile.toml";
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("results");
+    let out = out.to_str().unwrap();
+    for option in [
+        ["--milestones", "0"],
+        ["--milestones", "-5"],
+        ["--settled", "0"],
+        ["--settled", "2"],
+        ["--boltzmann", "nan"],
+        ["--thermal-energy", "-1"],
+        ["--threads", "0"],
+        ["--repeats", "0"],
+        ["--seed", "x"],
+        ["--sed", "1"],
+    ] {
+        refused(
+            &["analyse", design, "--out", out, option[0], option[1]],
+            &[option[0]],
+        );
+    }
+    refused(&["analyse", design], &["--out"]);
+    refused(&["analyze", design], &["analyse"]);
+    refused(&[], &["Usage"]);
+    assert!(contents(folder.path()).is_empty());
+}
+
+#[test]
+fn results_cannot_go_into_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("taken");
+    std::fs::write(&file, "precious").unwrap();
+    for out in [file.clone(), file.join("below")] {
+        refused(
+            &[
+                "analyse",
+                "shapes/paper-tile.toml",
+                "--out",
+                out.to_str().unwrap(),
+            ],
+            &["is a file"],
+        );
+    }
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "precious");
+}

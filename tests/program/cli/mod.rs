@@ -1,0 +1,50 @@
+//! The commands on one design, and what every command has: help, mistakes, completions.
+
+mod analyse;
+mod barrier;
+mod calibrate;
+mod completions;
+mod dynamics;
+mod energy;
+mod mistakes;
+mod shields;
+mod starting;
+
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::program::{command, stderr, stdout};
+
+fn tilebind(arguments: &[&str]) -> Output {
+    command(arguments).output().expect("the program starts")
+}
+
+/// Standard output of a run that succeeds, as JSON.
+fn json(arguments: &[&str]) -> Value {
+    let output = tilebind(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_str(&stdout(&output)).expect("output is JSON")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().expect("a list");
+    list.iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn help_lists_the_commands_and_every_command_has_an_example() {
+    let help = stdout(&tilebind(&["--help"]));
+    for command in [
+        "analyse",
+        "energy",
+        "barrier",
+        "init",
+        "schema",
+        "completions",
+    ] {
+        assert!(help.contains(command), "{command} in\n{help}");
+        let own = stdout(&tilebind(&[command, "--help"]));
+        assert!(own.contains("Example"), "{own}");
+    }
+}

@@ -1,0 +1,193 @@
+//! The pictures of an analysis, drawn from data put together by hand.
+
+mod grids;
+mod paper_tile;
+
+use std::sync::OnceLock;
+
+use paper_tile::{BOUND, Pair, pair};
+use tilebind::report::plots::{NamedPicture, Scene, draw_all};
+
+fn draw(pair: &Pair) -> Vec<NamedPicture> {
+    let scene = Scene {
+        name: &pair.design.name,
+        pair: pair.tiles(),
+        shields: &pair.design.interaction.shields,
+        space: &pair.space,
+        bound: BOUND,
+        target: pair.design.pair.target,
+        states: &pair.states,
+        escapes: &pair.escapes,
+        barriers: &[],
+    };
+    draw_all(&scene).unwrap()
+}
+
+fn pictures() -> &'static [NamedPicture] {
+    static PICTURES: OnceLock<Vec<NamedPicture>> = OnceLock::new();
+    PICTURES.get_or_init(|| draw(pair()))
+}
+
+/// The texts of an SVG document, in order.
+fn texts(svg: &str) -> Vec<&str> {
+    svg.split("<text")
+        .skip(1)
+        .map(|rest| {
+            let (_, content) = rest.split_once('>').unwrap();
+            content.split_once("</text>").unwrap().0.trim()
+        })
+        .collect()
+}
+
+#[test]
+fn every_picture_says_what_it_shows() {
+    let expected: [(&str, &[&str]); 6] = [
+        (
+            "map",
+            &[
+                "paper-tile: lowest energy over θ",
+                "x (mm)",
+                "y (mm)",
+                "along the face (mm)",
+                "0",
+                "\u{2212}10 mJ",
+                "bound state",
+                "misbound state",
+                "saddle",
+                "pathway out",
+                "tiles would overlap",
+                "0: \u{2212}65.5 mJ",
+                "16: \u{2212}16.0 mJ",
+            ],
+        ),
+        (
+            "approach",
+            &[
+                "paper-tile: west face in front of the fixed east face",
+                "gap (mm)",
+                "slide (mm)",
+                "tilt (°)",
+                "0",
+                "bound state",
+            ],
+        ),
+        (
+            "profiles",
+            &[
+                "bound 0 \u{2192} free",
+                "misbound 16 \u{2192} bound 0",
+                "length of the pathway (mm)",
+                "energy U (mJ)",
+                "0",
+                "misbound 16 \u{2212}16.03 mJ",
+                "\u{2193} bound 0 \u{2212}65.47 mJ",
+                "free 0 J",
+            ],
+        ),
+        (
+            "docking",
+            &[
+                "paper-tile: docking",
+                "1",
+                "8",
+                "U = \u{2212}65.47 mJ",
+                "touching",
+                "north pole",
+            ],
+        ),
+        (
+            "models",
+            &[
+                "paper-tile: magnets as point dipoles and as blocks",
+                "gap (mm)",
+                "dipoles",
+                "blocks",
+                "44.8 % in contact",
+                "35.5 % at 1.00 mm",
+            ],
+        ),
+        (
+            "disconnectivity",
+            &[
+                "energy U",
+                "0",
+                "free",
+                "bound 0",
+                "\u{2212}65.5 mJ",
+                "\u{d7}16",
+            ],
+        ),
+    ];
+    let pictures = pictures();
+    for ((name, labels), drawn) in expected.iter().zip(pictures) {
+        assert_eq!(*name, drawn.name);
+        let texts = texts(&drawn.picture.svg);
+        for label in *labels {
+            assert!(texts.contains(label), "{name}: no {label:?} in {texts:?}");
+        }
+        // For the eye: target/tmp/NAME.svg and .png.
+        let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(folder.join(format!("{name}.svg")), &drawn.picture.svg).unwrap();
+        std::fs::write(folder.join(format!("{name}.png")), &drawn.picture.png).unwrap();
+    }
+    assert_eq!(pictures.len(), expected.len());
+}
+
+#[test]
+fn barriers_are_marked_with_their_height_and_their_bounds() {
+    let texts = texts(&pictures()[2].picture.svg);
+    let slid = pair().escapes[16].as_ref().unwrap();
+    let height = tilebind::units::si(slid.forward(), "J", 4);
+    assert!(texts.contains(&format!("barrier {height}").as_str()));
+    assert!(texts.iter().any(|text| text.starts_with("certified ")));
+}
+
+#[test]
+fn pictures_are_compact_and_both_forms_have_the_same_size() {
+    for NamedPicture { name, picture } in pictures() {
+        assert!(picture.svg.len() < 300_000, "{name}: {}", picture.svg.len());
+        assert!(picture.png.len() < 300_000, "{name}: {}", picture.png.len());
+        let decoder = png::Decoder::new(std::io::Cursor::new(&picture.png));
+        let mut reader = decoder.read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        let size = format!("width=\"{}\" height=\"{}\"", info.width, info.height);
+        assert!(picture.svg.contains(&size), "{name}");
+        let dark = pixels.chunks(3).filter(|p| p.iter().all(|&c| c < 60));
+        assert!(dark.count() > 1000, "{name} is all but blank");
+    }
+}
+
+#[test]
+fn an_svg_is_well_formed() {
+    for NamedPicture { name, picture } in pictures() {
+        let mut open = Vec::new();
+        for tag in picture.svg.split('<').skip(1) {
+            let (tag, _) = tag.split_once('>').unwrap();
+            match tag.strip_prefix('/') {
+                Some(closed) => assert_eq!(open.pop(), Some(closed), "{name}"),
+                None if tag.ends_with('/') => {}
+                None => open.push(tag.split_whitespace().next().unwrap()),
+            }
+        }
+        assert!(open.is_empty(), "{name}: {open:?} left open");
+    }
+}
+
+#[test]
+fn pictures_do_not_depend_on_the_number_of_threads() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1);
+    let alone = one.build().unwrap().install(|| draw(pair()));
+    let three = rayon::ThreadPoolBuilder::new().num_threads(3);
+    let together = three.build().unwrap().install(|| draw(pair()));
+    assert!(alone == together);
+}
+
+#[test]
+fn an_analysis_without_states_still_has_its_maps() {
+    let mut pair = pair().clone();
+    pair.states.clear();
+    pair.escapes.clear();
+    let names: Vec<_> = draw(&pair).iter().map(|p| p.name).collect();
+    assert_eq!(names, ["map", "approach", "models"]);
+}

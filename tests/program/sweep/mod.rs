@@ -1,0 +1,56 @@
+//! `tilebind sweep` as its users see it: the same bytes however the work is divided or broken off.
+
+mod interruptions;
+mod mistakes;
+mod parts;
+mod tables;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::folder::contents;
+use crate::program::{command, stderr, stdout};
+
+const DESIGN: &str = "shapes/tab-20mm.toml";
+const DEPTH: &str = "fixed.faces.east.profile.depth";
+
+/// The least work that still finds the states.
+const QUICK: [&str; 6] = [
+    "--milestones",
+    "500",
+    "--far-starts",
+    "20",
+    "--certify-cells",
+    "1000",
+];
+
+fn sweep(arguments: &[&str]) -> Command {
+    command(&[&["sweep"], arguments].concat())
+}
+
+fn run(arguments: &[&str]) -> Output {
+    sweep(arguments).output().expect("the program starts")
+}
+
+/// Standard output of a run that succeeds.
+fn done(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(output.stderr.is_empty(), "silent where nobody watches");
+    stdout(&output)
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a plain path")
+}
+
+/// The same files with the same bytes.
+fn assert_same(one: &Path, other: &Path) {
+    let (one, other) = (contents(one), contents(other));
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&one), names(&other));
+    for (name, content) in &one {
+        assert!(&other[name] == content, "{name} differs");
+    }
+}
