@@ -5,7 +5,6 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::pipeline;
 use crate::potential::Potential;
 use crate::problem::Problem;
 

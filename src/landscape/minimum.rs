@@ -134,7 +134,6 @@ fn lower_neighbour(problem: &Problem, point: &Point) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::design::{Design, MagnetModel};
-    use crate::pipeline;
 
     #[test]
     fn a_shallow_minimum_is_not_jumped_out_of() {

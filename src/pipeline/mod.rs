@@ -113,7 +113,9 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     if blocks == design.interaction {
         return;
     }
-    let blocks = blocks.between(&design.pair).potential;
+    let blocks = blocks
+        .between(&design.pair.fixed, &design.pair.moving)
+        .potential;
     for state in &mut inventory.states {
         state.block_energy = Some(blocks.energy(&state.configuration));
     }

@@ -24,7 +24,7 @@
 use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
 use super::{CuboidPotential, DipolePotential, Potential, ShieldedPotential};
-use crate::tile::Pair;
+use crate::tile::Tile;
 
 /// How magnets are modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,8 +83,7 @@ pub struct Energy {
 
 impl Interaction {
     /// The energy between two tiles.
-    pub fn between(&self, pair: &Pair) -> Energy {
-        let Pair { fixed, moving, .. } = pair;
+    pub fn between(&self, fixed: &Tile, moving: &Tile) -> Energy {
         let Self { model, shields } = self;
         let (first, second) = (&fixed.magnets, &moving.magnets);
         let bounds: Result<Box<dyn CellBounds + Send>, _> = match model {

@@ -44,9 +44,10 @@ pub struct Problem {
 impl Problem {
     /// The problem of two tiles.
     pub fn new(space: ConfigurationSpace, pair: Arc<Pair>, interaction: &Interaction) -> Self {
+        let energy = interaction.between(&pair.fixed, &pair.moving);
         Self {
             symmetries: Symmetry::all(&pair, &interaction.shields),
-            ..Self::bare(space, interaction.between(&pair)).with_tiles(pair)
+            ..Self::bare(space, energy).with_tiles(pair)
         }
     }
 

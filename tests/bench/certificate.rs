@@ -83,9 +83,9 @@ fn measure(design: &Design, bounds: &dyn CellBounds, depth: f64) {
                 Ok(found) => println!(
                     "{name:28} {:8.2}% [{:9.5}, {:9.5}] {:8.4}% {:9} {time:7.3} {:9.0}",
                     share * 100.0,
-                    found.lower * 1e3,
-                    found.upper.unwrap_or(f64::NAN) * 1e3,
-                    found.width() / depth * 100.0,
+                    found.bounds.least() * 1e3,
+                    found.bounds.upper.unwrap_or(f64::NAN) * 1e3,
+                    found.bounds.width() / depth * 100.0,
                     certifier.assessed(),
                     certifier.assessed() as f64 / time
                 ),

@@ -63,7 +63,12 @@ fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
         },
         seed,
     };
-    let roadmap = Roadmap::build(problem, &milestones, None, &edge);
+    let roadmap = RoadmapSettings {
+        milestones,
+        neighbours: neighbour::neighbours_per_milestone(milestones.count),
+        edges: edge,
+    };
+    let roadmap = Roadmap::build(problem, &roadmap, &mut |_| ());
     let settings = SurveySettings {
         edge,
         settled: 0.005,
@@ -71,7 +76,7 @@ fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
         most_rounds: 8,
         seed,
     };
-    Survey::new(problem, roadmap, &[], &|q| vec![*q], &settings)
+    Survey::new(problem, roadmap, &[], &settings)
 }
 
 /// The saddle energy (J) between the states at two configurations.

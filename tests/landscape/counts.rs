@@ -29,19 +29,14 @@ fn portable(design: &Design) -> Problem {
         &dipoles(&design.pair.moving.magnets),
         Level::PORTABLE,
     );
-    Problem::of_tiles(
-        design.space(),
-        &design.pair.fixed,
-        &design.pair.moving,
-        Box::new(potential),
-    )
+    Problem::without_contact(design.space(), Box::new(potential)).with_tiles(design.pair.clone())
 }
 
 #[test]
 fn energies_of_a_roadmap() {
     let design = paper_tile();
     let problem = portable(&design);
-    let depth = pipeline::energy_scale(&design, &problem);
+    let depth = problem.depth();
     let settings = MilestoneSettings {
         count: 1000,
         acceptance: Acceptance::Linear {

@@ -53,7 +53,13 @@ fn a_plate_never_falls_through_another() {
         rho: moving.radius_of_gyration(),
         free_distance: 0.9,
     };
-    let problem = Problem::of_tiles(space, &fixed, &moving, Box::new(Pull));
+    let pair = Pair {
+        fixed,
+        moving,
+        target: (0, 0),
+        bound: Configuration::new(0.0, 0.0, 0.0),
+    };
+    let problem = Problem::without_contact(space, Box::new(Pull)).with_tiles(Arc::new(pair));
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     for _ in 0..60 {
         let start = Configuration::new(

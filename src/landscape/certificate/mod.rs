@@ -118,6 +118,27 @@ pub enum Ordering {
     Undecided,
 }
 
+impl SaddleBounds {
+    /// Whether this barrier's highest energy is proved higher or lower than the other's. A barrier
+    /// with no way over it is higher than one with a way.
+    ///
+    /// ```
+    /// use tilebind::landscape::SaddleBounds;
+    /// use tilebind::landscape::certificate::Ordering;
+    /// let bounds = |lower: f64, upper: f64| SaddleBounds {
+    ///     lower: Some(lower),
+    ///     upper: Some(upper),
+    ///     caged: false,
+    /// };
+    /// assert_eq!(bounds(2.0, 3.0).compare(&bounds(0.0, 1.0)), Ordering::Higher);
+    /// assert_eq!(bounds(0.0, 1.0).compare(&bounds(2.0, 3.0)), Ordering::Lower);
+    /// assert_eq!(bounds(0.0, 2.5).compare(&bounds(2.0, 3.0)), Ordering::Undecided);
+    /// ```
+    pub fn compare(&self, other: &Self) -> Ordering {
+        order((self.least(), self.upper), (other.least(), other.upper))
+    }
+}
+
 /// Which of two numbers, each known by a proved lower bound and, where there is one, a proved upper
 /// bound, is the higher one; decided only where the bounds do not overlap.
 ///

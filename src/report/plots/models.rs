@@ -49,7 +49,7 @@ impl Curves {
                 model,
                 ..scene.interaction.clone()
             };
-            let potential = interaction.between(pair).potential;
+            let potential = interaction.between(&pair.fixed, &pair.moving).potential;
             let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
             gaps.iter().map(at).collect::<Vec<_>>()
         };

@@ -18,7 +18,6 @@ use std::path::Path;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use tilebind::pipeline;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
     Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
@@ -30,7 +29,7 @@ const ROUNDS: usize = 7;
 fn main() {
     let design = designs::load("shapes/paper-tile.toml");
     let problem = design.problem();
-    let depth = pipeline::energy_scale(&design, &problem);
+    let depth = problem.depth();
     let arguments: Vec<String> = std::env::args().collect();
     let value = |name: &str| {
         let at = arguments.iter().position(|a| a == name)?;

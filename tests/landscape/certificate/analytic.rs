@@ -28,12 +28,15 @@ fn the_saddle_of_the_double_well_lies_in_ever_narrower_brackets() {
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
         let effort = effort(tolerance, 300_000);
         let bracket = certifier.bracket(&from, &to, &known, &effort).unwrap();
-        let upper = bracket.upper.unwrap();
-        assert!(bracket.lower <= 2e-3 && 2e-3 <= upper, "{bracket:?}");
-        assert!(bracket.width() <= tolerance && bracket.width() <= last);
-        assert!(bracket.lower >= lower);
-        last = bracket.width();
-        lower = bracket.lower;
+        let upper = bracket.bounds.upper.unwrap();
+        assert!(
+            bracket.bounds.least() <= 2e-3 && 2e-3 <= upper,
+            "{bracket:?}"
+        );
+        assert!(bracket.bounds.width() <= tolerance && bracket.bounds.width() <= last);
+        assert!(bracket.bounds.least() >= lower);
+        last = bracket.bounds.width();
+        lower = bracket.bounds.least();
         known = bracket.pathway;
     }
 }
@@ -63,16 +66,16 @@ fn both_saddles_of_mueller_and_brown_are_bracketed_and_told_apart() {
         (&low, -72.24894e-3),
         (&over_both, -40.66484e-3),
     ] {
-        let upper = found.upper.unwrap();
-        assert!(found.width() <= 1e-5, "{found:?}");
+        let upper = found.bounds.upper.unwrap();
+        assert!(found.bounds.width() <= 1e-5, "{found:?}");
         assert!(
-            found.lower <= saddle + 1e-8 && saddle - 1e-8 <= upper,
+            found.bounds.least() <= saddle + 1e-8 && saddle - 1e-8 <= upper,
             "{saddle} {found:?}"
         );
     }
-    assert_eq!(high.compare(&low), Ordering::Higher);
-    assert_eq!(low.compare(&high), Ordering::Lower);
-    assert_eq!(high.compare(&over_both), Ordering::Undecided);
+    assert_eq!(high.bounds.compare(&low.bounds), Ordering::Higher);
+    assert_eq!(low.bounds.compare(&high.bounds), Ordering::Lower);
+    assert_eq!(high.bounds.compare(&over_both.bounds), Ordering::Undecided);
     let saddle = high.saddle.unwrap();
     let expected = at(-0.82200, 0.62431);
     assert!((saddle.position() - expected.position()).norm() < 0.02);

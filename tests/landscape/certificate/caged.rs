@@ -65,13 +65,16 @@ fn a_dovetail_is_a_cage() {
     for play in [0.0005, 0.002, 0.005] {
         let scene = tab_in_slot(0.3, play);
         let bracket = scene.bracket(&MATED, &End::Free, &effort(1e-6, 300_000));
-        assert!(bracket.caged, "{play}: {bracket:?}");
-        assert_eq!(bracket.upper, None);
-        assert_eq!(bracket.lower, f64::INFINITY);
+        assert!(bracket.bounds.caged, "{play}: {bracket:?}");
+        assert_eq!(bracket.bounds.upper, None);
+        assert_eq!(bracket.bounds.least(), f64::INFINITY);
         let open = tab_in_slot(-0.1, play);
         let way = open.bracket(&MATED, &End::Free, &effort(1e-6, 300_000));
-        assert!(!way.caged && way.width() <= 1e-6, "{play}: {way:?}");
-        assert_eq!(bracket.compare(&way), Ordering::Higher);
+        assert!(
+            !way.bounds.caged && way.bounds.width() <= 1e-6,
+            "{play}: {way:?}"
+        );
+        assert_eq!(bracket.bounds.compare(&way.bounds), Ordering::Higher);
     }
 }
 
@@ -79,7 +82,7 @@ fn a_dovetail_is_a_cage() {
 fn the_shipped_dovetail_is_a_cage() {
     let (scene, design) = Scene::shipped("dovetail", MagnetModel::Dipole);
     let bracket = scene.bracket(&design.pair.bound, &End::Free, &effort(1e-6, 500_000));
-    assert!(bracket.caged, "{bracket:?}");
+    assert!(bracket.bounds.caged, "{bracket:?}");
 }
 
 #[test]
@@ -87,7 +90,10 @@ fn a_path_inside_the_cage_is_found_all_the_same() {
     let scene = tab_in_slot(0.3, 0.005);
     let to = Configuration::new(0.403, 0.002, 0.01);
     let bracket = scene.bracket(&MATED, &End::At(to), &effort(1e-6, 100_000));
-    assert!(!bracket.caged && bracket.width() <= 1e-6, "{bracket:?}");
+    assert!(
+        !bracket.bounds.caged && bracket.bounds.width() <= 1e-6,
+        "{bracket:?}"
+    );
 }
 
 #[test]

@@ -22,17 +22,26 @@ fn brackets_hold_the_reference_saddles() {
     let brackets = cases.map(|(from, to, saddle)| {
         let effort = effort(1e-3 * depth, 200_000);
         let bracket = certifier.bracket(&from.into(), &to, &[], &effort).unwrap();
-        let upper = bracket.upper.unwrap();
-        assert!(bracket.width() <= 1e-3 * depth, "{from:?} {bracket:?}");
+        let upper = bracket.bounds.upper.unwrap();
         assert!(
-            bracket.lower <= saddle + 1e-7 && saddle - 1e-7 <= upper,
+            bracket.bounds.width() <= 1e-3 * depth,
+            "{from:?} {bracket:?}"
+        );
+        assert!(
+            bracket.bounds.least() <= saddle + 1e-7 && saddle - 1e-7 <= upper,
             "{from:?}: {saddle} not in [{}, {upper}]",
-            bracket.lower
+            bracket.bounds.least()
         );
         bracket
     });
-    assert_eq!(brackets[2].compare(&brackets[0]), Ordering::Higher);
-    assert_eq!(brackets[0].compare(&brackets[1]), Ordering::Undecided);
+    assert_eq!(
+        brackets[2].bounds.compare(&brackets[0].bounds),
+        Ordering::Higher
+    );
+    assert_eq!(
+        brackets[0].bounds.compare(&brackets[1].bounds),
+        Ordering::Undecided
+    );
 }
 
 #[test]
@@ -46,10 +55,13 @@ fn brackets_of_blocks_are_as_narrow_as_asked_and_nest() {
         let from = Configuration::new(0.43, 0.04, 0.0);
         for share in [1e-2, 1e-3] {
             let bracket = scene.bracket(&from, &to, &effort(share * depth, 100_000));
-            assert!(bracket.width() <= share * depth, "{bracket:?}");
+            assert!(bracket.bounds.width() <= share * depth, "{bracket:?}");
             // What the roadmap finds is a saddle to within some 1e-6 J.
-            assert!(bracket.lower <= saddle, "{bracket:?}");
-            assert!(bracket.upper.unwrap() >= saddle - 2e-6, "{bracket:?}");
+            assert!(bracket.bounds.least() <= saddle, "{bracket:?}");
+            assert!(
+                bracket.bounds.upper.unwrap() >= saddle - 2e-6,
+                "{bracket:?}"
+            );
         }
     }
 }
@@ -60,7 +72,7 @@ fn the_certified_pathway_is_free_and_below_the_bound_wherever_it_is_looked_at() 
     let from = Configuration::new(0.43, 0.04, 0.0);
     for to in [End::Free, End::At(Configuration::new(0.43, 0.0, 0.0))] {
         let bracket = scene.bracket(&from, &to, &effort(1e-4, 100_000));
-        let upper = bracket.upper.unwrap();
+        let upper = bracket.bounds.upper.unwrap();
         let path = &bracket.pathway;
         assert_eq!(path[0], from);
         match to {

@@ -87,14 +87,14 @@ fn against_the_grid(
             let grid = Grid::new(&case.scene, counts);
             let (lower, upper) = grid.bracket(&case.from, &case.to);
             assert!(
-                bracket.lower <= upper,
+                bracket.bounds.least() <= upper,
                 "{seed}: {bracket:?} {lower} {upper}"
             );
-            let certified = bracket.upper.unwrap_or(f64::INFINITY);
+            let certified = bracket.bounds.upper.unwrap_or(f64::INFINITY);
             assert!(lower <= certified, "{seed}: {bracket:?} {lower} {upper}");
-            assert!(!bracket.caged || upper == f64::INFINITY, "{seed}");
-            assert!(bracket.lower <= certified, "{seed}: {bracket:?}");
-            usize::from(upper.is_finite() && bracket.width() <= case.tolerance)
+            assert!(!bracket.bounds.caged || upper == f64::INFINITY, "{seed}");
+            assert!(bracket.bounds.least() <= certified, "{seed}: {bracket:?}");
+            usize::from(upper.is_finite() && bracket.bounds.width() <= case.tolerance)
         })
         .sum()
 }
@@ -173,7 +173,10 @@ fn no_random_free_path_stays_below_the_lower_bound() {
                     .map(|q| case.scene.potential.energy(&q))
                     .fold(f64::NEG_INFINITY, f64::max);
                 // Sampling may miss the very top by a little.
-                assert!(highest >= bracket.lower - 1e-3 * case.tolerance, "{seed}");
+                assert!(
+                    highest >= bracket.bounds.least() - 1e-3 * case.tolerance,
+                    "{seed}"
+                );
                 tried += 1;
             }
             tried
@@ -237,19 +240,19 @@ fn relabelled_tiles_have_consistent_brackets() {
                 let turned = scene(mapped(fixed, turn, false), mapped(moving, turn, false))
                     .bracket(&Configuration::new(p.x, p.y, q.theta), &End::Free, &effort);
                 for other in [&exchanged, &mirrored, &turned] {
-                    assert_eq!(here.caged, other.caged, "{seed}");
-                    let upper = |bracket: &Bracket| bracket.upper.unwrap_or(f64::INFINITY);
+                    assert_eq!(here.bounds.caged, other.bounds.caged, "{seed}");
+                    let upper = |bracket: &Bracket| bracket.bounds.upper.unwrap_or(f64::INFINITY);
                     let rounding = 1e-15;
                     assert!(
-                        here.lower <= upper(other) + rounding,
+                        here.bounds.least() <= upper(other) + rounding,
                         "{seed}: {here:?} {other:?}"
                     );
                     assert!(
-                        other.lower <= upper(&here) + rounding,
+                        other.bounds.least() <= upper(&here) + rounding,
                         "{seed}: {here:?} {other:?}"
                     );
                 }
-                usize::from(here.width() <= case.tolerance)
+                usize::from(here.bounds.width() <= case.tolerance)
             })
             .sum();
     assert!(narrow >= 15, "{narrow}");

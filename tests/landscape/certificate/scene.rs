@@ -7,9 +7,9 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Bracket, Certifier, Effort, End};
-use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use tilebind::potential::bounds::CellBounds;
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
-use tilebind::potential::{MagnetModel, Potential, of_tiles};
+use tilebind::potential::{Energy, Interaction, MagnetModel, Potential};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 use crate::designs;
@@ -20,7 +20,7 @@ pub struct Scene {
     pub space: ConfigurationSpace,
     pub contact: Contact,
     pub potential: Box<dyn Potential + Send>,
-    pub bounds: Box<dyn CellBounds>,
+    pub bounds: Box<dyn CellBounds + Send>,
 }
 
 pub fn effort(tolerance: f64, cells: usize) -> Effort {
@@ -34,28 +34,21 @@ pub fn effort(tolerance: f64, cells: usize) -> Effort {
 impl Scene {
     /// With magnets that no shield covers.
     pub fn new(fixed: Tile, moving: Tile, half_size: [f64; 2], model: MagnetModel) -> Self {
-        let bounds: Box<dyn CellBounds> = match model {
-            MagnetModel::Dipole => Box::new(DipoleBounds::new(&fixed, &moving)),
-            MagnetModel::Cuboid => Box::new(CuboidBounds::new(&fixed, &moving)),
-        };
-        let potential = of_tiles(model, &fixed, &moving, &Shields::default());
-        Self::of(fixed, moving, half_size, potential, bounds)
+        let shields = Shields::default();
+        Self::of(fixed, moving, half_size, &Interaction { model, shields })
     }
 
     /// With dipoles behind shields.
     pub fn shielded(fixed: Tile, moving: Tile, half_size: [f64; 2], shields: &Shields) -> Self {
-        let bounds = Box::new(ShieldedBounds::new(&fixed, &moving, shields));
-        let potential = of_tiles(MagnetModel::Dipole, &fixed, &moving, shields);
-        Self::of(fixed, moving, half_size, potential, bounds)
+        let interaction = Interaction {
+            model: MagnetModel::Dipole,
+            shields: shields.clone(),
+        };
+        Self::of(fixed, moving, half_size, &interaction)
     }
 
-    fn of(
-        fixed: Tile,
-        moving: Tile,
-        half_size: [f64; 2],
-        potential: Box<dyn Potential + Send>,
-        bounds: Box<dyn CellBounds>,
-    ) -> Self {
+    fn of(fixed: Tile, moving: Tile, half_size: [f64; 2], interaction: &Interaction) -> Self {
+        let Energy { potential, bounds } = interaction.between(&fixed, &moving);
         Self {
             space: ConfigurationSpace {
                 half_size,
@@ -64,7 +57,7 @@ impl Scene {
             },
             contact: Contact::new(&fixed.outline, &moving.outline),
             potential,
-            bounds,
+            bounds: bounds.unwrap(),
             tiles: [fixed, moving],
         }
     }

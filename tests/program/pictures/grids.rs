@@ -6,7 +6,6 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::landscape::approach::{Approach, ApproachSlices, SliceSettings};
 use tilebind::landscape::map::{EnergyMap, Grid, Sample, Window};
-use tilebind::potential::Potential;
 
 use super::paper_tile::{BOUND, pair};
 
@@ -30,20 +29,15 @@ fn samples(grid: &Grid<Sample>) -> impl Iterator<Item = (usize, usize, &Sample)>
 #[test]
 fn samples_are_free_and_have_the_energy_of_their_configuration() {
     let pair = pair();
-    let map = EnergyMap::new(&pair.tiles(), &window(), 48);
-    let approach = Approach::new(
-        &pair.design.pair.fixed,
-        &pair.design.pair.moving,
-        (0, 2),
-        BOUND,
-    );
-    let slices = ApproachSlices::new(&pair.tiles(), &approach, &slice_settings());
+    let map = EnergyMap::new(&pair.problem, &window(), 48);
+    let approach = Approach::new(&pair.design.pair);
+    let slices = ApproachSlices::new(&pair.problem, &approach, &slice_settings());
     for grid in [&map.lowest, &slices.gap, &slices.slide] {
         let mut count = 0;
         for (_, _, sample) in samples(grid) {
             let q = sample.configuration;
-            assert!(pair.contact.is_free(&q), "{q:?}");
-            let energy = pair.potential.energy(&q);
+            assert!(pair.problem.is_clear(&q), "{q:?}");
+            let energy = pair.problem.energy(&q);
             assert!((sample.energy - energy).abs() <= 1e-9 * energy.abs() + 1e-15);
             count += 1;
         }
@@ -60,7 +54,7 @@ fn no_orientation_lies_far_below_the_lowest() {
         samples: [61, 61],
         ..window()
     };
-    let map = EnergyMap::new(&pair.tiles(), &fine, 48);
+    let map = EnergyMap::new(&pair.problem, &fine, 48);
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let mut blocked = 0;
     for (index, lowest) in map.lowest.values.iter().enumerate() {
@@ -68,11 +62,11 @@ fn no_orientation_lies_far_below_the_lowest() {
         for _ in 0..20 {
             let theta = random.random_range(-3.1..3.1);
             let q = Configuration::new(x, y, theta);
-            if !pair.contact.is_free(&q) {
+            if !pair.problem.is_clear(&q) {
                 blocked += 1;
                 continue;
             }
-            let energy = pair.potential.energy(&q);
+            let energy = pair.problem.energy(&q);
             let sample = lowest.expect("a free orientation was found at random");
             assert_eq!(sample.configuration.position(), q.position());
             // The search ends a tenth of a degree from a minimum over theta.
@@ -88,7 +82,7 @@ fn no_orientation_lies_far_below_the_lowest() {
 #[test]
 fn the_map_is_blocked_where_every_orientation_overlaps() {
     let pair = pair();
-    let map = EnergyMap::new(&pair.tiles(), &window(), 48);
+    let map = EnergyMap::new(&pair.problem, &window(), 48);
     // Two squares of side a: overlap in any orientation below a, in none from a sqrt(2) on.
     let side = 0.43;
     for (index, value) in map.lowest.values.iter().enumerate() {
@@ -105,7 +99,7 @@ fn the_map_is_blocked_where_every_orientation_overlaps() {
 #[test]
 fn a_map_of_squares_repeats_after_a_quarter_turn() {
     let pair = pair();
-    let map = EnergyMap::new(&pair.tiles(), &window(), 48);
+    let map = EnergyMap::new(&pair.problem, &window(), 48);
     for row in 0..41 {
         for column in 0..41 {
             let here = map.lowest.value(column, row).map(|s| s.energy);
@@ -129,7 +123,7 @@ fn a_turned_window_shows_the_same_place() {
         high: [0.1, 0.0],
         samples: [3, 3],
     };
-    let map = EnergyMap::new(&pair.tiles(), &turned, 48);
+    let map = EnergyMap::new(&pair.problem, &turned, 48);
     // The grid's x axis points along +y, its y axis along -x.
     let sample = map.lowest.value(2, 0).unwrap();
     let expected = BOUND.position() + Vector2::new(0.2, 0.1);
@@ -150,20 +144,15 @@ fn slice_settings() -> SliceSettings {
 #[test]
 fn slices_start_from_contact_and_pass_through_the_bound_state() {
     let pair = pair();
-    let approach = Approach::new(
-        &pair.design.pair.fixed,
-        &pair.design.pair.moving,
-        (0, 2),
-        BOUND,
-    );
-    let slices = ApproachSlices::new(&pair.tiles(), &approach, &slice_settings());
-    let bound = pair.potential.energy(&BOUND);
+    let approach = Approach::new(&pair.design.pair);
+    let slices = ApproachSlices::new(&pair.problem, &approach, &slice_settings());
+    let bound = pair.problem.energy(&BOUND);
     let at_bound = [slices.gap.value(15, 0), slices.slide.value(15, 15)];
     for sample in at_bound {
         assert!((sample.unwrap().energy - bound).abs() < 1e-9 * bound.abs());
     }
     for (column, row, sample) in samples(&slices.slide) {
-        let clearance = pair.contact.clearance(&sample.configuration);
+        let clearance = pair.problem.clearance(&sample.configuration);
         assert!(clearance.abs() < 1e-8);
         let (tilt, slide) = approach.tilt_and_slide(&sample.configuration);
         assert!((tilt - slices.slide.x[column]).abs() < 1e-12);
@@ -171,7 +160,7 @@ fn slices_start_from_contact_and_pass_through_the_bound_state() {
     }
     // In front of a straight face the gap along the normal is the clearance.
     for (_, row, sample) in samples(&slices.gap) {
-        let clearance = pair.contact.clearance(&sample.configuration);
+        let clearance = pair.problem.clearance(&sample.configuration);
         assert!((clearance - slices.gap.y[row]).abs() < 1e-8);
     }
 }

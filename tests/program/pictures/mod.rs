@@ -5,27 +5,18 @@ mod paper_tile;
 
 use std::sync::OnceLock;
 
-use paper_tile::{BOUND, Pair, pair};
+use paper_tile::{Pair, pair};
+use tilebind::landscape::Inventory;
 use tilebind::report::plots::{NamedPicture, Scene, draw_all};
 
-fn draw(pair: &Pair) -> Vec<NamedPicture> {
-    let scene = Scene {
-        name: &pair.design.name,
-        pair: pair.tiles(),
-        shields: &pair.design.interaction.shields,
-        space: &pair.space,
-        bound: BOUND,
-        target: pair.design.pair.target,
-        states: &pair.states,
-        escapes: &pair.escapes,
-        barriers: &[],
-    };
+fn draw(pair: &Pair, inventory: &Inventory) -> Vec<NamedPicture> {
+    let scene = Scene::new(&pair.design, &pair.problem, inventory);
     draw_all(&scene).unwrap()
 }
 
 fn pictures() -> &'static [NamedPicture] {
     static PICTURES: OnceLock<Vec<NamedPicture>> = OnceLock::new();
-    PICTURES.get_or_init(|| draw(pair()))
+    PICTURES.get_or_init(|| draw(pair(), &pair().inventory))
 }
 
 /// The texts of an SVG document, in order.
@@ -136,7 +127,7 @@ fn every_picture_says_what_it_shows() {
 #[test]
 fn barriers_are_marked_with_their_height_and_their_bounds() {
     let texts = texts(&pictures()[2].picture.svg);
-    let slid = pair().escapes[16].as_ref().unwrap();
+    let slid = pair().inventory.escape(&pair().problem, 16).unwrap();
     let height = tilebind::units::si(slid.forward(), "J", 4);
     assert!(texts.contains(&format!("barrier {height}").as_str()));
     assert!(texts.iter().any(|text| text.starts_with("certified ")));
@@ -177,17 +168,21 @@ fn an_svg_is_well_formed() {
 #[test]
 fn pictures_do_not_depend_on_the_number_of_threads() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1);
-    let alone = one.build().unwrap().install(|| draw(pair()));
+    let alone = one
+        .build()
+        .unwrap()
+        .install(|| draw(pair(), &pair().inventory));
     let three = rayon::ThreadPoolBuilder::new().num_threads(3);
-    let together = three.build().unwrap().install(|| draw(pair()));
+    let together = three
+        .build()
+        .unwrap()
+        .install(|| draw(pair(), &pair().inventory));
     assert!(alone == together);
 }
 
 #[test]
 fn an_analysis_without_states_still_has_its_maps() {
-    let mut pair = pair().clone();
-    pair.states.clear();
-    pair.escapes.clear();
-    let names: Vec<_> = draw(&pair).iter().map(|p| p.name).collect();
+    let drawn = draw(pair(), &Inventory::default());
+    let names: Vec<_> = drawn.iter().map(|p| p.name).collect();
     assert_eq!(names, ["map", "approach", "models"]);
 }

@@ -2,13 +2,12 @@
 
 use std::sync::OnceLock;
 
-use tilebind::contact::Contact;
 use tilebind::design::Design;
-use tilebind::landscape::map::Pair as Tiles;
 use tilebind::landscape::minimum::descend;
-use tilebind::landscape::{Barrier, Pathway, PathwayPoint, Place, State, StateKind};
-use tilebind::potential::{DipolePotential, Potential};
-use tilebind::{Configuration, ConfigurationSpace, Problem};
+use tilebind::landscape::{
+    Barrier, Inventory, Pathway, PathwayPoint, Place, SaddleBounds, State, StateKind,
+};
+use tilebind::{Configuration, Problem};
 
 use crate::designs;
 
@@ -16,14 +15,10 @@ const SIDE: f64 = 0.43;
 /// Turns that map the square onto itself.
 const TURNS: usize = 4;
 
-#[derive(Clone)]
 pub struct Pair {
     pub design: Design,
-    pub contact: Contact,
-    pub potential: DipolePotential,
-    pub space: ConfigurationSpace,
-    pub states: Vec<State>,
-    pub escapes: Vec<Option<Barrier>>,
+    pub problem: Problem,
+    pub inventory: Inventory,
 }
 
 pub const BOUND: Configuration = Configuration::new(SIDE, 0.0, 0.0);
@@ -38,29 +33,16 @@ impl Pair {
     fn new() -> Self {
         let design = designs::load("shapes/paper-tile.toml");
         let mut pair = Self {
-            contact: Contact::new(&design.pair.fixed.outline, &design.pair.moving.outline),
-            potential: DipolePotential::new(
-                &design.pair.fixed.magnets,
-                &design.pair.moving.magnets,
-            ),
-            space: design.space(),
+            problem: design.problem(),
             design,
-            states: Vec::new(),
-            escapes: Vec::new(),
+            inventory: Inventory {
+                bound_state: Some(0),
+                ..Inventory::default()
+            },
         };
         pair.add_states();
-        pair.escapes = vec![None; pair.states.len()];
         pair.add_escapes();
         pair
-    }
-
-    pub fn tiles(&self) -> Tiles<'_> {
-        Tiles {
-            fixed: &self.design.pair.fixed,
-            moving: &self.design.pair.moving,
-            potential: &self.potential,
-            contact: &self.contact,
-        }
     }
 
     fn add_states(&mut self) {
@@ -78,22 +60,22 @@ impl Pair {
         ];
         for (q, bound) in poses {
             let q = self.minimum(q);
-            let class = self.states.len();
+            let class = self.inventory.states.len();
             for side in 0..TURNS {
                 for turn in 0..TURNS {
                     let turned = Configuration::new(0.0, 0.0, side as f64 * 90f64.to_radians());
                     let p = turned.transform(q.position());
                     let theta = q.theta + (side + turn) as f64 * 90f64.to_radians();
                     let q = Configuration::from([p.x, p.y, theta]);
-                    self.states.push(State {
-                        id: self.states.len(),
+                    self.inventory.states.push(State {
+                        id: self.inventory.states.len(),
                         kind: if bound {
                             StateKind::Bound
                         } else {
                             StateKind::Misbound
                         },
                         configuration: q,
-                        energy: self.potential.energy(&q),
+                        energy: self.problem.energy(&q),
                         class,
                         faces: vec![(side, (2 + 4 - turn) % 4)],
                         attracting: 4,
@@ -108,10 +90,7 @@ impl Pair {
 
     /// The local minimum below a configuration.
     fn minimum(&self, q: Configuration) -> Configuration {
-        let (fixed, moving) = (&self.design.pair.fixed, &self.design.pair.moving);
-        let potential = Box::new(self.potential.clone());
-        let problem = Problem::of_tiles(self.space.clone(), fixed, moving, potential);
-        descend(&problem, &q).way.last().unwrap().q
+        descend(&self.problem, &q).way.last().unwrap().q
     }
 
     fn add_escapes(&mut self) {
@@ -150,25 +129,27 @@ impl Pair {
     }
 
     fn add(&mut self, from: usize, to: Place, waypoints: &[Configuration], width: Option<f64>) {
-        let start = self.states[from].configuration;
+        let start = self.inventory.states[from].configuration;
         let pathway = self.pathway(start, waypoints);
         let saddle = *pathway
             .iter()
             .max_by(|a, b| a.energy.total_cmp(&b.energy))
             .unwrap();
         let margin = width.map(|share| share * saddle.energy.abs().max(1e-3));
-        self.escapes[from] = Some(Barrier {
+        self.inventory.barriers.push(Barrier {
             from: Place::State(from),
             to,
             saddle_energy: saddle.energy,
             saddle: saddle.configuration,
-            lower: margin.map(|m| saddle.energy - 40.0 * m),
-            upper: margin.map(|m| saddle.energy + m),
-            caged: false,
-            from_energy: self.states[from].energy,
+            bounds: SaddleBounds {
+                lower: margin.map(|m| saddle.energy - 40.0 * m),
+                upper: margin.map(|m| saddle.energy + m),
+                caged: false,
+            },
+            from_energy: self.inventory.states[from].energy,
             to_energy: match to {
                 Place::Free => 0.0,
-                Place::State(id) => self.states[id].energy,
+                Place::State(id) => self.inventory.states[id].energy,
             },
             spread: None,
             pathway,
@@ -183,17 +164,17 @@ impl Pair {
         for pair in corners.windows(2) {
             for k in 0..100 {
                 let mut q = pair[0].interpolate(&pair[1], k as f64 / 99.0);
-                while self.contact.clearance(&q) < -1e-9 {
+                while self.problem.clearance(&q) < -1e-9 {
                     q.x += 1e-5;
                 }
                 let s = pathway.last().map_or(0.0, |last| {
-                    last.s + self.space.distance(&last.configuration, &q)
+                    last.s + self.problem.space.distance(&last.configuration, &q)
                 });
                 pathway.push(PathwayPoint {
                     s,
                     configuration: q,
-                    energy: self.potential.energy(&q),
-                    clearance: self.contact.clearance(&q),
+                    energy: self.problem.energy(&q),
+                    clearance: self.problem.clearance(&q),
                 });
             }
         }
