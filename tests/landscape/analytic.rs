@@ -8,7 +8,10 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::survey::{Survey, SurveySettings};
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
-use tilebind::roadmap::{Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap};
+use tilebind::roadmap::{
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, RoadmapSettings,
+    neighbour,
+};
 
 /// A landscape in x and y with a well in theta, around 0, so that minima are points.
 struct Upright<P> {

@@ -9,7 +9,6 @@ use tilebind::Configuration;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Certifier, Effort, End};
 use tilebind::landscape::minimum::descend;
-use tilebind::pipeline;
 use tilebind::potential::DipolePotential;
 use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::DipoleBounds;

@@ -4,7 +4,6 @@ use crate::surfaces::DoubleWell;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
-use tilebind::pipeline;
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{

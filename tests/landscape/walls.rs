@@ -1,5 +1,7 @@
 //! Descents that meet walls thinner than their steps.
 
+use std::sync::Arc;
+
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,7 +9,7 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::minimum::descend;
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
-use tilebind::tile::{Outline, Tile};
+use tilebind::tile::{Outline, Pair, Tile};
 
 /// A pull towards -y, to x = 0 and to theta = 0.
 struct Pull;

@@ -215,8 +215,10 @@ fn circles_are_as_round_as_the_chord_error_says() {
     ] {
         let outline = outlined(&drawn(shape), "")
             .unwrap_or_else(|e| panic!("{e}"))
+            .pair
             .fixed
-            .outline;
+            .outline
+            .clone();
         // Points on the circle, chords inside it by no more than their error.
         let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
         let n = outline.vertices().len();
@@ -280,15 +282,15 @@ fn transforms_and_view_boxes_are_composed() {
     let inkscape = load("inkscape.svg");
     // The plate is turned by a quarter: 60 wide, 30 high, corners rounded with 5.
     let plate = outlined(&inkscape, ", id = \"plate\"").unwrap();
-    let vertices = plate.fixed.outline.vertices();
+    let vertices = plate.pair.fixed.outline.vertices();
     let most = |k: usize| vertices.iter().map(|p| p[k]).fold(0.0, f64::max);
     assert!((most(0) - 0.015).abs() < 1e-12 && (most(1) - 0.030).abs() < 1e-12);
     let area = 0.06 * 0.03 - (4.0 - PI) * 0.005 * 0.005;
-    assert!((plate.fixed.outline.area() - area).abs() < 0.01 * PI * CHORD_ERROR);
+    assert!((plate.pair.fixed.outline.area() - area).abs() < 0.01 * PI * CHORD_ERROR);
     // The disc is flattened to half its height.
     let disc = outlined(&inkscape, ", id = \"disc\"").unwrap();
     let area = PI * 0.05 * 0.025;
-    assert!((disc.fixed.outline.area() - area).abs() < 0.25 * CHORD_ERROR);
+    assert!((disc.pair.fixed.outline.area() - area).abs() < 0.25 * CHORD_ERROR);
 
     let square = "<rect width=\"100\" height=\"100\"/>";
     for (head, side) in [
@@ -330,7 +332,12 @@ fn every_path_command_draws() {
         let area = outlined(&drawn(&format!("<path d=\"{d}\"/>")), "");
         // Smooth quadratic: the mirrored control point lies off the side, so its area differs.
         let smooth = if d.contains('T') { 1e-2 } else { 1e-15 };
-        let area = area.unwrap_or_else(|e| panic!("{e}")).fixed.outline.area();
+        let area = area
+            .unwrap_or_else(|e| panic!("{e}"))
+            .pair
+            .fixed
+            .outline
+            .area();
         assert!((area - 0.01).abs() < smooth, "{d}: {area}");
     }
 }

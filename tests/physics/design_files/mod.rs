@@ -125,11 +125,11 @@ fn the_paper_s_tile_is_what_its_file_says() {
     assert!((outer_pole.y - 0.215).abs() < 1e-15);
     assert_eq!(symmetry::rotations(&design.pair.fixed).len(), 4);
     assert_eq!(
-        symmetry::rotations(&designs::load("shapes/hexagon.toml").moving).len(),
+        symmetry::rotations(&designs::load("shapes/hexagon.toml").pair.moving).len(),
         6
     );
     assert_eq!(
-        symmetry::rotations(&designs::load("shapes/tab-10mm.toml").fixed).len(),
+        symmetry::rotations(&designs::load("shapes/tab-10mm.toml").pair.fixed).len(),
         1
     );
 }

@@ -1,7 +1,6 @@
 //! What design files say of shields.
 
 use tilebind::design::Design;
-use tilebind::landscape::symmetry::Symmetry;
 use tilebind::potential::shielding::{Shield, ShieldRule};
 
 use super::changed;
@@ -16,7 +15,9 @@ const WHOLE: Shield = Shield {
 
 #[test]
 fn a_face_goes_before_its_tile_and_the_tile_before_the_rest() {
-    let shields = designs::load("tests/designs/good/shields.toml").shields;
+    let shields = designs::load("tests/designs/good/shields.toml")
+        .interaction
+        .shields;
     assert_eq!(shields.rule, ShieldRule::Smooth);
     let narrow = Shield {
         width: 0.2,
@@ -46,11 +47,14 @@ fn a_rule_alone_shields_nothing_and_the_nearest_face_rule_wants_no_constants() {
         changed("flat.toml", &[(target, &format!("{target}{section}"))])
     };
     let bare = with("[shield]\nrule = \"smooth\"\n");
-    assert!(bare.shields.is_none());
+    assert!(bare.interaction.shields.is_none());
     let nearest = with("[shield]\nrule = \"nearest-face\"\n");
-    assert_eq!(nearest.shields.rule, ShieldRule::NearestFace);
+    assert_eq!(nearest.interaction.shields.rule, ShieldRule::NearestFace);
     assert_eq!(
-        (nearest.shields.is_none(), nearest.warnings.len()),
+        (
+            nearest.interaction.shields.is_none(),
+            nearest.warnings.len()
+        ),
         (false, 0)
     );
     let doubtful = with("[shield]\nrule = \"nearest-face\"\nlength = 0.03\n");
@@ -60,7 +64,7 @@ fn a_rule_alone_shields_nothing_and_the_nearest_face_rule_wants_no_constants() {
 
 #[test]
 fn shields_break_the_symmetry_of_tiles() {
-    let symmetries = |design: &Design| Symmetry::all(design).len();
+    let symmetries = |design: &Design| design.problem().symmetries.len();
     let bare = designs::load("tests/designs/good/flat.toml");
     assert_eq!(symmetries(&bare), 16);
     let shield = "[shield]\nattenuation = 0.8\nlength = 0.03\nwidth = 0.3\n";
