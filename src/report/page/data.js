@@ -8,18 +8,24 @@ const element = (id) => document.getElementById(id);
 
 const minus = (text) => text.replace("-", "\u2212");
 
-function prefixOf(size) {
-  const prefixes = [[1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
-  return prefixes.find(([scale]) => size >= 0.9999 * scale) ?? prefixes[5];
+/** The power of ten of a number rounded to so many significant digits. */
+const powerOf = (value, digits) => Number(value.toExponential(digits - 1).split("e")[1]);
+
+/** What the SI prefix stands for with which a size, rounded to so many digits, is below 1000, and the prefix. */
+function prefixOf(size, digits = 16) {
+  const prefixes = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"]];
+  return prefixes.find(([scale]) => powerOf(size / scale, Math.max(3, digits)) < 3) ?? prefixes[5];
 }
+
+/** The decimals that give a number so many significant digits once it is rounded. */
+const decimalsOf = (value, digits) => Math.max(0, digits - 1 - powerOf(value, digits));
 
 function si(value, unit, digits = 4) {
   if (value === null) return "none";
   if (value === 0) return `0 ${unit}`;
-  const [scale, prefix] = prefixOf(Math.abs(value));
+  const [scale, prefix] = prefixOf(Math.abs(value), digits);
   const scaled = value / scale;
-  const whole = Math.floor(Math.log10(Math.abs(scaled)) + 1e-9) + 1;
-  return minus(`${scaled.toFixed(Math.max(0, digits - whole))} ${prefix}${unit}`);
+  return minus(`${scaled.toFixed(decimalsOf(scaled, digits))} ${prefix}${unit}`);
 }
 
 const degrees = (angle, decimals = 1) => minus(`${(angle * 180 / Math.PI).toFixed(decimals)}°`).replace(/^\u2212(?=[0.]*°$)/, "");
