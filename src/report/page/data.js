@@ -136,6 +136,9 @@ function poseInFront(tilt, slide, distance) {
   return [0, 1].map((k) => at[k] + slide * tangent[k] + distance * normal[k] - arm[k]).concat(theta);
 }
 
+/** mu0 / (4 pi) (T m / A). */
+const MU0_OVER_4PI = 1e-7;
+
 /** U of the magnets as point dipoles: mu0 / (4 pi r^3) (m1 m2 - 3 (m1 e) (m2 e)) over all pairs. */
 function dipoleEnergy(pose) {
   let energy = 0;
@@ -146,7 +149,7 @@ function dipoleEnergy(pose) {
       const m1 = [Math.cos(a.angle) * a.moment, Math.sin(a.angle) * a.moment];
       const r = [at[0] - a.position[0], at[1] - a.position[1]];
       const r2 = dot(r, r);
-      energy += 1e-7 / (r2 * Math.sqrt(r2)) * (dot(m1, m2) - 3 * dot(m1, r) * dot(m2, r) / r2);
+      energy += MU0_OVER_4PI / (r2 * Math.sqrt(r2)) * (dot(m1, m2) - 3 * dot(m1, r) * dot(m2, r) / r2);
     }
   }
   return energy;
