@@ -12,7 +12,7 @@ use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct Snapshot {
     /// Time since the start (s).
     pub time: f64,
     pub motion: Motion,
@@ -24,7 +24,7 @@ pub struct Sample {
     pub in_contact_range: bool,
 }
 
-impl Sample {
+impl Snapshot {
     /// Kinetic and potential energy together (J).
     pub fn total(&self) -> f64 {
         self.potential + self.kinetic
@@ -45,7 +45,7 @@ pub enum Stop {
 /// A finished trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    pub last: Sample,
+    pub last: Snapshot,
     pub stop: Stop,
     /// Steps of free flight, and of contact.
     pub free_steps: usize,
@@ -95,11 +95,11 @@ impl<'a> Simulation<'a> {
         &self.body
     }
 
-    /// The sample of a motion at time 0.
-    pub fn sample(&self, motion: &Motion) -> Sample {
+    /// The snapshot of a motion at time 0.
+    pub fn snapshot(&self, motion: &Motion) -> Snapshot {
         let mut trajectory = Trajectory::new(self, motion);
         trajectory.look();
-        trajectory.sample()
+        trajectory.snapshot()
     }
 
     /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
@@ -109,12 +109,12 @@ impl<'a> Simulation<'a> {
         start: &Motion,
         duration: f64,
         rng: &mut ChaCha8Rng,
-        watch: &mut dyn FnMut(&Sample) -> bool,
+        watch: &mut dyn FnMut(&Snapshot) -> bool,
     ) -> Run {
         let mut trajectory = Trajectory::new(self, start);
         let stop = trajectory.advance(duration, rng, watch);
         Run {
-            last: trajectory.sample(),
+            last: trajectory.snapshot(),
             stop,
             free_steps: trajectory.free_steps,
             contact_steps: trajectory.contact_steps,

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Body, MotionSettings, Sample, SettingsError, Simulation, Stop};
+use super::{Body, MotionSettings, SettingsError, Simulation, Snapshot, Stop};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::Proportion;
@@ -154,7 +154,7 @@ pub enum End {
 pub struct DockingRun {
     pub index: usize,
     pub start: Start,
-    pub last: Sample,
+    pub last: Snapshot,
     pub end: End,
     pub free_steps: usize,
     pub contact_steps: usize,
@@ -216,7 +216,7 @@ pub fn dock(
     Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
 }
 
-/// The samples of one trajectory of an experiment, at most `interval` (s) apart in free flight.
+/// The snapshots of one trajectory of an experiment, at most `interval` (s) apart in free flight.
 ///
 /// # Errors
 /// As [`dock`].
@@ -225,27 +225,30 @@ pub fn trajectory(
     settings: &DockingSettings,
     index: usize,
     interval: f64,
-) -> Result<Vec<Sample>, DockingError> {
+) -> Result<Vec<Snapshot>, DockingError> {
     let problem = pipeline::problem(design);
     let mut settings = settings.clone();
     settings.motion.longest_step = settings.motion.longest_step.min(interval);
     let experiment = Experiment::new(design, &problem, &settings)?;
     let mut rng = stream(settings.seed, index);
     let start = settings.starts.draw(design, &mut rng);
-    let mut samples = vec![experiment.simulation.sample(&start.motion)];
+    let mut snapshots = vec![experiment.simulation.snapshot(&start.motion)];
     let mut last = None;
-    experiment
-        .simulation
-        .run(&start.motion, settings.duration, &mut rng, &mut |sample| {
-            let earlier = samples.last().map_or(0.0, |s: &Sample| s.time);
-            if sample.time - earlier >= 0.5 * interval {
-                samples.push(*sample);
+    experiment.simulation.run(
+        &start.motion,
+        settings.duration,
+        &mut rng,
+        &mut |snapshot| {
+            let earlier = snapshots.last().map_or(0.0, |s: &Snapshot| s.time);
+            if snapshot.time - earlier >= 0.5 * interval {
+                snapshots.push(*snapshot);
             }
-            last = Some(*sample);
+            last = Some(*snapshot);
             false
-        });
-    samples.extend(last.filter(|last| samples.last() != Some(last)));
-    Ok(samples)
+        },
+    );
+    snapshots.extend(last.filter(|last| snapshots.last() != Some(last)));
+    Ok(snapshots)
 }
 
 struct Experiment<'a> {
@@ -280,10 +283,10 @@ impl<'a> Experiment<'a> {
         let start = self.settings.starts.draw(self.design, &mut rng);
         let mut since = None;
         let mut steps = 0;
-        let mut look = |sample: &Sample| {
-            let matched = self.rule.holds(&sample.motion.configuration);
+        let mut look = |snapshot: &Snapshot| {
+            let matched = self.rule.holds(&snapshot.motion.configuration);
             since = if matched {
-                since.or(Some(sample.time))
+                since.or(Some(snapshot.time))
             } else {
                 None
             };
@@ -292,10 +295,10 @@ impl<'a> Experiment<'a> {
             &start.motion,
             self.settings.duration,
             &mut rng,
-            &mut |sample| {
+            &mut |snapshot| {
                 steps += 1;
-                if !sample.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
-                    look(sample);
+                if !snapshot.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
+                    look(snapshot);
                 }
                 false
             },

@@ -6,7 +6,7 @@ use super::pathways::Played;
 use super::{Column, Fact, Illustration, Landscape, Page, Table, finite};
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::dynamics::Sample;
+use crate::dynamics::Snapshot;
 use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
 use crate::landscape::{Proportion, State, StateKind};
 use crate::pipeline;
@@ -21,7 +21,7 @@ impl Page {
     pub fn of_docking(
         design: &Design,
         docking: &Docking,
-        trajectories: &[(DockingRun, Vec<Sample>)],
+        trajectories: &[(DockingRun, Vec<Snapshot>)],
         pictures: Vec<Illustration>,
     ) -> Self {
         let problem = pipeline::problem(design);
@@ -29,8 +29,8 @@ impl Page {
         let landscape = Scene::before_analysis(design, &problem).map(|scene| {
             let states = &states;
             let scene = Scene { states, ..scene };
-            let played = trajectories.iter().map(|(run, samples)| {
-                Played::of_trajectory(name(docking, run), samples, scene.pair.contact)
+            let played = trajectories.iter().map(|(run, snapshots)| {
+                Played::of_trajectory(name(docking, run), snapshots, scene.pair.contact)
             });
             Landscape::new(design, &scene, played.collect())
         });

@@ -49,7 +49,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
 }
 
 /// A panel's plot: where its points lie on the picture.
-struct Panel<'a, 'b> {
+struct PathwayPlot<'a, 'b> {
     root: &'a Area<'b>,
     scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
@@ -92,7 +92,7 @@ fn draw_panel(
     let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
     let at = |s: f64, energy: f64| pixel(&chart, (s - start) / metre, energy / joule);
     let (corner, opposite) = (at(start, high), at(start + length, low));
-    Panel {
+    PathwayPlot {
         root,
         scene,
         scale,
@@ -127,7 +127,7 @@ fn shown_energies(barrier: &Barrier) -> (f64, f64) {
     (low - 0.06 * span, high + 0.16 * span)
 }
 
-impl Panel<'_, '_> {
+impl PathwayPlot<'_, '_> {
     fn draw(&self) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let names = [barrier.from, barrier.to].map(|place| self.scene.name_of(place));
