@@ -2,6 +2,7 @@
 //! that comes closest to a wanted one without pushing the tiles into each other.
 
 use nalgebra::{Vector2, Vector3};
+use ordered_float::OrderedFloat;
 
 use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
@@ -212,7 +213,7 @@ impl Contact {
             let clearest = by_fixed
                 .chain(by_moving)
                 .map(|touch| self.constraint(touch, q))
-                .max_by(|a, b| a.gap.total_cmp(&b.gap));
+                .max_by_key(|constraint| OrderedFloat(constraint.gap));
             found.extend(clearest);
         }
         found

@@ -16,6 +16,7 @@ pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
 
 use nalgebra::{Rotation2, Vector2};
+use ordered_float::OrderedFloat;
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
@@ -241,7 +242,7 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
 
 fn core(outline: &Outline) -> ConvexPart {
     let parts = outline.parts().iter();
-    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
+    let largest = parts.max_by_key(|part| OrderedFloat(part.area()));
     largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 

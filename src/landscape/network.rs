@@ -4,6 +4,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use ordered_float::OrderedFloat;
 use petgraph::algo::astar;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::unionfind::UnionFind;
@@ -177,7 +178,7 @@ impl Network {
             Way::Straight => Some(from?.interpolate(&to?, costs.peak_at)),
             Way::Points(points) => points
                 .iter()
-                .max_by(|a, b| a.energy.total_cmp(&b.energy))
+                .max_by_key(|p| OrderedFloat(p.energy))
                 .map(|p| p.q),
         }
     }
@@ -195,8 +196,8 @@ impl Network {
     fn spanning_links(&self) -> Vec<u32> {
         let later = self.spanned as u32..self.links.len() as u32;
         let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        let peak = |number: &u32| self.links[*number as usize].costs.peak;
-        ascending.par_sort_unstable_by(|a, b| peak(a).total_cmp(&peak(b)).then(a.cmp(b)));
+        let peak = |number: u32| OrderedFloat(self.links[number as usize].costs.peak);
+        ascending.par_sort_unstable_by_key(|&number| (peak(number), number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
             let link = &self.links[*number as usize];
@@ -318,7 +319,7 @@ impl Network {
             .edges_connecting(from, to)
             .map(|edge| edge.id().index())
             .filter(|number| self.links[*number].costs.peak <= highest)
-            .min_by(|a, b| price(*a).total_cmp(&price(*b)).then(a.cmp(b)))?;
+            .min_by_key(|&number| (OrderedFloat(price(number)), number))?;
         Some((number, self.links[number].from as usize == from.index()))
     }
 

@@ -1,5 +1,7 @@
 //! Pathways: a route through the network as a fine sequence of configurations.
 
+use ordered_float::OrderedFloat;
+
 use std::collections::HashSet;
 
 use super::network::{Cost, Network, Route, Way};
@@ -59,7 +61,7 @@ pub fn lowest(
 
 /// The point of a pathway with the highest energy.
 pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
-    pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
+    pathway.iter().max_by_key(|p| OrderedFloat(p.energy))
 }
 
 /// A pathway gone backwards.

@@ -1,5 +1,6 @@
 //! Motions between milestones and what they cost.
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use super::Milestone;
@@ -104,7 +105,7 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     }
     let length = along[along.len() - 1];
     let highest = (0..energies.len())
-        .max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+        .max_by_key(|&k| OrderedFloat(energies[k]))
         .unwrap_or(0);
     let mut work = [0.0; 2];
     for pair in energies.windows(2) {

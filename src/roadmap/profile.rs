@@ -1,6 +1,7 @@
 //! The energy along a straight motion, sampled as finely as its curvature demands.
 
 use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -107,7 +108,7 @@ impl Profile {
         *self
             .knots
             .iter()
-            .max_by(|a, b| a.energy.total_cmp(&b.energy))
+            .max_by_key(|knot| OrderedFloat(knot.energy))
             .expect("a profile has two ends")
     }
 

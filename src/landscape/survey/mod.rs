@@ -18,6 +18,7 @@ mod withdraw;
 
 use std::collections::{HashMap, HashSet};
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use nalgebra::Vector3;
@@ -188,7 +189,7 @@ impl Survey {
         (0..self.states.len())
             .map(|i| (i, distance(&self.states[i])))
             .filter(|(_, d)| *d <= tolerance)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .min_by_key(|(_, d)| OrderedFloat(*d))
             .map(|(i, _)| i)
     }
 

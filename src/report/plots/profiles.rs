@@ -1,6 +1,7 @@
 //! The energy profile of each main pathway with its barrier marked.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 use plotters::prelude::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -197,7 +198,7 @@ impl PathwayPlot<'_, '_> {
     fn barrier(&self, labels: &mut Labels) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let path = &barrier.pathway;
-        let Some(top) = path.iter().max_by(|a, b| a.energy.total_cmp(&b.energy)) else {
+        let Some(top) = path.iter().max_by_key(|p| OrderedFloat(p.energy)) else {
             return Ok(());
         };
         let saddle = (self.at)(top.s, barrier.saddle_energy);

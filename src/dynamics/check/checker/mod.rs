@@ -4,6 +4,7 @@ mod kick;
 mod sides;
 
 use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -283,7 +284,7 @@ impl<'a> Checker<'a> {
         let nearest = self
             .states
             .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            .min_by_key(|state| OrderedFloat(distance(state)));
         let nearest = nearest.filter(|state| distance(state) < SAME)?;
         Some(Place::State(nearest.id))
     }
