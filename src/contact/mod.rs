@@ -48,6 +48,7 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// For a fixed and a moving outline, each in its own tile's frame (m).
     pub fn new(fixed: &Outline, moving: &Outline) -> Self {
         Self {
             fixed_shape: compound(fixed),
@@ -64,10 +65,12 @@ impl Contact {
         }
     }
 
+    /// The outline of the fixed tile.
     pub fn fixed(&self) -> &Outline {
         &self.fixed
     }
 
+    /// The outline of the moving tile, in its own frame.
     pub fn moving(&self) -> &Outline {
         &self.moving
     }

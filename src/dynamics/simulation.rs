@@ -15,6 +15,7 @@ use crate::problem::Problem;
 pub struct Snapshot {
     /// Time since the start (s).
     pub time: f64,
+    /// Where the tile is and how it moves.
     pub motion: Motion,
     /// Energy of magnets and fans (J).
     pub potential: f64,
@@ -45,10 +46,13 @@ pub enum Stop {
 /// A finished trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
+    /// The last moment.
     pub last: Snapshot,
+    /// Why it ended there.
     pub stop: Stop,
-    /// Steps of free flight, and of contact.
+    /// Steps of free flight.
     pub free_steps: usize,
+    /// Steps in contact.
     pub contact_steps: usize,
 }
 
@@ -91,6 +95,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// The moving tile's mass and inertia.
     pub fn body(&self) -> &Body {
         &self.body
     }

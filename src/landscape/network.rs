@@ -50,8 +50,9 @@ pub struct Network {
 pub struct Merge {
     /// The link that joins them.
     pub link: usize,
-    /// The labelled node with the lowest energy in each basin; the first is the lower one.
+    /// The labelled node with the lowest energy in either basin: this one is the lower.
     pub lower: usize,
+    /// The labelled node with the lowest energy in the other basin.
     pub upper: usize,
 }
 
@@ -67,10 +68,16 @@ pub enum Cost {
     Improbability,
     /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
     /// exceed `highest` (J).
-    Below { highest: f64, per_metre: f64 },
+    Below {
+        /// No link's peak on the path may exceed this (J).
+        highest: f64,
+        /// Energy (J) for each metre of the way.
+        per_metre: f64,
+    },
 }
 
 impl Network {
+    /// The milestones become nodes and the edges links of the same numbers.
     pub fn new(roadmap: Roadmap) -> Self {
         let mut network = Self::default();
         let (nodes, links) = (roadmap.milestones.len(), roadmap.edges.len());
@@ -86,6 +93,7 @@ impl Network {
         network
     }
 
+    /// Adds a node that nothing joins yet, `None` for free tiles; its number.
     pub fn add_node(&mut self, node: Option<(Configuration, f64)>) -> usize {
         self.nodes.push(node);
         self.graph.add_node(()).index()

@@ -30,6 +30,7 @@ pub struct Lowest {
     pub saddle: PathwayPoint,
     /// The node that it reaches.
     pub end: usize,
+    /// From the first node to the one it reaches.
     pub pathway: Pathway,
 }
 

@@ -33,12 +33,16 @@ const GRAZE: f64 = 1e-4;
 /// A configuration with its energy (J) and the energy's gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
+    /// The configuration.
     pub q: Configuration,
+    /// U (J).
     pub energy: f64,
+    /// Of U, by x and y (J/m) and by theta (J/rad).
     pub gradient: Vector3<f64>,
 }
 
 impl Point {
+    /// The point at a configuration, its energy worked out.
     pub fn new(problem: &Problem, q: Configuration) -> Self {
         let (energy, gradient) = problem.energy_and_gradient(&q);
         Self {

@@ -30,6 +30,7 @@ const UNBALANCED: f64 = 1e-5;
 /// A stationary point with its spectrum.
 #[derive(Clone, Debug)]
 pub struct Stationary {
+    /// Where it is, with its energy and gradient.
     pub point: Point,
     /// Contacts held closed.
     pub touching: Vec<Touch>,

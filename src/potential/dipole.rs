@@ -79,6 +79,7 @@ pub struct ScalarDipoles {
 }
 
 impl ScalarDipoles {
+    /// Of the fixed and the moving tile's dipoles, each in its tile's frame.
     pub fn new(fixed: &[Dipole], moving: &[Dipole]) -> Self {
         Self {
             fixed: fixed.to_vec(),

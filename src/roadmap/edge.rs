@@ -25,14 +25,18 @@ pub struct EdgeCosts {
 /// A free motion between two milestones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
+    /// The milestone it leaves.
     pub from: u32,
+    /// The milestone it reaches.
     pub to: u32,
+    /// Of the motion from the one to the other, and back.
     pub costs: EdgeCosts,
 }
 
 /// How edges are weighed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeSettings {
+    /// How closely the energy is followed along an edge.
     pub tolerance: ProfileTolerance,
     /// Thermal energy kT (J) of the transition probabilities.
     pub thermal_energy: f64,

@@ -28,6 +28,7 @@ pub struct NeighbourSearch<'a> {
 }
 
 impl<'a> NeighbourSearch<'a> {
+    /// Over milestones, which are numbered as they come.
     pub fn new(milestones: &[Milestone], space: &'a ConfigurationSpace) -> Self {
         let points: Vec<[f64; 3]> = milestones
             .iter()

@@ -32,6 +32,7 @@ pub struct Knot {
 /// its two neighbours by more than the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
+    /// In the order of t.
     pub knots: Vec<Knot>,
 }
 

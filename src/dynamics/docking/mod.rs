@@ -32,11 +32,15 @@ const STEPS_BETWEEN_LOOKS: usize = 5;
 /// All that decides a docking experiment, besides the design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DockingSettings {
+    /// How many trajectories.
     pub runs: usize,
+    /// Of all random numbers.
     pub seed: u64,
     /// How long each trajectory lasts (s).
     pub duration: f64,
+    /// How the starts are distributed.
     pub starts: Starts,
+    /// How the tiles move.
     pub motion: MotionSettings,
     /// Threshold of a match (m); see [`MatchRule::new`] where `None`.
     pub threshold: Option<f64>,
@@ -108,8 +112,9 @@ pub struct EngineFigures {
     /// Share matched with the correction of overlap limited to 1 cm/s, and its interval's half
     /// width (8000 starts, steps of 1 ms).
     pub corrected: (f64, f64),
-    /// Time for a step (s), and its longest and shortest step (s).
+    /// Time for a step (s).
     pub cost: f64,
+    /// The longest and the shortest step (s).
     pub steps: [f64; 2],
 }
 
@@ -128,8 +133,10 @@ pub const ENGINE: EngineFigures = EngineFigures {
 /// Why docking could not be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DockingError {
+    /// A setting is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// A target face has no magnets to match by.
     #[error("a match is declared by the magnets of the target faces, but one of them has none")]
     NoMagnets,
 }
@@ -139,28 +146,38 @@ pub enum DockingError {
 pub enum End {
     /// Matched since this time (s), and still so at the end.
     Bound {
+        /// The time (s) at which the match was declared.
         since: f64,
     },
     /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
     /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
     Misbound {
+        /// The trap's number among [`Docking::traps`]; `None` where slow motion leads to none.
         trap: Option<usize>,
     },
+    /// Neither: not in touch, or still fast enough to come free.
     Free,
 }
 
 /// One trajectory, in short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DockingRun {
+    /// The number of the run, from 0; it chooses the random stream.
     pub index: usize,
+    /// Where and how it began.
     pub start: Start,
+    /// Where and how it ended.
     pub last: Snapshot,
+    /// What became of it.
     pub end: End,
+    /// Steps of free flight.
     pub free_steps: usize,
+    /// Steps in contact.
     pub contact_steps: usize,
 }
 
 impl DockingRun {
+    /// Whether it ended matched.
     pub fn is_bound(&self) -> bool {
         matches!(self.end, End::Bound { .. })
     }
@@ -170,25 +187,34 @@ impl DockingRun {
 /// where friction holds tiles short of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
+    /// Of the minimum.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,
+    /// How many of all runs ended there.
     pub caught: Proportion,
 }
 
 /// The outcome of a docking experiment.
 #[derive(Clone, Debug)]
 pub struct Docking {
+    /// What the experiment was made with.
     pub settings: DockingSettings,
+    /// The threshold of a match (m) that was used.
     pub threshold: f64,
+    /// Every trajectory, by its number.
     pub runs: Vec<DockingRun>,
+    /// How many ended matched.
     pub bound: Proportion,
+    /// How many ended caught, unmatched.
     pub misbound: Proportion,
+    /// How many ended otherwise.
     pub free: Proportion,
     /// Traps, that with most trajectories first.
     pub traps: Vec<Trap>,
-    /// Wall time (s) on all threads together, and how many threads.
+    /// Wall time (s).
     pub wall_s: f64,
+    /// On so many threads.
     pub threads: usize,
 }
 

@@ -70,8 +70,11 @@ impl Block {
 /// by the second block's angle about its own centre (J/rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairEnergy {
+    /// U (J).
     pub energy: f64,
+    /// By the second block's centre (J/m).
     pub gradient: Vector2<f64>,
+    /// By the second block's angle about its own centre (J/rad).
     pub slope: f64,
 }
 

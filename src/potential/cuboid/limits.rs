@@ -57,6 +57,7 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// For blocks of the given moments and sizes, wherever they are.
     pub fn new(first: &Block, second: &Block) -> Self {
         let at_origin = |block: &Block| Block::new(block.moment.abs(), block.size);
         let (a, b) = (at_origin(first), at_origin(second));

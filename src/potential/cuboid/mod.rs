@@ -322,7 +322,9 @@ pub struct ModelComparison {
 /// The energies (J) of one configuration by both models.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelEnergies {
+    /// As point dipoles.
     pub dipole: f64,
+    /// As blocks.
     pub cuboid: f64,
 }
 
@@ -334,6 +336,7 @@ impl ModelEnergies {
 }
 
 impl ModelComparison {
+    /// For the magnets of two tiles.
     pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
         Self {
             dipoles: DipolePotential::new(fixed, moving),
@@ -341,6 +344,7 @@ impl ModelComparison {
         }
     }
 
+    /// Both energies at a configuration; what is not finite is infinity.
     pub fn at(&self, q: &Configuration) -> ModelEnergies {
         ModelEnergies {
             dipole: self.dipoles.energy(q),

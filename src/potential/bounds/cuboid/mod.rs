@@ -109,6 +109,7 @@ struct Enclosed {
 }
 
 impl CuboidBounds {
+    /// For the magnets of two tiles, with the best instruction set there is.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
         Self::with_level(fixed, moving, Level::best())
     }
