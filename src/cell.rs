@@ -6,6 +6,7 @@ use crate::configuration::Configuration;
 /// `half` in each coordinate (theta modulo a full turn).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
+    /// The middle of the box.
     pub centre: Configuration,
     /// Half the size along x and y (m) and theta (rad).
     pub half: [f64; 3],
@@ -47,7 +48,9 @@ const ROUNDING: f64 = 1.2e-14;
 /// `value + gradient . d + d^T H d / 2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quadratic {
+    /// At the centre.
     pub value: f64,
+    /// By x, y and theta, at the centre.
     pub gradient: [f64; 3],
     /// H as (xx, yy, theta theta, xy, x theta, y theta).
     pub hessian: [f64; 6],

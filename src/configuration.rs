@@ -9,12 +9,16 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 /// tile's frame and its orientation `theta` (radians, counter-clockwise).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Configuration {
+    /// Of the reference point (m).
     pub x: f64,
+    /// Of the reference point (m).
     pub y: f64,
+    /// The orientation (rad), not necessarily in (-pi, pi].
     pub theta: f64,
 }
 
 impl Configuration {
+    /// From `x`, `y` (m) and `theta` (rad).
     pub const fn new(x: f64, y: f64, theta: f64) -> Self {
         Self { x, y, theta }
     }
@@ -24,6 +28,7 @@ impl Configuration {
         Vector2::new(self.x, self.y)
     }
 
+    /// The rotation by `theta`.
     pub fn rotation(&self) -> Rotation2<f64> {
         Rotation2::new(self.theta)
     }
@@ -68,6 +73,7 @@ impl Configuration {
         self.moved(self.step_to(other) * t)
     }
 
+    /// (x, y, theta) in m, m and rad.
     pub fn to_array(&self) -> [f64; 3] {
         [self.x, self.y, self.theta]
     }
@@ -107,10 +113,12 @@ pub struct ConfigurationSpace {
 }
 
 impl ConfigurationSpace {
+    /// Whether the reference point lies on the table, its rim included.
     pub fn contains(&self, q: &Configuration) -> bool {
         q.x.abs() <= self.half_size[0] && q.y.abs() <= self.half_size[1]
     }
 
+    /// Whether the tiles count as free of each other.
     pub fn is_far(&self, q: &Configuration) -> bool {
         q.x.hypot(q.y) >= self.free_distance
     }

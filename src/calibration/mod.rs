@@ -36,6 +36,7 @@ pub const QUANTITIES: [(&str, &str); 4] = [
 pub struct Row {
     /// Its line in the file.
     pub line: usize,
+    /// The pose at which it was taken.
     pub configuration: Configuration,
     /// Whether the shields were in place.
     pub iron: bool,
@@ -48,9 +49,13 @@ pub struct Row {
 /// with a shield in `shields`, all where there are none; the constants there do not matter).
 #[derive(Clone, Copy, Debug)]
 pub struct Specimen<'a> {
+    /// How the magnets are modelled.
     pub model: MagnetModel,
+    /// The tile that is held, in whose frame poses are given.
     pub fixed: &'a Tile,
+    /// The tile whose poses the rows give.
     pub moving: &'a Tile,
+    /// Which faces had shields in the rows with iron; their constants are not looked at.
     pub shields: &'a Shields,
 }
 
@@ -78,6 +83,7 @@ impl Specimen<'_> {
 pub struct CalibrationSettings {
     /// Every so many rows of either kind, with and without iron, one is held out of the fit.
     pub hold_out_every: usize,
+    /// The shield that the fit begins with.
     pub start: Shield,
     /// Greatest number of steps of the fit.
     pub steps: usize,
@@ -101,8 +107,9 @@ impl Default for CalibrationSettings {
 /// Root mean squares of measured minus modelled values, for each of [`QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
-    /// How many rows there are, and how many of them with iron.
+    /// How many rows there are.
     pub rows: usize,
+    /// How many of them were taken with shields in place.
     pub with_iron: usize,
     /// In the quantity's own unit; `None` where nothing was measured.
     pub rms: [Option<f64>; 4],
@@ -113,31 +120,42 @@ pub struct Residuals {
 /// The outcome of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
+    /// The fitted constants.
     pub shield: Shield,
     /// Standard errors of A, l (m), delta and G, from the scatter of the residuals.
     pub standard_errors: [f64; 4],
     /// Factor by which the measured energies without iron exceed the model's.
     pub strength: f64,
+    /// Of the rows that were fitted.
     pub fitted: Residuals,
+    /// Of the rows that were held out.
     pub held_out: Residuals,
-    /// Steps of the fit that were taken, and whether it settled.
+    /// Steps of the fit that were taken.
     pub steps: usize,
+    /// Whether the fit settled within the steps allowed.
     pub settled: bool,
 }
 
 /// Why there is no calibration.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
+    /// So many measured values with iron determine no fit.
     #[error(
         "{0} measured values with iron are too few to fit four constants; give at least five rows \
          that are not held out"
     )]
     TooFew(usize),
+    /// At a pose the tiles would lie in each other.
     #[error(
         "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in rad, \
          in the fixed tile's frame", 1e3 * .depth
     )]
-    Overlap { line: usize, depth: f64 },
+    Overlap {
+        /// Of the row, in the file.
+        line: usize,
+        /// How deep they overlap (m).
+        depth: f64,
+    },
 }
 
 /// By how much (m) the tiles may overlap at a pose that was measured, with its error.

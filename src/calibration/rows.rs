@@ -23,32 +23,52 @@ const NEEDED: usize = 4;
 /// What is wrong with a file of measurements, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CsvError {
+    /// It has no line at all.
     #[error("the file is empty; its first line should name the columns: {known}", known = COLUMNS.join(","))]
     Empty,
+    /// A column is none of those known.
     #[error("unknown column `{0}`; the columns are {known}", known = COLUMNS.join(", "))]
     UnknownColumn(String),
+    /// A column is named twice.
     #[error("the column `{0}` is there twice")]
     TwiceColumn(String),
+    /// A column that every file needs is not there.
     #[error("there is no column `{0}`")]
     MissingColumn(&'static str),
+    /// There is nothing below the line of names.
     #[error("there are no rows of measurements below the line that names the columns")]
     NoRows,
+    /// No column holds a measured quantity.
     #[error("none of the columns {known} is there: nothing was measured", known = COLUMNS[NEEDED..].join(", "))]
     NothingMeasured,
+    /// A line has too many or too few entries.
     #[error("line {line} has {found} entries, the first line names {expected} columns")]
     WrongCount {
+        /// Which line, from 1.
         line: usize,
+        /// How many entries it has.
         found: usize,
+        /// How many columns there are.
         expected: usize,
     },
+    /// An entry is no finite number.
     #[error("line {line}: `{text}` is no finite number for {column}")]
     NotANumber {
+        /// Which line, from 1.
         line: usize,
+        /// The name of its column.
         column: &'static str,
+        /// The entry.
         text: String,
     },
+    /// The column of the shields holds something else than 0 and 1.
     #[error("line {line}: iron is `{text}`, but must be 1 (shields in place) or 0")]
-    NotZeroOrOne { line: usize, text: String },
+    NotZeroOrOne {
+        /// Which line, from 1.
+        line: usize,
+        /// The entry.
+        text: String,
+    },
 }
 
 /// Reads measurements. Empty lines and lines that begin with `#` are skipped.

@@ -6,7 +6,7 @@ use clap::Args;
 use tilebind::dynamics::docking::{
     self, Docking, DockingError, DockingMap, DockingRun, DockingSettings, End,
 };
-use tilebind::dynamics::{Fan, Sample};
+use tilebind::dynamics::{Fan, Snapshot};
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::dock;
 use tilebind::report::{docking as report, writer};
@@ -139,8 +139,8 @@ impl Dock {
                 ("map.csv", map.csv().into_bytes()),
             ];
             let trace = |run: &DockingRun| {
-                let samples = docking::trajectory(&problem, &settings, run.index, INTERVAL);
-                Ok((*run, samples.map_err(usage)?))
+                let snapshots = docking::trajectory(&problem, &settings, run.index, INTERVAL);
+                Ok((*run, snapshots.map_err(usage)?))
             };
             let played = self.played(&docking);
             let played = played.iter().map(trace);
@@ -150,7 +150,7 @@ impl Dock {
                 "trajectory.csv",
                 report::trajectory_csv(picked).into_bytes(),
             ));
-            let drawn: Vec<(End, Vec<Sample>)> = docking
+            let drawn: Vec<(End, Vec<Snapshot>)> = docking
                 .runs
                 .iter()
                 .take(DRAWN)

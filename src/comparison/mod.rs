@@ -95,6 +95,7 @@ impl AssessmentSettings {
 /// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
+    /// Of the design.
     pub name: String,
     /// SHA-256 of the design file's bytes.
     pub sha256: String,
@@ -103,6 +104,7 @@ pub struct Assessment {
     pub drawings: Vec<Drawing>,
     /// The magnet model, as design files call it.
     pub model: String,
+    /// Of all random numbers.
     pub seed: u64,
     /// Energy with the target faces coinciding (J).
     #[serde(rename = "target_energy_J")]
@@ -111,10 +113,13 @@ pub struct Assessment {
     pub bond: Option<Bond>,
     /// Kinds of trap, symmetric copies taken together.
     pub trap_kinds: usize,
+    /// The one of lowest energy; `None` where there are no traps.
     pub deepest_trap: Option<Trap>,
-    /// Number of far starts, and how many of them end bound and in no state.
+    /// Number of far starts.
     pub far_starts: usize,
+    /// How many of the far starts end in the bond.
     pub captured: usize,
+    /// How many of the far starts end in no state.
     pub uncaptured: usize,
     /// Barriers that moving tiles checked; `None` where they were not asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -130,7 +135,9 @@ pub struct Assessment {
 /// The bound state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bond {
+    /// x, y (m) and theta (rad).
     pub pose: [f64; 3],
+    /// U (J), below 0.
     #[serde(rename = "energy_J")]
     pub energy: f64,
     /// To `free`.
@@ -142,7 +149,9 @@ pub struct Bond {
 /// A trap.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trap {
+    /// x, y (m) and theta (rad).
     pub pose: [f64; 3],
+    /// U (J).
     #[serde(rename = "energy_J")]
     pub energy: f64,
     /// To the nearest lower state or to `free`.

@@ -8,7 +8,9 @@ use crate::landscape::Proportion;
 pub struct Estimate {
     /// Infinite for the climb out of a cage.
     pub value: f64,
+    /// Lower bound, or lower end of the interval; `None` where there is none.
     pub low: Option<f64>,
+    /// Upper bound, or upper end of the interval; `None` where there is none.
     pub high: Option<f64>,
 }
 
@@ -25,6 +27,7 @@ impl Estimate {
 /// What kind of bounds a figure has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
+    /// The figure has no bounds.
     None,
     /// Proved for the stated model.
     Certified,
@@ -35,18 +38,31 @@ pub enum Bounds {
 /// A figure of an [`Assessment`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
+    /// -U of the bond (J).
     BondDepth,
+    /// -U of the deepest trap (J).
     TrapDepth,
+    /// The climb (J) from the deepest trap to its barrier's highest energy.
     TrapEscape,
+    /// The bond's energy as a multiple of the deepest trap's.
     Selectivity,
+    /// The climb (J) from the bond to its barrier's highest energy.
     Unbinding,
+    /// The climb (J) from free tiles, at U = 0, to the highest energy on the way to the bond.
     Binding,
+    /// The share of far starts that end in the bond.
     Captured,
+    /// The capture range's lowest offset along the target face (m, at most 0).
     OffsetLow,
+    /// The capture range's highest offset along the target face (m, at least 0).
     OffsetHigh,
+    /// The capture range's widest gap (m).
     Gap,
+    /// The capture range's lowest tilt (rad, at most 0).
     TiltLow,
+    /// The capture range's highest tilt (rad, at least 0).
     TiltHigh,
+    /// The number of traps, symmetric copies counted once.
     TrapKinds,
 }
 
@@ -128,6 +144,7 @@ impl Quantity {
         }
     }
 
+    /// What kind of bounds the figure has.
     pub fn bounds(self) -> Bounds {
         match self {
             Self::TrapEscape | Self::Unbinding | Self::Binding => Bounds::Certified,

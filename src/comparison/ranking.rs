@@ -1,5 +1,9 @@
 //! Designs sorted by a figure, and which order is proved.
 
+use std::cmp::Reverse;
+
+use ordered_float::OrderedFloat;
+
 use super::{Assessment, Quantity};
 use crate::landscape::certificate::{self, Ordering};
 
@@ -11,7 +15,7 @@ pub fn ranked(assessments: &[Assessment], by: Quantity) -> Vec<usize> {
         estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
     };
     let mut order: Vec<usize> = (0..assessments.len()).collect();
-    order.sort_by(|&a, &b| value(b).total_cmp(&value(a)).then(a.cmp(&b)));
+    order.sort_by_key(|&k| Reverse(OrderedFloat(value(k))));
     order
 }
 

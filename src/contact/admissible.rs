@@ -1,6 +1,7 @@
 //! The admissible motion closest to a wanted one: a small quadratic program.
 
 use nalgebra::{Matrix3, Vector3};
+use ordered_float::OrderedFloat;
 
 use super::Constraint;
 
@@ -27,7 +28,7 @@ pub fn closest_admissible(
                     slack(&constraints[k], &point) / norm(&constraints[k], &inverse),
                 )
             })
-            .min_by(|a, b| a.1.total_cmp(&b.1));
+            .min_by_key(|(_, slack)| OrderedFloat(*slack));
         let scale = 1e-13 * (1.0 + point.norm());
         match violated {
             Some((k, slack)) if slack < -scale && !working.contains(&k) => working.push(k),

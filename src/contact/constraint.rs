@@ -2,6 +2,7 @@
 //! that comes closest to a wanted one without pushing the tiles into each other.
 
 use nalgebra::{Vector2, Vector3};
+use ordered_float::OrderedFloat;
 
 use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
@@ -15,14 +16,18 @@ const COINCIDENT: f64 = 1e-7;
 pub struct Touch {
     /// Which tile the edge belongs to; the vertex is the other one's.
     pub edge_of: EdgeOf,
+    /// The edge's number: it runs from the vertex of that number to the next.
     pub edge: usize,
+    /// The vertex' number in the other tile's outline.
     pub vertex: usize,
 }
 
 /// Which tile an edge belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum EdgeOf {
+    /// The edge is the fixed tile's.
     Fixed,
+    /// The edge is the moving tile's.
     Moving,
 }
 
@@ -30,8 +35,11 @@ pub enum EdgeOf {
 /// (x, y, theta).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
+    /// Which vertex stands before which edge.
     pub touch: Touch,
+    /// Distance (m) of the vertex from the edge's line; below 0 behind it.
     pub gap: f64,
+    /// Of the gap, by x and y (1) and by theta (m/rad).
     pub gradient: Vector3<f64>,
 }
 
@@ -212,7 +220,7 @@ impl Contact {
             let clearest = by_fixed
                 .chain(by_moving)
                 .map(|touch| self.constraint(touch, q))
-                .max_by(|a, b| a.gap.total_cmp(&b.gap));
+                .max_by_key(|constraint| OrderedFloat(constraint.gap));
             found.extend(clearest);
         }
         found

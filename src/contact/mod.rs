@@ -16,6 +16,7 @@ pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
 
 use nalgebra::{Rotation2, Vector2};
+use ordered_float::OrderedFloat;
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::{Compound, SharedShape};
@@ -47,6 +48,7 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// For a fixed and a moving outline, each in its own tile's frame (m).
     pub fn new(fixed: &Outline, moving: &Outline) -> Self {
         Self {
             fixed_shape: compound(fixed),
@@ -63,10 +65,12 @@ impl Contact {
         }
     }
 
+    /// The outline of the fixed tile.
     pub fn fixed(&self) -> &Outline {
         &self.fixed
     }
 
+    /// The outline of the moving tile, in its own frame.
     pub fn moving(&self) -> &Outline {
         &self.moving
     }
@@ -241,7 +245,7 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
 
 fn core(outline: &Outline) -> ConvexPart {
     let parts = outline.parts().iter();
-    let largest = parts.max_by(|a, b| a.area().total_cmp(&b.area()));
+    let largest = parts.max_by_key(|part| OrderedFloat(part.area()));
     largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }
 

@@ -2,6 +2,7 @@
 //! pieces of another outline.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use crate::tile::Outline;
 
@@ -77,7 +78,7 @@ impl CircleTree {
             .map(|&k| (circles[k].0 - centre).norm() + circles[k].1)
             .fold(0.0, f64::max);
         let axis = (high - low).imax();
-        pieces.sort_by(|&a, &b| circles[a].0[axis].total_cmp(&circles[b].0[axis]));
+        pieces.sort_by_key(|&k| OrderedFloat(circles[k].0[axis]));
         let node = self.nodes.len();
         self.nodes.push(Node {
             centre,

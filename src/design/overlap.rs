@@ -1,6 +1,7 @@
 //! Magnets where none can be: in one another, or out of the tile.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use super::DesignError;
 use super::build::BuiltTile;
@@ -92,7 +93,7 @@ fn breakthrough(section: &Section, built: &BuiltTile, number: usize) -> Option<D
         .enumerate()
         .filter(|(_, magnet)| magnet.face == number)
         .map(|(i, magnet)| (i, excess(&edges, face, magnet)))
-        .max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        .max_by_key(|(_, excess)| OrderedFloat(*excess))?;
     (excess > ROUNDING).then(|| {
         section.error_at(
             built.magnet_spans[i],

@@ -1,5 +1,7 @@
 //! The key `profile` of a face: which line its outline follows.
 
+use ordered_float::OrderedFloat;
+
 use super::DesignError;
 use super::quantity;
 use super::reader::{Entry, Result, Section};
@@ -185,7 +187,7 @@ fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> 
     let farthest = line
         .iter()
         .enumerate()
-        .max_by(|(_, a), (_, b)| a[0].abs().total_cmp(&b[0].abs()));
+        .max_by_key(|(_, p)| OrderedFloat(p[0].abs()));
     let Some((index, &[s, _])) = farthest.filter(|(_, p)| p[0].abs() > half * (1.0 + 1e-12)) else {
         return Ok(());
     };

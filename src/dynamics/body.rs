@@ -19,6 +19,7 @@ pub struct Body {
 /// Where the moving tile is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
+    /// Where it is.
     pub configuration: Configuration,
     /// Velocity of the centre of mass (m/s, m/s) and turning rate (rad/s).
     pub velocity: Vector3<f64>,

@@ -35,7 +35,7 @@ mod trajectory;
 pub use body::{Body, Motion};
 pub use force::Fan;
 pub use settings::{MotionSettings, SettingsError};
-pub use simulation::{Run, Sample, Simulation, Stop};
+pub use simulation::{Run, Simulation, Snapshot, Stop};
 
 #[cfg(test)]
 mod tests;

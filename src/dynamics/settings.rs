@@ -15,6 +15,7 @@ pub struct MotionSettings {
     pub friction: f64,
     /// Whether the table's rim holds the tile back.
     pub walls: bool,
+    /// Fans that push the tile; none in still air.
     pub fans: Vec<Fan>,
     /// Effective energy kT (J) of a random shaking force: together with the drag it keeps the
     /// kinetic energy at kT / 2 for each degree of freedom.
@@ -52,12 +53,17 @@ impl Default for MotionSettings {
 /// A setting that makes no sense.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
+    /// A number is out of its range, or no number.
     #[error("{name} must be {wanted}, not {value}")]
     OutOfRange {
+        /// Which setting.
         name: &'static str,
+        /// What it must be, in words.
         wanted: &'static str,
+        /// What it is.
         value: f64,
     },
+    /// Shaking with nothing to damp it.
     #[error("shaking heats the tile without end where there is no drag: set a drag rate above 0")]
     ShakingWithoutDrag,
 }

@@ -12,9 +12,10 @@ use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct Snapshot {
     /// Time since the start (s).
     pub time: f64,
+    /// Where the tile is and how it moves.
     pub motion: Motion,
     /// Energy of magnets and fans (J).
     pub potential: f64,
@@ -24,7 +25,7 @@ pub struct Sample {
     pub in_contact_range: bool,
 }
 
-impl Sample {
+impl Snapshot {
     /// Kinetic and potential energy together (J).
     pub fn total(&self) -> f64 {
         self.potential + self.kinetic
@@ -45,10 +46,13 @@ pub enum Stop {
 /// A finished trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    pub last: Sample,
+    /// The last moment.
+    pub last: Snapshot,
+    /// Why it ended there.
     pub stop: Stop,
-    /// Steps of free flight, and of contact.
+    /// Steps of free flight.
     pub free_steps: usize,
+    /// Steps in contact.
     pub contact_steps: usize,
 }
 
@@ -91,15 +95,16 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// The moving tile's mass and inertia.
     pub fn body(&self) -> &Body {
         &self.body
     }
 
-    /// The sample of a motion at time 0.
-    pub fn sample(&self, motion: &Motion) -> Sample {
+    /// The snapshot of a motion at time 0.
+    pub fn snapshot(&self, motion: &Motion) -> Snapshot {
         let mut trajectory = Trajectory::new(self, motion);
         trajectory.look();
-        trajectory.sample()
+        trajectory.snapshot()
     }
 
     /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
@@ -109,12 +114,12 @@ impl<'a> Simulation<'a> {
         start: &Motion,
         duration: f64,
         rng: &mut ChaCha8Rng,
-        watch: &mut dyn FnMut(&Sample) -> bool,
+        watch: &mut dyn FnMut(&Snapshot) -> bool,
     ) -> Run {
         let mut trajectory = Trajectory::new(self, start);
         let stop = trajectory.advance(duration, rng, watch);
         Run {
-            last: trajectory.sample(),
+            last: trajectory.snapshot(),
             stop,
             free_steps: trajectory.free_steps,
             contact_steps: trajectory.contact_steps,

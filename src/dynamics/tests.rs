@@ -58,8 +58,8 @@ fn run(
     settings: &MotionSettings,
     start: ([f64; 3], [f64; 3]),
     duration: f64,
-) -> (Run, Vec<Sample>) {
-    let mut samples = Vec::new();
+) -> (Run, Vec<Snapshot>) {
+    let mut snapshots = Vec::new();
     let start = Motion {
         configuration: start.0.into(),
         velocity: start.1.into(),
@@ -69,12 +69,12 @@ fn run(
         &start,
         duration,
         &mut rng,
-        &mut |sample| {
-            samples.push(*sample);
+        &mut |snapshot| {
+            snapshots.push(*snapshot);
             false
         },
     );
-    (run, samples)
+    (run, snapshots)
 }
 
 #[test]
@@ -109,9 +109,9 @@ fn energy_is_kept_past_strong_magnets() {
         ([0.50, -0.9, 0.0], [0.0, 0.6, 0.0]),
         ([0.47, -0.9, 0.02], [0.0, 0.8, 0.0]),
     ] {
-        let (run, samples) = run(&problem, body, &ideal(), start, 5.0);
-        let first = samples[0].total();
-        let drift = samples
+        let (run, snapshots) = run(&problem, body, &ideal(), start, 5.0);
+        let first = snapshots[0].total();
+        let drift = snapshots
             .iter()
             .map(|s| (s.total() - first).abs())
             .fold(0.0, f64::max);
@@ -216,7 +216,7 @@ fn shaking_keeps_half_of_kt_in_each_degree_of_freedom() {
         shaking: Some(energy),
         ..ideal()
     };
-    let (_, samples) = run(
+    let (_, snapshots) = run(
         &problem,
         body,
         &settings,
@@ -225,11 +225,11 @@ fn shaking_keeps_half_of_kt_in_each_degree_of_freedom() {
     );
     let masses = body.masses();
     for axis in 0..3 {
-        let mean = samples
+        let mean = snapshots
             .iter()
             .map(|s| 0.5 * masses[axis] * s.motion.velocity[axis].powi(2))
             .sum::<f64>()
-            / samples.len() as f64;
+            / snapshots.len() as f64;
         // 400 s hold 400 independent values of the energy's (correlation time 1 / 2c, both
         // sides), each with a standard deviation of sqrt(2) of its mean.
         let deviation = (mean / (0.5 * energy) - 1.0).abs();
@@ -265,12 +265,12 @@ fn a_fan_pushes_down_its_energy_and_a_steady_one_keeps_the_total() {
     };
     // Slowed down, turned aside and sped up again.
     let start = ([1.4, 0.05, 0.0], [-0.15, 0.0, 0.2]);
-    let (run, samples) = run(&problem, body, &settings, start, 5.0);
-    let total = samples[0].total();
+    let (run, snapshots) = run(&problem, body, &settings, start, 5.0);
+    let total = snapshots[0].total();
     assert_eq!(run.contact_steps, 0, "meant not to touch");
-    assert!(samples.iter().any(|s| s.potential > 0.3 * total));
+    assert!(snapshots.iter().any(|s| s.potential > 0.3 * total));
     assert!(
-        samples
+        snapshots
             .iter()
             .all(|s| (s.total() - total).abs() < 1e-6 * total)
     );

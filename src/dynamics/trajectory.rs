@@ -10,7 +10,7 @@ use super::body::{Motion, Phase};
 use super::collision::Collision;
 use super::flight;
 use super::force::Forces;
-use super::simulation::{Sample, Simulation, Stop};
+use super::simulation::{Simulation, Snapshot, Stop};
 
 /// Contact steps between two looks at the clearance.
 const STEPS_BETWEEN_LOOKS: usize = 8;
@@ -60,8 +60,8 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         }
     }
 
-    pub(super) fn sample(&self) -> Sample {
-        Sample {
+    pub(super) fn snapshot(&self) -> Snapshot {
+        Snapshot {
             time: self.time,
             motion: self.simulation.body.motion(&self.phase),
             potential: self.potential,
@@ -84,7 +84,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         &mut self,
         duration: f64,
         rng: &mut ChaCha8Rng,
-        watch: &mut dyn FnMut(&Sample) -> bool,
+        watch: &mut dyn FnMut(&Snapshot) -> bool,
     ) -> Stop {
         self.look();
         let shaken = self.simulation.settings.shaking;
@@ -110,7 +110,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     }
 
     /// Free flight until contact is near or the time is over.
-    fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Sample) -> bool) -> Option<Stop> {
+    fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let settings = self.simulation.settings;
         let rho = self.simulation.problem.space.rho;
         let mut acceleration = self.forces.acceleration(&self.phase, self.time);
@@ -143,7 +143,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             } else {
                 self.potential = self.forces.conservative(&self.phase.place, self.time).0;
             }
-            if watch(&self.sample()) {
+            if watch(&self.snapshot()) {
                 return Some(Stop::Watcher);
             }
             if self.touching {
@@ -172,7 +172,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     }
 
     /// Contact until the tile has left, rests, or the time is over.
-    fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Sample) -> bool) -> Option<Stop> {
+    fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let simulation = self.simulation;
         let settings = simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
@@ -200,7 +200,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             (self.potential, acceleration) = self.forces.conservative(&self.phase.place, self.time);
             let force = acceleration.component_mul(&simulation.body.masses());
             self.lag = 0.5 * h * force.dot(&self.phase.velocity);
-            if watch(&self.sample()) {
+            if watch(&self.snapshot()) {
                 stop = Some(Stop::Watcher);
                 break;
             }

@@ -15,7 +15,9 @@ use crate::problem::Problem;
 /// side, any orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FarStarts {
+    /// How many are drawn.
     pub count: usize,
+    /// Of their random numbers.
     pub seed: u64,
 }
 

@@ -25,6 +25,7 @@ const CLEARLY: f64 = 1e-9;
 /// Where a descent ended.
 #[derive(Clone, Debug)]
 pub enum Outcome {
+    /// At a minimum.
     Minimum(Box<Stationary>),
     /// The tiles are far apart.
     Free,
@@ -35,7 +36,9 @@ pub enum Outcome {
 /// A descent: its way, start and end included, and where it ended.
 #[derive(Clone, Debug)]
 pub struct Descent {
+    /// Where it went, from start to end.
     pub way: Vec<Point>,
+    /// Where it ended.
     pub outcome: Outcome,
 }
 

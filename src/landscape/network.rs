@@ -4,6 +4,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use ordered_float::OrderedFloat;
 use petgraph::algo::astar;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::unionfind::UnionFind;
@@ -49,8 +50,9 @@ pub struct Network {
 pub struct Merge {
     /// The link that joins them.
     pub link: usize,
-    /// The labelled node with the lowest energy in each basin; the first is the lower one.
+    /// The labelled node with the lowest energy in either basin: this one is the lower.
     pub lower: usize,
+    /// The labelled node with the lowest energy in the other basin.
     pub upper: usize,
 }
 
@@ -66,10 +68,16 @@ pub enum Cost {
     Improbability,
     /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
     /// exceed `highest` (J).
-    Below { highest: f64, per_metre: f64 },
+    Below {
+        /// No link's peak on the path may exceed this (J).
+        highest: f64,
+        /// Energy (J) for each metre of the way.
+        per_metre: f64,
+    },
 }
 
 impl Network {
+    /// The milestones become nodes and the edges links of the same numbers.
     pub fn new(roadmap: Roadmap) -> Self {
         let mut network = Self::default();
         let (nodes, links) = (roadmap.milestones.len(), roadmap.edges.len());
@@ -85,6 +93,7 @@ impl Network {
         network
     }
 
+    /// Adds a node that nothing joins yet, `None` for free tiles; its number.
     pub fn add_node(&mut self, node: Option<(Configuration, f64)>) -> usize {
         self.nodes.push(node);
         self.graph.add_node(()).index()
@@ -177,7 +186,7 @@ impl Network {
             Way::Straight => Some(from?.interpolate(&to?, costs.peak_at)),
             Way::Points(points) => points
                 .iter()
-                .max_by(|a, b| a.energy.total_cmp(&b.energy))
+                .max_by_key(|p| OrderedFloat(p.energy))
                 .map(|p| p.q),
         }
     }
@@ -195,8 +204,8 @@ impl Network {
     fn spanning_links(&self) -> Vec<u32> {
         let later = self.spanned as u32..self.links.len() as u32;
         let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        let peak = |number: &u32| self.links[*number as usize].costs.peak;
-        ascending.par_sort_unstable_by(|a, b| peak(a).total_cmp(&peak(b)).then(a.cmp(b)));
+        let peak = |number: u32| OrderedFloat(self.links[number as usize].costs.peak);
+        ascending.par_sort_unstable_by_key(|&number| (peak(number), number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
             let link = &self.links[*number as usize];
@@ -318,7 +327,7 @@ impl Network {
             .edges_connecting(from, to)
             .map(|edge| edge.id().index())
             .filter(|number| self.links[*number].costs.peak <= highest)
-            .min_by(|a, b| price(*a).total_cmp(&price(*b)).then(a.cmp(b)))?;
+            .min_by_key(|&number| (OrderedFloat(price(number)), number))?;
         Some((number, self.links[number].from as usize == from.index()))
     }
 

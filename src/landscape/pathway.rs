@@ -25,7 +25,8 @@ const SAME: f64 = 1e-7;
 pub struct Lowest {
     /// The node that it reaches.
     pub end: usize,
-    /// Never empty. Where detours could be cut short, it may lie below what the network holds.
+    /// From the first node to the one it reaches; never empty. Where detours could be cut short, it
+    /// may lie below what the network holds.
     pub pathway: Pathway,
 }
 

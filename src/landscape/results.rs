@@ -1,5 +1,6 @@
 //! What is found out about a landscape: states, barriers and pathways, as plain values.
 
+use ordered_float::OrderedFloat;
 use serde::{Deserialize, Serialize};
 
 use crate::configuration::Configuration;
@@ -245,7 +246,9 @@ impl Barrier {
 
 /// The point of a pathway with the highest energy.
 pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
-    pathway.iter().max_by(|a, b| a.energy.total_cmp(&b.energy))
+    pathway
+        .iter()
+        .max_by_key(|point| OrderedFloat(point.energy))
 }
 
 /// A pathway by another cost than the highest energy.

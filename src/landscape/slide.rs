@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
 use crate::problem::Problem;
-use crate::roadmap::profile::{Sample, inner_extremes};
+use crate::roadmap::profile::{Knot, inner_extremes};
 
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
 const RESIDUAL: f64 = 1e-12;
@@ -33,12 +33,16 @@ const GRAZE: f64 = 1e-4;
 /// A configuration with its energy (J) and the energy's gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
+    /// The configuration.
     pub q: Configuration,
+    /// U (J).
     pub energy: f64,
+    /// Of U, by x and y (J/m) and by theta (J/rad).
     pub gradient: Vector3<f64>,
 }
 
 impl Point {
+    /// The point at a configuration, its energy worked out.
     pub fn new(problem: &Problem, q: Configuration) -> Self {
         let (energy, gradient) = problem.energy_and_gradient(&q);
         Self {
@@ -160,7 +164,7 @@ fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
     let fall = from.energy - to.energy;
     // Energies from the start on, which differ by less than they amount to.
     let ends = [(0.0, from, 0.0), (1.0, to, -fall)];
-    let [start, end] = ends.map(|(t, point, energy)| Sample {
+    let [start, end] = ends.map(|(t, point, energy)| Knot {
         t,
         energy,
         slope: point.gradient.dot(&step),

@@ -7,6 +7,7 @@
 //! in it.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use ordered_float::OrderedFloat;
 
 use super::slide::{self, Point, length};
 use crate::configuration::Configuration;
@@ -29,6 +30,7 @@ const UNBALANCED: f64 = 1e-5;
 /// A stationary point with its spectrum.
 #[derive(Clone, Debug)]
 pub struct Stationary {
+    /// Where it is, with its energy and gradient.
     pub point: Point,
     /// Contacts held closed.
     pub touching: Vec<Touch>,
@@ -147,10 +149,8 @@ fn most_alike(
     along: &Vector3<f64>,
 ) -> Option<usize> {
     let metric = problem.mass_metric(point.q.theta);
-    (0..modes.len()).max_by(|&a, &b| {
-        let cosine = |k: usize| along.dot(&(metric * modes[k].1)).abs();
-        cosine(a).total_cmp(&cosine(b))
-    })
+    let cosine = |k: usize| along.dot(&(metric * modes[k].1)).abs();
+    (0..modes.len()).max_by_key(|&k| OrderedFloat(cosine(k)))
 }
 
 /// The surface on which some contacts stay closed.
@@ -270,7 +270,7 @@ impl<'a> Surface<'a> {
             let worst = slide::constraints(self.problem, &next, margin)
                 .into_iter()
                 .filter(|c| !self.closed.contains(&c.touch))
-                .min_by(|a, b| a.gap.total_cmp(&b.gap))
+                .min_by_key(|c| OrderedFloat(c.gap))
                 .filter(|c| c.gap < -1e-11);
             let Some(worst) = worst else {
                 let closing = closing.filter(|touch| self.is_independent(&next, *touch));
@@ -340,7 +340,7 @@ impl<'a> Surface<'a> {
                 (eigen.eigenvalues[k], direction)
             })
             .collect();
-        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        modes.sort_by_key(|(eigenvalue, _)| OrderedFloat(*eigenvalue));
         Some(modes)
     }
 }

@@ -23,7 +23,7 @@ use super::lever::Lever;
 use super::{Potential, finite, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// A point dipole in its tile's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ pub fn pair(m1: Vector2<f64>, m2: Vector2<f64>, r: Vector2<f64>) -> (f64, Vector
     let distance = r.norm();
     let d = r / distance;
     let (along1, along2, dot) = (m1.dot(&d), m2.dot(&d), m1.dot(&m2));
-    let scale = MU0 / (4.0 * std::f64::consts::PI * distance.powi(3));
+    let scale = MU0_OVER_4PI / distance.powi(3);
     let energy = scale * (dot - 3.0 * along1 * along2);
     let force =
         (m2 * along1 + m1 * along2 + d * (dot - 5.0 * along1 * along2)) * (3.0 * scale / distance);
@@ -79,6 +79,7 @@ pub struct ScalarDipoles {
 }
 
 impl ScalarDipoles {
+    /// Of the fixed and the moving tile's dipoles, each in its tile's frame.
     pub fn new(fixed: &[Dipole], moving: &[Dipole]) -> Self {
         Self {
             fixed: fixed.to_vec(),
@@ -95,7 +96,7 @@ impl ScalarDipoles {
             let position = q.transform(second.position);
             for first in &self.fixed {
                 let r = (position - first.position).norm() - reach;
-                let k = 1e-7 * first.moment.norm() * second.moment.norm();
+                let k = MU0_OVER_4PI * first.moment.norm() * second.moment.norm();
                 sum += motion::bound(terms, k, r);
             }
         }
@@ -178,7 +179,7 @@ mod tests {
 
     #[test]
     fn dipoles_in_line_side_by_side_and_at_right_angles() {
-        // K / r^3 with moments of 2 and 3 A m^2 at 0.1 m.
+        // K / r^3, K = 1e-7 m1 m2, with moments of 2 and 3 A m^2 at 0.1 m.
         let unit = 1e-7 * 6.0 / 1e-3;
         let energy = |a: Vector2<f64>, b: Vector2<f64>| pair(a * 2.0, b * 3.0, X * 0.1).0;
         for (a, b, expected) in [
@@ -200,7 +201,7 @@ mod tests {
             let r = random_vector(&mut rng, 1.0);
             let (energy, force, slope) = pair(m1, m2, r);
             let (other, reaction, counter_slope) = pair(m2, m1, -r);
-            let size = 1e-7 * m1.norm() * m2.norm() / r.norm().powi(3);
+            let size = MU0_OVER_4PI * m1.norm() * m2.norm() / r.norm().powi(3);
             assert!((energy - other).abs() < 1e-14 * size);
             assert!((force + reaction).norm() < 1e-14 * size / r.norm());
             // No net torque on the two together.
@@ -291,7 +292,7 @@ mod tests {
         let potential = ScalarDipoles::new(&[dipole], &[dipole]);
         // In line, U = -2 K / r^3 at r = x: derivatives of 24 K / r^5 and 720 K / r^7, to which
         // turns, which the bounds allow for, add what they may.
-        let (r, k, turn) = (0.02, 1e-7, 4.0);
+        let (r, k, turn) = (0.02, MU0_OVER_4PI, 4.0);
         let q = Configuration::new(r, 0.0, 0.0);
         let second = k * (24.0 / r + 18.0 * turn + 2.0 * turn * turn * r) / r.powi(4);
         assert!((potential.curvature_bound(&q, 0.0) / second - 1.0).abs() < 1e-12);

@@ -21,7 +21,8 @@
 //! and the dipoles' error in each.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
-//! ([`bounds`]), of which barriers are certified; not so with shields.
+//! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields
+//! act smoothly; blocks behind shields and the nearest-face rule have none.
 //!
 //! Sources: Jackson, *Classical Electrodynamics* (3rd ed.), chapter 5, for the dipole; Akoun and
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, of whose integrals

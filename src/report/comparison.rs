@@ -27,7 +27,9 @@ const CHECKED: [&str; 3] = [
 pub struct Comparison {
     /// Best first.
     pub designs: Vec<Assessment>,
+    /// The quantity they are ranked by.
     pub by: Quantity,
+    /// What each was assessed with.
     pub settings: AssessmentSettings,
 }
 

@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::dynamics::docking::{
     Docking, DockingMap, DockingSettings, ENGINE, End, MatchRule, OnRate, Start, share_within,
 };
-use crate::dynamics::{Motion, Sample};
+use crate::dynamics::{Motion, Snapshot};
 use crate::landscape::Proportion;
 use crate::problem::Problem;
 use crate::units::si;
@@ -188,18 +188,18 @@ pub fn runs_csv(docking: &Docking) -> String {
     text
 }
 
-/// One trajectory, a sample a line.
-pub fn trajectory_csv(samples: &[Sample]) -> String {
+/// One trajectory, a snapshot a line.
+pub fn trajectory_csv(snapshots: &[Snapshot]) -> String {
     let mut text = "time_s,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,\
                     potential_J,kinetic_J\n"
         .to_owned();
-    for sample in samples {
+    for snapshot in snapshots {
         text += &format!(
             "{:.6},{},{:.9e},{:.9e}\n",
-            sample.time,
-            motion_fields(&sample.motion),
-            sample.potential,
-            sample.kinetic
+            snapshot.time,
+            motion_fields(&snapshot.motion),
+            snapshot.potential,
+            snapshot.kinetic
         );
     }
     text

@@ -22,6 +22,7 @@ pub struct DynamicsEntry {
     pub contradicted: usize,
     /// Barriers without certified bounds that are shown to be estimated too high.
     pub overestimated: usize,
+    /// One for each barrier that was checked.
     pub barriers: Vec<BarrierCheckEntry>,
 }
 
@@ -29,14 +30,19 @@ pub struct DynamicsEntry {
 #[derive(Debug, Serialize)]
 #[allow(non_snake_case)]
 pub struct BarrierCheckEntry {
+    /// The state that the pathway leaves.
     pub from: Value,
+    /// The state that it leads to, or `free`.
     pub to: Value,
+    /// Whether moving tiles refute what is proved of the barrier.
     pub contradicted: bool,
+    /// Whether moving tiles refute its estimate, of which nothing is proved.
     pub overestimated: bool,
     /// Whether the ceiling is a certified bound, not an estimate.
     pub certified: bool,
     /// Trajectories stayed below this total energy; null where the state is proved caged.
     pub ceiling_J: f64,
+    /// Trajectories below the ceiling.
     pub below: BelowEntry,
     /// The same with more energy than the pathway needs.
     pub above: CrossingsEntry,
@@ -51,14 +57,18 @@ pub struct BarrierCheckEntry {
 /// Trajectories and how many of them crossed.
 #[derive(Debug, Serialize)]
 pub struct CrossingsEntry {
+    /// How many there were.
     pub runs: usize,
+    /// How many of them crossed.
     pub crossed: usize,
 }
 
 /// Trajectories below a barrier.
 #[derive(Debug, Serialize)]
 pub struct BelowEntry {
+    /// How many there were.
     pub runs: usize,
+    /// How many of them crossed.
     pub crossed: usize,
     /// More of them that proved nothing, lifted over the ceiling by the integration's error.
     pub spoilt: usize,
@@ -70,6 +80,7 @@ pub struct BelowEntry {
 #[derive(Debug, Serialize)]
 #[allow(non_snake_case)]
 pub struct MotionEntry {
+    /// x, y (m) and theta (rad).
     pub pose: [f64; 3],
     /// Of the centre of mass (m/s, m/s), and the turning rate (rad/s).
     pub velocity: [f64; 3],

@@ -16,7 +16,9 @@ const REASONS: usize = 5;
 /// A finished sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep<'a> {
+    /// What was asked.
     pub plan: &'a Plan,
+    /// The points of the plan, in order.
     pub points: Vec<Point>,
     /// What came of each point.
     pub outcomes: Vec<Outcome>,
@@ -41,6 +43,7 @@ impl<'a> Sweep<'a> {
         })
     }
 
+    /// How many points are done, impossible, failed and missing.
     pub fn progress(&self) -> Progress {
         Progress::new(self.outcomes.iter().map(Some))
     }

@@ -1,5 +1,6 @@
 //! Motions between milestones and what they cost.
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use super::Milestone;
@@ -24,14 +25,18 @@ pub struct EdgeCosts {
 /// A free motion between two milestones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
+    /// The milestone it leaves.
     pub from: u32,
+    /// The milestone it reaches.
     pub to: u32,
+    /// Of the motion from the one to the other, and back.
     pub costs: EdgeCosts,
 }
 
 /// How edges are weighed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeSettings {
+    /// How closely the energy is followed along an edge.
     pub tolerance: ProfileTolerance,
     /// Thermal energy kT (J) of the transition probabilities.
     pub thermal_energy: f64,
@@ -104,7 +109,7 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     }
     let length = along[along.len() - 1];
     let highest = (0..energies.len())
-        .max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+        .max_by_key(|&k| OrderedFloat(energies[k]))
         .unwrap_or(0);
     let mut work = [0.0; 2];
     for pair in energies.windows(2) {

@@ -33,9 +33,17 @@ pub enum Acceptance {
     /// The linear rule: with probability 1 below `lowest` (J), 0 above `highest` (J), and
     /// `(highest - U) / (highest - lowest)` between. Source: Singh, Latombe and Brutlag, *A motion
     /// planning approach to flexible ligand binding* (ISMB 1999), "Generation of milestones".
-    Linear { lowest: f64, highest: f64 },
+    Linear {
+        /// All below this energy (J) are taken.
+        lowest: f64,
+        /// None above this energy (J) is taken.
+        highest: f64,
+    },
     /// With probability `min(1, exp(-U / energy))`, `energy` (J) > 0.
-    Boltzmann { energy: f64 },
+    Boltzmann {
+        /// The energy (J) at which a share of 1/e is taken.
+        energy: f64,
+    },
 }
 
 impl Acceptance {
@@ -53,8 +61,11 @@ impl Acceptance {
 /// How milestones are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MilestoneSettings {
+    /// How many are drawn.
     pub count: usize,
+    /// Which proposals are taken.
     pub acceptance: Acceptance,
+    /// Of all random numbers.
     pub seed: u64,
 }
 

@@ -18,12 +18,16 @@ use crate::problem::Problem;
 /// A configuration of the roadmap with its energy (J) and the energy's gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Milestone {
+    /// Where it is.
     pub configuration: Configuration,
+    /// U (J).
     pub energy: f64,
+    /// Of U, by x and y (J/m) and by theta (J/rad).
     pub gradient: Vector3<f64>,
 }
 
 impl Milestone {
+    /// The milestone at a configuration, its energy worked out.
     pub fn new(problem: &Problem, configuration: Configuration) -> Self {
         let (energy, gradient) = problem.energy_and_gradient(&configuration);
         Self {
@@ -37,7 +41,9 @@ impl Milestone {
 /// Milestones and the free motions between neighbours.
 #[derive(Clone, Debug, Default)]
 pub struct Roadmap {
+    /// By their numbers.
     pub milestones: Vec<Milestone>,
+    /// Between milestones, by their numbers in `milestones`.
     pub edges: Vec<Edge>,
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::{E, PI, TAU};
 use std::num::NonZeroUsize;
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use super::Milestone;
@@ -27,6 +28,7 @@ pub struct NeighbourSearch<'a> {
 }
 
 impl<'a> NeighbourSearch<'a> {
+    /// Over milestones, which are numbered as they come.
     pub fn new(milestones: &[Milestone], space: &'a ConfigurationSpace) -> Self {
         let points: Vec<[f64; 3]> = milestones
             .iter()
@@ -49,7 +51,7 @@ impl<'a> NeighbourSearch<'a> {
         let seam = self.space.rho * (PI - q.theta.abs());
         if found.len() < k || found.last().is_some_and(|f| f.0 >= seam * seam) {
             found.extend(self.ask(q, count, -q.theta.signum() * TAU));
-            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            found.sort_by_key(|&(squared, index)| (OrderedFloat(squared), index));
             let mut seen = std::collections::HashSet::new();
             found.retain(|f| seen.insert(f.1));
             found.truncate(k);
@@ -66,7 +68,7 @@ impl<'a> NeighbourSearch<'a> {
             .into_iter()
             .map(|f| (f.distance, f.item))
             .collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.sort_by_key(|&(squared, index)| (OrderedFloat(squared), index));
         found
     }
 }
@@ -138,7 +140,7 @@ mod tests {
                 .enumerate()
                 .map(|(i, other)| (space.distance(q, &other.configuration).powi(2), i as u32))
                 .collect();
-            plain.sort_by(|a, b| a.0.total_cmp(&b.0));
+            plain.sort_by_key(|(squared, _)| OrderedFloat(*squared));
             let found = search.nearest(q, 12);
             assert_eq!(found.len(), 12);
             for (f, p) in found.iter().zip(&plain) {

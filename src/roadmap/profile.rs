@@ -1,6 +1,7 @@
 //! The energy along a straight motion, sampled as finely as its curvature demands.
 
 use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -17,7 +18,7 @@ pub struct ProfileTolerance {
 
 /// A point of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct Knot {
     /// Fraction of the motion, 0 to 1.
     pub t: f64,
     /// U (J).
@@ -26,12 +27,13 @@ pub struct Sample {
     pub slope: f64,
 }
 
-/// The energy along a motion as a cubic spline: samples in order, both ends included, and the
+/// The energy along a motion as a cubic spline: knots in order, both ends included, and the
 /// spline's own highest and lowest points between them. The energy nowhere exceeds the larger of
 /// its two neighbours by more than the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    pub samples: Vec<Sample>,
+    /// In the order of t.
+    pub knots: Vec<Knot>,
 }
 
 /// Stretches are not halved more often than this.
@@ -60,15 +62,15 @@ impl Profile {
         tolerance: &ProfileTolerance,
     ) -> Self {
         let step = a.configuration.step_to(&b.configuration);
-        let end = |t: f64, milestone: &Milestone| Sample {
+        let end = |t: f64, milestone: &Milestone| Knot {
             t,
             energy: milestone.energy,
             slope: milestone.gradient.dot(&step),
         };
         let mut profile = Self {
-            samples: Vec::with_capacity(16),
+            knots: Vec::with_capacity(16),
         };
-        profile.samples.push(end(0.0, a));
+        profile.knots.push(end(0.0, a));
         let whole = Motion {
             problem,
             from: a.configuration,
@@ -81,13 +83,13 @@ impl Profile {
     }
 
     /// `fourth` is a bound of the fourth derivative that holds on a longer stretch.
-    fn refine(&mut self, motion: &Motion, [a, b]: [Sample; 2], fourth: f64, depth: u32) {
+    fn refine(&mut self, motion: &Motion, [a, b]: [Knot; 2], fourth: f64, depth: u32) {
         let mut fourth = fourth;
         if depth >= DEEPEST || motion.is_settled(&a, &b, &mut fourth) {
             self.finish(&a, &b);
             return;
         }
-        let middle = motion.sample((a.t + b.t) / 2.0);
+        let middle = motion.knot((a.t + b.t) / 2.0);
         if fourth == f64::INFINITY && motion.is_foreseen(&a, &middle, &b) {
             self.finish(&a, &middle);
             self.finish(&middle, &b);
@@ -97,24 +99,24 @@ impl Profile {
         self.refine(motion, [middle, b], fourth, depth + 1);
     }
 
-    fn finish(&mut self, a: &Sample, b: &Sample) {
-        self.samples.extend(inner_extremes(a, b));
-        self.samples.push(*b);
+    fn finish(&mut self, a: &Knot, b: &Knot) {
+        self.knots.extend(inner_extremes(a, b));
+        self.knots.push(*b);
     }
 
-    /// The highest sample.
-    pub fn peak(&self) -> Sample {
+    /// The highest knot.
+    pub fn peak(&self) -> Knot {
         *self
-            .samples
+            .knots
             .iter()
-            .max_by(|a, b| a.energy.total_cmp(&b.energy))
+            .max_by_key(|knot| OrderedFloat(knot.energy))
             .expect("a profile has two ends")
     }
 
     /// Mechanical work against the energy, forwards and backwards (J): the sum of all climbs.
     pub fn work(&self) -> (f64, f64) {
         let mut work = (0.0, 0.0);
-        for pair in self.samples.windows(2) {
+        for pair in self.knots.windows(2) {
             let climb = pair[1].energy - pair[0].energy;
             work.0 += climb.max(0.0);
             work.1 += (-climb).max(0.0);
@@ -127,16 +129,16 @@ impl Profile {
         let mut i = 1;
         (0..=count).map(move |k| {
             let t = k as f64 / count as f64;
-            while i + 1 < self.samples.len() && self.samples[i].t <= t {
+            while i + 1 < self.knots.len() && self.knots[i].t <= t {
                 i += 1;
             }
-            cubic(&self.samples[i - 1], &self.samples[i], t)
+            cubic(&self.knots[i - 1], &self.knots[i], t)
         })
     }
 }
 
-/// The cubic through the values and slopes of two samples.
-fn cubic(a: &Sample, b: &Sample, t: f64) -> f64 {
+/// The cubic through the values and slopes of two knots.
+fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
     let h = b.t - a.t;
     let u = (t - a.t) / h;
     let (u2, u3) = (u * u, u * u * u);
@@ -146,8 +148,8 @@ fn cubic(a: &Sample, b: &Sample, t: f64) -> f64 {
         + b.slope * h * (u3 - u2)
 }
 
-/// Where the cubic through two samples is highest or lowest between them, in order.
-pub(crate) fn inner_extremes(a: &Sample, b: &Sample) -> impl Iterator<Item = Sample> {
+/// Where the cubic through two knots is highest or lowest between them, in order.
+pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
     // The derivative by u = (t - a.t) / h is p u^2 + 2 q u + r.
     let h = b.t - a.t;
     let climb = b.energy - a.energy;
@@ -168,7 +170,7 @@ pub(crate) fn inner_extremes(a: &Sample, b: &Sample) -> impl Iterator<Item = Sam
         .filter(|u| *u > 1e-9 && *u < 1.0 - 1e-9)
         .map(move |u| {
             let t = a.t + u * h;
-            Sample {
+            Knot {
                 t,
                 energy: cubic(&a, &b, t),
                 slope: 0.0,
@@ -191,21 +193,21 @@ impl Motion<'_> {
         self.from.moved(self.step * t)
     }
 
-    fn sample(&self, t: f64) -> Sample {
+    fn knot(&self, t: f64) -> Knot {
         let (energy, gradient) = self.problem.energy_and_gradient(&self.at(t));
         let slope = gradient.dot(&self.step);
-        Sample { t, energy, slope }
+        Knot { t, energy, slope }
     }
 
     /// Error (J) allowed on a stretch.
-    fn allowed(&self, a: &Sample, b: &Sample) -> f64 {
+    fn allowed(&self, a: &Knot, b: &Knot) -> f64 {
         let highest = a.energy.max(b.energy);
         self.tolerance.absolute + self.tolerance.relative * highest.abs()
     }
 
     /// Whether a stretch shorter than the energy's own features has in its middle what the cubic
     /// through its ends says.
-    fn is_foreseen(&self, a: &Sample, middle: &Sample, b: &Sample) -> bool {
+    fn is_foreseen(&self, a: &Knot, middle: &Knot, b: &Knot) -> bool {
         let length = self.displacement * (b.t - a.t);
         length <= self.problem.potential().feature_length()
             && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
@@ -213,7 +215,7 @@ impl Motion<'_> {
 
     /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
     /// where that is worth while.
-    fn is_settled(&self, a: &Sample, b: &Sample, fourth: &mut f64) -> bool {
+    fn is_settled(&self, a: &Knot, b: &Knot, fourth: &mut f64) -> bool {
         let allowed = self.allowed(a, b);
         let duration = b.t - a.t;
         let is_close =
@@ -240,7 +242,7 @@ impl Motion<'_> {
 
 /// Upper bound of a function on an interval from its values and slopes at the ends and a bound of
 /// its second derivative: the highest point of the smaller of the two parabolas.
-fn upper_bound(a: &Sample, b: &Sample, duration: f64, curvature: f64) -> f64 {
+fn upper_bound(a: &Knot, b: &Knot, duration: f64, curvature: f64) -> f64 {
     if !curvature.is_finite() {
         return f64::INFINITY;
     }

@@ -25,9 +25,11 @@ const SEED: usize = 12;
 pub struct Plan {
     /// Version of tilebind.
     pub tilebind: String,
+    /// What is varied; no two have one name.
     pub designs: Vec<Source>,
     /// The first one varies slowest.
     pub axes: Vec<Axis>,
+    /// How every point is assessed.
     pub settings: AssessmentSettings,
     /// Goes into every point's name, and so into its seed.
     pub seed: u64,
@@ -54,6 +56,7 @@ pub struct Point {
     pub index: usize,
     /// Hash of the design, the settings and the version.
     pub name: String,
+    /// Of its random numbers, from its name.
     pub seed: u64,
     /// Which of the plan's designs.
     pub design: usize,
@@ -66,13 +69,17 @@ pub struct Point {
 /// Part `number`, from 1, of `of` parts of a sweep: every `of`th point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
+    /// Which part, from 1.
     pub number: usize,
+    /// How many parts there are.
     pub of: usize,
 }
 
 impl Shard {
+    /// The only part of a sweep that is not divided.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
+    /// Whether the part holds a point.
     pub fn contains(&self, point: &Point) -> bool {
         point.index % self.of + 1 == self.number
     }
@@ -81,18 +88,30 @@ impl Shard {
 /// Why there is no such sweep.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError {
+    /// A point is no design that can be built.
     #[error(transparent)]
     Design(#[from] Box<DesignError>),
+    /// A key is varied by two axes.
     #[error("`{0}` is varied twice")]
     Twice(String),
+    /// There are more points than can be handled.
     #[error("the sweep has {0} points, more than {MOST_POINTS}")]
     TooMany(usize),
+    /// Two designs have one name.
     #[error("two designs are called `{0}`: give them different names")]
     SameName(String),
+    /// A key cannot be varied.
     #[error("`{path}` cannot be varied: {reason}")]
-    Unknown { path: String, reason: String },
+    Unknown {
+        /// Its path in the design.
+        path: String,
+        /// Why not.
+        reason: String,
+    },
+    /// What was read is no manifest.
     #[error("this is no manifest of a sweep: {0}")]
     Malformed(String),
+    /// The manifest was written by another version.
     #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
     Version(String),
 }

@@ -18,15 +18,19 @@ const PARTIAL: &str = ".partial";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "status", rename_all = "lowercase")]
 pub enum Outcome {
+    /// It was assessed.
     Done {
+        /// What was found.
         result: Box<Assessment>,
     },
     /// There is no such design.
     Impossible {
+        /// Why, as told to whoever wrote the design.
         reason: String,
     },
     /// The analysis broke down: a fault of tilebind.
     Failed {
+        /// What went wrong.
         reason: String,
     },
 }
@@ -43,14 +47,20 @@ struct Record {
 /// How many points there are of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Progress {
+    /// All points.
     pub points: usize,
+    /// Those that were assessed.
     pub done: usize,
+    /// Those of which there is no design.
     pub impossible: usize,
+    /// Those whose analysis broke down.
     pub failed: usize,
+    /// Those that nothing is known of yet.
     pub missing: usize,
 }
 
 impl Progress {
+    /// Counts what came of points, `None` where nothing is known.
     pub fn new<'a>(outcomes: impl IntoIterator<Item = Option<&'a Outcome>>) -> Self {
         let mut progress = Self::default();
         for outcome in outcomes {

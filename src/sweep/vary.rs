@@ -11,9 +11,13 @@ const MOST_VALUES: usize = 100_000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
+    /// `true` or `false`.
     Truth(bool),
+    /// A whole number, in the key's unit.
     Whole(i64),
+    /// Any other finite number, in the key's unit.
     Number(f64),
+    /// A word.
     Text(String),
 }
 
@@ -56,7 +60,9 @@ impl fmt::Display for Value {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
+    /// The dotted path.
     pub key: String,
+    /// In the order of the sweep.
     pub values: Vec<Value>,
 }
 

@@ -8,7 +8,10 @@
 //! foot; ear clipping would leave long slivers that reach right across the tile, and every test
 //! for overlap would have to look at most of them.
 
+use std::cmp::Reverse;
+
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use super::outline::{cross, segments_meet};
 
@@ -24,7 +27,7 @@ pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>>
     let mut diagonals = Vec::new();
     triangulation.collect(0, vertices.len() - 1, &mut parts, &mut diagonals);
     let length = |&(i, j): &(usize, usize)| (vertices[i] - vertices[j]).norm();
-    diagonals.sort_by(|a, b| length(b).total_cmp(&length(a)).then(a.cmp(b)));
+    diagonals.sort_by_key(|d| (Reverse(OrderedFloat(length(d))), *d));
     for (i, j) in diagonals {
         merge(&mut parts, vertices, i, j);
     }

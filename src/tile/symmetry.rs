@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Rotation2, Vector2};
+use ordered_float::OrderedFloat;
 
 use super::{Face, Magnet, Tile};
 use crate::configuration::wrap_angle;
@@ -28,7 +29,7 @@ pub fn rotations(tile: &Tile) -> Vec<f64> {
 /// The angle in (0, 2 pi) that turns each vertex into the one `shift` places on, if there is one.
 fn turn_of_outline(vertices: &[Vector2<f64>], shift: usize, scale: f64) -> Option<f64> {
     let n = vertices.len();
-    let farthest = (0..n).max_by(|&i, &j| vertices[i].norm().total_cmp(&vertices[j].norm()))?;
+    let farthest = (0..n).max_by_key(|&i| OrderedFloat(vertices[i].norm()))?;
     let (from, to) = (vertices[farthest], vertices[(farthest + shift) % n]);
     let angle = (to.y.atan2(to.x) - from.y.atan2(from.x)).rem_euclid(TAU);
     let rotation = Rotation2::new(angle);

@@ -5,7 +5,7 @@ use tilebind::Configuration;
 use tilebind::potential::cuboid::block::{Block, exact};
 use tilebind::potential::{CuboidPotential, DipolePotential, Potential};
 use tilebind::tile::Magnet;
-use tilebind::units::MU0;
+use tilebind::units::{MU0, MU0_OVER_4PI};
 
 const SIZE: [f64; 3] = [0.010, 0.012, 0.003];
 const OTHER: [f64; 3] = [0.006, 0.008, 0.005];
@@ -196,7 +196,7 @@ fn the_hand_over_to_the_far_form_leaves_no_step() {
         );
         // The far form's own error and the quadrature's, at all distances where the pole faces
         // still have enough digits.
-        let scale = MU0 / (4.0 * std::f64::consts::PI) * fixed[0].moment.powi(2) / r.powi(3);
+        let scale = MU0_OVER_4PI * fixed[0].moment.powi(2) / r.powi(3);
         if r < 0.1 {
             assert!((energy - pair.energy).abs() < 4e-9 * scale, "{r}");
             assert!(

@@ -30,7 +30,9 @@ pub const RELAXED: f64 = 2.0 * TOUCH;
 /// distance (m) of a vertex from the line of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
+    /// The signed distance (m), to second order.
     pub form: Quadratic,
+    /// By how much (m) `form` may be too low anywhere in the cell, at least 0.
     pub slack: f64,
 }
 
@@ -42,7 +44,9 @@ pub enum CellContact {
     /// The free configurations satisfy every one of `cuts` and at least one cut of each pair in
     /// `corners`.
     Open {
+        /// Conditions that all hold.
         cuts: Vec<Cut>,
+        /// Pairs of conditions of which one holds at least.
         corners: Vec<[Cut; 2]>,
         /// How deep (m) a probed point lies inside the other tile at the centre, where no cut
         /// tells; 0 if none does.
@@ -81,6 +85,7 @@ struct Findings {
 }
 
 impl ContactCells {
+    /// For the outlines of the two tiles.
     pub fn new(contact: &Contact) -> Self {
         Self {
             fixed: Side::new(contact.fixed()),

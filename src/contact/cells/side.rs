@@ -1,6 +1,7 @@
 //! One of two tiles, as the cells of a subdivision see it.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use crate::contact::tree::CircleTree;
 use crate::tile::Outline;
@@ -38,11 +39,7 @@ impl Side {
             .collect();
         inner.push(outline.centroid());
         inner.retain(|p| outline.contains(*p));
-        inner.sort_by(|a, b| {
-            outline
-                .signed_distance(*a)
-                .total_cmp(&outline.signed_distance(*b))
-        });
+        inner.sort_by_cached_key(|p| OrderedFloat(outline.signed_distance(*p)));
         inner.truncate(INNER);
         Self {
             outline: outline.clone(),

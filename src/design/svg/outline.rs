@@ -1,6 +1,7 @@
 //! A tile's outline, drawn as a closed line.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use super::super::error::Source;
 use super::super::quantity;
@@ -183,7 +184,7 @@ fn joined(segments: &Segments, corners: &Entry) -> Result<Segments> {
 fn nearest(segments: &Segments, [x, y]: [f64; 2]) -> (usize, [f64; 2]) {
     let distance = |start: &Vector2<f64>| (start.x - x).hypot(start.y - y);
     let starts = segments.iter().map(|segment| segment[0]).enumerate();
-    let nearest = starts.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+    let nearest = starts.min_by_key(|(_, start)| OrderedFloat(distance(start)));
     nearest.map_or((0, [f64::NAN; 2]), |(k, start)| (k, [start.x, start.y]))
 }
 

@@ -49,6 +49,7 @@ use checker::Checker;
 /// What the check does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckSettings {
+    /// Of all random numbers.
     pub seed: u64,
     /// Trajectories below each barrier.
     pub runs: usize,
@@ -72,8 +73,9 @@ impl Default for CheckSettings {
 /// Trajectories with less total energy than a barrier.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Below {
-    /// How many there were, and how many of them crossed.
+    /// How many there were.
     pub runs: usize,
+    /// How many of them crossed.
     pub crossed: usize,
     /// How many more proved nothing, lifted over the barrier by the integration's error.
     pub spoilt: usize,
@@ -87,6 +89,7 @@ pub struct Side {
     /// `None` for no reported state, and where the integration's error lifted the tile over the
     /// ceiling.
     pub ended: Option<Place>,
+    /// How the end fits the pathway.
     pub verdict: SideVerdict,
 }
 
@@ -105,12 +108,16 @@ pub enum SideVerdict {
 /// What moving tiles say of one barrier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarrierCheck {
+    /// The state that the pathway leaves.
     pub from: Place,
+    /// The state that it leads to, or free tiles.
     pub to: Place,
     /// The energy (J) that trajectories stayed below: the barrier's certified lower bound, or the
     /// saddle energy less what it may be off. Infinite where the state is proved caged.
     pub ceiling: f64,
+    /// Whether the ceiling is a certified bound, not an estimate.
     pub certified: bool,
+    /// Trajectories with less energy than the ceiling.
     pub below: Below,
     /// Trajectories that crossed with 0.1 to 2 barriers more energy than the pathway needs, and how
     /// many there were.

@@ -10,6 +10,7 @@ pub struct MapCell {
     pub orientation: [f64; 2],
     /// Speed (m/s), lowest and highest.
     pub speed: [f64; 2],
+    /// How many of the starts in the cell matched.
     pub matched: Proportion,
 }
 

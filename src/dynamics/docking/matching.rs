@@ -1,6 +1,7 @@
 //! When the tiles are matched.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use super::DockingError;
 use crate::configuration::Configuration;
@@ -38,7 +39,7 @@ impl MatchRule {
             let partner = moving
                 .iter()
                 .map(|m| m.position)
-                .min_by(|a, b| apart(&magnet.position, a).total_cmp(&apart(&magnet.position, b)));
+                .min_by_key(|partner| OrderedFloat(apart(&magnet.position, partner)));
             pairs.extend(partner.map(|partner| (magnet.position, partner)));
         }
         if pairs.is_empty() {

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Body, MotionSettings, Sample, SettingsError, Simulation, Stop};
+use super::{Body, MotionSettings, SettingsError, Simulation, Snapshot, Stop};
 use crate::configuration::Configuration;
 use crate::landscape::Proportion;
 use crate::landscape::minimum::{Outcome, drift};
@@ -31,11 +31,15 @@ const STEPS_BETWEEN_LOOKS: usize = 5;
 /// All that decides a docking experiment, besides the problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DockingSettings {
+    /// How many trajectories.
     pub runs: usize,
+    /// Of all random numbers.
     pub seed: u64,
     /// How long each trajectory lasts (s).
     pub duration: f64,
+    /// How the starts are distributed.
     pub starts: Starts,
+    /// How the tiles move.
     pub motion: MotionSettings,
     /// Threshold of a match (m); see [`MatchRule::new`] where `None`.
     pub threshold: Option<f64>,
@@ -107,8 +111,9 @@ pub struct EngineFigures {
     /// Share matched with the correction of overlap limited to 1 cm/s, and its interval's half
     /// width (8000 starts, steps of 1 ms).
     pub corrected: (f64, f64),
-    /// Time for a step (s), and its longest and shortest step (s).
+    /// Time for a step (s).
     pub cost: f64,
+    /// The longest and the shortest step (s).
     pub steps: [f64; 2],
 }
 
@@ -127,8 +132,10 @@ pub const ENGINE: EngineFigures = EngineFigures {
 /// Why docking could not be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DockingError {
+    /// A setting is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// A target face has no magnets to match by.
     #[error("a match is declared by the magnets of the target faces, but one of them has none")]
     NoMagnets,
 }
@@ -138,28 +145,38 @@ pub enum DockingError {
 pub enum End {
     /// Matched since this time (s), and still so at the end.
     Bound {
+        /// The time (s) at which the match was declared.
         since: f64,
     },
     /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
     /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
     Misbound {
+        /// The trap's number among [`Docking::traps`]; `None` where slow motion leads to none.
         trap: Option<usize>,
     },
+    /// Neither: not in touch, or still fast enough to come free.
     Free,
 }
 
 /// One trajectory, in short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DockingRun {
+    /// The number of the run, from 0; it chooses the random stream.
     pub index: usize,
+    /// Where and how it began.
     pub start: Start,
-    pub last: Sample,
+    /// Where and how it ended.
+    pub last: Snapshot,
+    /// What became of it.
     pub end: End,
+    /// Steps of free flight.
     pub free_steps: usize,
+    /// Steps in contact.
     pub contact_steps: usize,
 }
 
 impl DockingRun {
+    /// Whether it ended matched.
     pub fn is_bound(&self) -> bool {
         matches!(self.end, End::Bound { .. })
     }
@@ -169,25 +186,34 @@ impl DockingRun {
 /// where friction holds tiles short of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
+    /// Of the minimum.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,
+    /// How many of all runs ended there.
     pub caught: Proportion,
 }
 
 /// The outcome of a docking experiment.
 #[derive(Clone, Debug)]
 pub struct Docking {
+    /// What the experiment was made with.
     pub settings: DockingSettings,
+    /// The threshold of a match (m) that was used.
     pub threshold: f64,
+    /// Every trajectory, by its number.
     pub runs: Vec<DockingRun>,
+    /// How many ended matched.
     pub bound: Proportion,
+    /// How many ended caught, unmatched.
     pub misbound: Proportion,
+    /// How many ended otherwise.
     pub free: Proportion,
     /// Traps, that with most trajectories first.
     pub traps: Vec<Trap>,
-    /// Wall time (s) on all threads together, and how many threads.
+    /// Wall time (s).
     pub wall_s: f64,
+    /// On so many threads.
     pub threads: usize,
 }
 
@@ -214,7 +240,7 @@ pub fn dock(
     Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
 }
 
-/// The samples of one trajectory of an experiment, at most `interval` (s) apart in free flight.
+/// The snapshots of one trajectory of an experiment, at most `interval` (s) apart in free flight.
 ///
 /// # Errors
 /// As [`dock`].
@@ -223,26 +249,29 @@ pub fn trajectory(
     settings: &DockingSettings,
     index: usize,
     interval: f64,
-) -> Result<Vec<Sample>, DockingError> {
+) -> Result<Vec<Snapshot>, DockingError> {
     let mut settings = settings.clone();
     settings.motion.longest_step = settings.motion.longest_step.min(interval);
     let experiment = Experiment::new(problem, &settings)?;
     let mut rng = stream(settings.seed, index);
     let start = settings.starts.draw(experiment.pair, &mut rng);
-    let mut samples = vec![experiment.simulation.sample(&start.motion)];
+    let mut snapshots = vec![experiment.simulation.snapshot(&start.motion)];
     let mut last = None;
-    experiment
-        .simulation
-        .run(&start.motion, settings.duration, &mut rng, &mut |sample| {
-            let earlier = samples.last().map_or(0.0, |s: &Sample| s.time);
-            if sample.time - earlier >= 0.5 * interval {
-                samples.push(*sample);
+    experiment.simulation.run(
+        &start.motion,
+        settings.duration,
+        &mut rng,
+        &mut |snapshot| {
+            let earlier = snapshots.last().map_or(0.0, |s: &Snapshot| s.time);
+            if snapshot.time - earlier >= 0.5 * interval {
+                snapshots.push(*snapshot);
             }
-            last = Some(*sample);
+            last = Some(*snapshot);
             false
-        });
-    samples.extend(last.filter(|last| samples.last() != Some(last)));
-    Ok(samples)
+        },
+    );
+    snapshots.extend(last.filter(|last| snapshots.last() != Some(last)));
+    Ok(snapshots)
 }
 
 struct Experiment<'a> {
@@ -274,10 +303,10 @@ impl<'a> Experiment<'a> {
         let start = self.settings.starts.draw(self.pair, &mut rng);
         let mut since = None;
         let mut steps = 0;
-        let mut look = |sample: &Sample| {
-            let matched = self.rule.holds(&sample.motion.configuration);
+        let mut look = |snapshot: &Snapshot| {
+            let matched = self.rule.holds(&snapshot.motion.configuration);
             since = if matched {
-                since.or(Some(sample.time))
+                since.or(Some(snapshot.time))
             } else {
                 None
             };
@@ -286,10 +315,10 @@ impl<'a> Experiment<'a> {
             &start.motion,
             self.settings.duration,
             &mut rng,
-            &mut |sample| {
+            &mut |snapshot| {
                 steps += 1;
-                if !sample.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
-                    look(sample);
+                if !snapshot.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
+                    look(snapshot);
                 }
                 false
             },

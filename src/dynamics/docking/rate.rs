@@ -10,6 +10,7 @@ use super::{Docking, End};
 /// and depends on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnRate {
+    /// How many matches there were.
     pub attachments: usize,
     /// Time of all trials together (s).
     pub time: f64,
@@ -30,6 +31,7 @@ impl OnRate {
     /// Above this the statistic refutes an exponential distribution at the level of 5 %.
     pub const CRITICAL: f64 = 1.094;
 
+    /// The rate of an experiment's matches, trials taken one after the other.
     pub fn new(docking: &Docking) -> Self {
         let mut times = Vec::new();
         let (mut time, mut since) = (0.0, 0.0);

@@ -44,6 +44,7 @@ impl Default for Starts {
 /// One start with the quantities it was drawn by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
+    /// Where the tile is and how it moves.
     pub motion: Motion,
     /// Orientation relative to the bound one (rad).
     pub orientation: f64,

@@ -62,9 +62,9 @@ fn every_run_is_the_same_on_any_number_of_threads_and_by_itself() {
     };
     let runs = on(1);
     assert_eq!(runs, on(3));
-    let samples = trajectory(&problem, &settings, 7, 1.0).unwrap();
-    assert_eq!(samples[0].motion, runs[7].start.motion);
-    assert_eq!(*samples.last().unwrap(), runs[7].last);
+    let snapshots = trajectory(&problem, &settings, 7, 1.0).unwrap();
+    assert_eq!(snapshots[0].motion, runs[7].start.motion);
+    assert_eq!(*snapshots.last().unwrap(), runs[7].last);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The lower bound of the energy over the free part of one cell.
 
+use ordered_float::OrderedFloat;
+
 use crate::cell::{Cell, Quadratic};
 use crate::contact::cells::{CellContact, ContactCells, Cut};
 use crate::potential::bounds::{CellBounds, Enclosure};
@@ -101,7 +103,7 @@ fn pushed_out(energy: &Quadratic, cuts: &[Cut], corners: &[[Cut; 2]], lever: f64
     let Some(cut) = cuts
         .iter()
         .chain(easier)
-        .min_by(|a, b| a.form.value.total_cmp(&b.form.value))
+        .min_by_key(|cut| OrderedFloat(cut.form.value))
     else {
         return 0.0;
     };
@@ -128,9 +130,7 @@ fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> u
             sizes[i]
         }
     };
-    (0..3)
-        .max_by(|&i, &j| share(i).total_cmp(&share(j)))
-        .unwrap_or(0)
+    (0..3).max_by_key(|&i| OrderedFloat(share(i))).unwrap_or(0)
 }
 
 /// A lower bound by weak duality: where `cut + slack >= 0`, the energy is at least

@@ -54,6 +54,7 @@ pub use certifier::Certifier;
 /// Where a certified path ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
+    /// This configuration.
     At(Configuration),
     /// Any configuration with the tiles far apart, as the configuration space has it.
     Free,
@@ -83,8 +84,9 @@ pub struct Effort {
 /// How far a query is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Cells assessed, and rounds of subdivision, in this query.
+    /// Cells assessed in this query.
     pub cells: usize,
+    /// Rounds of subdivision in this query.
     pub rounds: usize,
     /// Cells in the divide between the two ends: 0 when the bracket is narrow enough.
     pub divide: usize,
@@ -105,16 +107,20 @@ pub struct Bracket {
     /// Whether the pathway is the certificate's own, lower than the one it was given or in place
     /// of one that could not be proved.
     pub improved: bool,
-    /// Cells assessed for this query, and rounds of subdivision.
+    /// Cells assessed for this query.
     pub cells: usize,
+    /// Rounds of subdivision.
     pub rounds: usize,
 }
 
 /// Which of two barriers is proved the higher one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ordering {
+    /// The first one.
     Higher,
+    /// The second one.
     Lower,
+    /// Neither is proved.
     Undecided,
 }
 
@@ -160,8 +166,10 @@ pub fn order(a: (f64, Option<f64>), b: (f64, Option<f64>)) -> Ordering {
 /// Why nothing could be certified.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CertifyError {
+    /// An end of the path is no free configuration.
     #[error("the tiles overlap at ({}, {}, {})", .0.x, .0.y, .0.theta)]
     NotFree(Configuration),
+    /// An end of the path is off the table.
     #[error("({}, {}) lies off the table", .0.x, .0.y)]
     OffTheTable(Configuration),
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -153,7 +154,7 @@ fn pairs_with_new(
             .filter(|&j| j != i)
             .map(|j| (problem.space.distance(here, &around[j].1.configuration), j))
             .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.sort_by_key(|&(distance, j)| (OrderedFloat(distance), j));
         pairs.extend(
             near.iter()
                 .take(k)

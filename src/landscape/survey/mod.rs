@@ -18,6 +18,7 @@ mod withdraw;
 
 use std::collections::{HashMap, HashSet};
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use nalgebra::Vector3;
@@ -38,26 +39,33 @@ const OFF_SADDLE: f64 = 2e-4;
 /// How closely the meeting places of basins are looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurveySettings {
+    /// How the links are weighed.
     pub edge: EdgeSettings,
     /// A barrier is settled when it moves by less than this fraction from round to round.
     pub settled: f64,
     /// Milestones added around a meeting place in each round.
     pub added_milestones: usize,
+    /// Rounds after which what is not settled stays so.
     pub most_rounds: usize,
+    /// Of all random numbers.
     pub seed: u64,
 }
 
 /// A minimum with its node in the network.
 #[derive(Clone, Debug)]
 pub struct FoundState {
+    /// Its number in the network.
     pub node: usize,
+    /// The minimum with its spectrum.
     pub minimum: Stationary,
 }
 
 /// What a survey found.
 #[derive(Debug)]
 pub struct Survey {
+    /// All motions that were found free, with their costs.
     pub network: Network,
+    /// The minima.
     pub states: Vec<FoundState>,
     /// The node that stands for `free`.
     pub free: usize,
@@ -65,6 +73,7 @@ pub struct Survey {
     pub transition_states: Vec<(Stationary, usize)>,
     /// Meeting places that are not transition states: link and the last change of its energy (J).
     pub unpolished: HashMap<usize, f64>,
+    /// Rounds that were needed.
     pub rounds: usize,
 }
 
@@ -188,7 +197,7 @@ impl Survey {
         (0..self.states.len())
             .map(|i| (i, distance(&self.states[i])))
             .filter(|(_, d)| *d <= tolerance)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .min_by_key(|(_, d)| OrderedFloat(*d))
             .map(|(i, _)| i)
     }
 

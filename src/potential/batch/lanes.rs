@@ -23,8 +23,11 @@ pub trait Arithmetic: Copy {
 
     /// The same value in all lanes.
     fn splat(self, value: f64) -> Self::F;
+    /// `a + b`.
     fn add(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a - b`.
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a b`.
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a b + c`; rounded once where the instruction set fuses it.
     fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
@@ -75,6 +78,7 @@ pub trait Arithmetic: Copy {
 
 /// A vector of an instruction set: arithmetic on its `WIDTH` lanes, and their way in and out.
 pub trait Lanes: Arithmetic {
+    /// How many numbers a vector holds.
     const WIDTH: usize;
 
     /// The first `WIDTH` values of a slice, which must have that many.
@@ -84,7 +88,9 @@ pub trait Lanes: Arithmetic {
     /// The sine and the cosine of angles up to [`MAX_ANGLE`] in magnitude, each to 2e-16.
     fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F);
 
+    /// `a / b`, correctly rounded.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The square root, correctly rounded.
     fn sqrt(self, a: Self::F) -> Self::F;
     /// `a` where the sign bit of `condition` is clear, else `b`.
     fn select(self, condition: Self::F, a: Self::F, b: Self::F) -> Self::F;
@@ -126,6 +132,8 @@ pub trait Lanes: Arithmetic {
 /// Something to be computed with whichever instruction set there is. See [`Lanes`] for what must
 /// be inlined.
 pub trait Task {
+    /// What comes of it.
     type Output;
+    /// Does it, with the vectors of `lanes`.
     fn run<L: Lanes>(self, lanes: L) -> Self::Output;
 }

@@ -34,7 +34,7 @@ use super::lever::Lever;
 use super::motion;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 use derivative::DerivativeBound;
 use field::{Source, TOGETHER};
 use tasks::{Many, One};
@@ -100,7 +100,7 @@ impl DipolePotential {
 /// filled up to a multiple of `group` with copies of the last one that have no moment. (A copy is
 /// where a dipole is anyway, so no energy becomes infinite for it.)
 fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
-    let scale = (MU0 / (4.0 * std::f64::consts::PI)).sqrt();
+    let scale = MU0_OVER_4PI.sqrt();
     let scaled = |dipole: &Dipole, scale| Dipole {
         position: dipole.position,
         moment: dipole.moment * scale,

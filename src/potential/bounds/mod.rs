@@ -16,8 +16,11 @@ use crate::cell::{Cell, Quadratic};
 /// offset d from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Enclosure {
+    /// An approximation of U (J), of second order in the offset.
     pub form: Quadratic,
+    /// The least that U exceeds it by (J).
     pub low: f64,
+    /// The most that U exceeds it by (J).
     pub high: f64,
 }
 

@@ -7,7 +7,7 @@ use super::quadrature::{Corner, Fineness, NO_CORNER};
 use crate::potential::batch::Level;
 use crate::potential::batch::lanes::{Lanes, Task};
 use crate::tile::Magnet;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// A uniformly magnetised block, standing on the tiles' plane, in whatever frame is in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,8 +70,11 @@ impl Block {
 /// by the second block's angle about its own centre (J/rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairEnergy {
+    /// U (J).
     pub energy: f64,
+    /// By the second block's centre (J/m).
     pub gradient: Vector2<f64>,
+    /// By the second block's angle about its own centre (J/rad).
     pub slope: f64,
 }
 
@@ -156,7 +159,7 @@ impl BlockPair {
                 (first.size[2] + second.size[2]) / 2.0,
                 (first.size[2] - second.size[2]).abs() / 2.0,
             ],
-            strength: MU0 / (4.0 * std::f64::consts::PI) * density(first) * density(second),
+            strength: MU0_OVER_4PI * density(first) * density(second),
             axis: first.axis,
             direction: second.across(),
             cos: first.axis.dot(&second.axis),
@@ -246,6 +249,7 @@ pub(super) fn near<L: Lanes, const SLOPE: bool>(l: L, first: &Block, second: &Bl
 mod tests {
     use super::*;
     use crate::potential::cuboid::cloud;
+    use crate::units::MU0;
 
     fn block(x: f64, y: f64, angle: f64, size: [f64; 3], remanence: f64) -> Block {
         Block {
@@ -333,7 +337,7 @@ mod tests {
             );
             let got = exact(&first, &second);
             let cloud = cloud::energy_and_gradient::<16>(&first, &second);
-            let scale = 1e-7 * first.moment * second.moment / distance.powi(3);
+            let scale = MU0_OVER_4PI * first.moment * second.moment / distance.powi(3);
             assert!((got.energy - cloud.energy).abs() < 1e-8 * scale);
             assert!((got.gradient - cloud.gradient).norm() < 1e-7 * scale / distance);
             assert!((got.slope - cloud.slope).abs() < 1e-7 * scale);

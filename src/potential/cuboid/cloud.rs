@@ -4,7 +4,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::block::{Block, PairEnergy};
 use super::quadrature::gauss_legendre;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// The charges (A m) of a block, N x N on each pole face, and their places (m).
 fn charges<const N: usize>(block: &Block) -> Vec<(f64, Vector3<f64>)> {
@@ -32,7 +32,7 @@ pub fn energy_and_gradient<const N: usize>(first: &Block, second: &Block) -> Pai
     for (q1, r1) in charges::<N>(first) {
         for (q2, r2) in charges::<N>(second) {
             let d = r2 - r1;
-            let energy = MU0 / (4.0 * std::f64::consts::PI) * q1 * q2 / d.norm();
+            let energy = MU0_OVER_4PI * q1 * q2 / d.norm();
             let gradient = -d.xy() * (energy / d.norm_squared());
             total.energy += energy;
             total.gradient += gradient;

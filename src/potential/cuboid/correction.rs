@@ -7,7 +7,7 @@ use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS, index};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// The multipole series without its first term, the point dipole, and its gradient (J), over the
 /// pairs that a mask selects. Right to the hand-over's 1e-9 of `mu0 m1 m2 / (4 pi r^3)` a pair
@@ -63,7 +63,7 @@ impl Task for Correction<'_> {
                 total.add::<L, true>(l, &sums, fixed.axis);
             }
         }
-        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        let scale = -MU0_OVER_4PI;
         let [x, y, turn] = total.gradient;
         let gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         (l.sum(total.energy) * scale, gradient)

@@ -261,7 +261,7 @@ mod tests {
     use crate::potential::batch::lanes::Task;
     use crate::potential::cuboid::cloud;
     use crate::potential::dipole;
-    use crate::units::MU0;
+    use crate::units::MU0_OVER_4PI;
 
     /// The first `N` terms of one pair.
     struct Terms<'a, const N: usize>(&'a Multipole, &'a Block, &'a Block);
@@ -286,7 +286,7 @@ mod tests {
             add::<L, N, true>(l, &coefficients, &pairs, &mut own);
             total.add::<L, true>(l, &own, axis);
             let [x, y, slope] = total.gradient;
-            let scale = -MU0 / (4.0 * std::f64::consts::PI);
+            let scale = -MU0_OVER_4PI;
             PairEnergy {
                 energy: scale * l.sum(total.energy),
                 gradient: Vector2::new(l.sum(x), l.sum(y)) * scale,
@@ -331,7 +331,7 @@ mod tests {
             let second = block(radius * cos, radius * sin, 1.1 * i as f64, two);
             let got = Level::best().run(Terms::<N>(&series, &first, &second));
             let exact = cloud::energy_and_gradient::<10>(&first, &second);
-            let scale = 1e-7 * 0.3 * 0.3 / radius.powi(3);
+            let scale = MU0_OVER_4PI * 0.3 * 0.3 / radius.powi(3);
             // Room for the rounding errors of the differences of charges that cancel.
             let tolerance = tolerance + 1e-15 * (radius / 0.006).powi(2);
             assert!((got.energy - exact.energy).abs() < tolerance * scale);

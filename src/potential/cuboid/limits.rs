@@ -37,7 +37,7 @@ use nalgebra::Vector2;
 
 use super::block::{Block, BlockPair, exact};
 use crate::potential::motion;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// Room for the quadrature's and rounding errors in the energies of blocks with themselves.
 const ROOM: f64 = 1.0 + 1e-4;
@@ -57,6 +57,7 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// For blocks of the given moments and sizes, wherever they are.
     pub fn new(first: &Block, second: &Block) -> Self {
         let at_origin = |block: &Block| Block::new(block.moment.abs(), block.size);
         let (a, b) = (at_origin(first), at_origin(second));
@@ -69,7 +70,7 @@ impl Limits {
             * (width / 2.0 * (edge / width).asinh() + edge / 2.0 * (width / edge).asinh());
         let normal = std::f64::consts::TAU * width * height;
         Self {
-            dipole: MU0 / (4.0 * std::f64::consts::PI) * a.moment * b.moment,
+            dipole: MU0_OVER_4PI * a.moment * b.moment,
             strength: pair.strength,
             face: [width, height],
             energy: (own(&a) * own(&b)).sqrt() * ROOM,

@@ -281,7 +281,7 @@ mod tests {
             let mut list = Vec::new();
             panels(1.0, &[corner, (-0.2, 0.3), NO_CORNER], &fineness, &mut list);
             let mut list: Vec<_> = list.iter().map(|panel| (panel.start, panel.end)).collect();
-            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.sort_by_key(|(start, _)| ordered_float::OrderedFloat(*start));
             assert_eq!(list[0].0, -1.0);
             assert_eq!(list[list.len() - 1].1, 1.0);
             assert!(list.windows(2).all(|pair| pair[0].1 == pair[1].0));

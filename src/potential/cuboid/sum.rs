@@ -10,7 +10,7 @@ use super::panel::Quadrature;
 use super::quadrature::Fineness;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// The energy at a configuration, and its gradient where asked for (else it is zero).
 pub struct Sum<'a, const SLOPE: bool> {
@@ -47,7 +47,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
                 }
             }
         }
-        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        let scale = -MU0_OVER_4PI;
         energy += scale * l.sum(sums.energy);
         if SLOPE {
             let [x, y, turn] = sums.gradient;
@@ -201,7 +201,7 @@ impl Lane {
         for (column, values) in columns.iter_mut().zip([sums.energy, x, y, turn, squares]) {
             l.store(values, column);
         }
-        let scale = -MU0 / (4.0 * std::f64::consts::PI);
+        let scale = -MU0_OVER_4PI;
         std::array::from_fn(|i| {
             let gradient = axis * Complex::new(columns[1][i], columns[2][i]) * scale;
             Self {

@@ -20,7 +20,7 @@ use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths};
 use crate::tile::Tile;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 use nalgebra::Vector2;
 
 /// Widening of the intervals of near pairs for rounding: relative, and of the reach (m).
@@ -66,7 +66,7 @@ impl ShieldedBounds {
         let moved = self.moving[j].moved(&cell.centre, &cell.centre.rotation());
         let fixed = &self.fixed[i];
         let angle = |v: Vector2<f64>| v.y.atan2(v.x);
-        let scale = MU0 / (4.0 * std::f64::consts::PI);
+        let scale = MU0_OVER_4PI;
         let reach = cell.reach(self.moving[j].position.norm()) + MARGIN;
         let pair = NearPair::new(
             (moved.position - fixed.position).into(),

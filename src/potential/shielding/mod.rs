@@ -53,8 +53,10 @@ pub struct Shield {
 /// How shields act.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShieldRule {
+    /// By the smooth factor.
     #[default]
     Smooth,
+    /// Only the pair of nearest faces acts.
     NearestFace,
 }
 
@@ -77,6 +79,7 @@ impl ShieldRule {
 /// The shields of two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shields {
+    /// How they act.
     pub rule: ShieldRule,
     /// One entry for each face of the fixed tile: its shield, if it has one.
     pub fixed: Vec<Option<Shield>>,
@@ -95,8 +98,11 @@ impl Shields {
 /// A factor g and its derivatives by the distance (1/m) and by cos(alpha).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor {
+    /// g.
     pub value: f64,
+    /// dg/dr (1/m).
     pub by_distance: f64,
+    /// dg/dcos(alpha).
     pub by_cosine: f64,
 }
 
@@ -140,8 +146,11 @@ fn logistic(t: f64) -> f64 {
 /// magnet's place (1/m) and its derivative by that magnet's angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairFactor {
+    /// The product of the two factors.
     pub value: f64,
+    /// By the second magnet's place (1/m).
     pub gradient: Vector2<f64>,
+    /// By the second magnet's angle (1/rad).
     pub slope: f64,
 }
 

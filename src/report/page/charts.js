@@ -181,7 +181,7 @@ class MapPanel {
     // Of nothing but zeros, the largest is no measure.
     const most = Math.max(0, ...values) || 1;
     const [scale, name] = this.panel.unit === "%" ? [0.01, "%"]
-      : this.panel.unit ? (([s, p]) => [s, p + this.panel.unit])(prefixOf(0.999 * most)) : [1, ""];
+      : this.panel.unit ? (([s, p]) => [s, p + this.panel.unit])(prefixOf(most, 3)) : [1, ""];
     const [w, h] = [(right - left) / columns, (bottom - top) / rows];
     pen.textAlign = "center";
     pen.textBaseline = "middle";

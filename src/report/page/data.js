@@ -8,18 +8,24 @@ const element = (id) => document.getElementById(id);
 
 const minus = (text) => text.replace("-", "\u2212");
 
-function prefixOf(size) {
-  const prefixes = [[1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
-  return prefixes.find(([scale]) => size >= 0.9999 * scale) ?? prefixes[5];
+/** The power of ten of a number rounded to so many significant digits. */
+const powerOf = (value, digits) => Number(value.toExponential(digits - 1).split("e")[1]);
+
+/** What the SI prefix stands for with which a size, rounded to so many digits, is below 1000, and the prefix. */
+function prefixOf(size, digits = 16) {
+  const prefixes = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"]];
+  return prefixes.find(([scale]) => powerOf(size / scale, Math.max(3, digits)) < 3) ?? prefixes[5];
 }
+
+/** The decimals that give a number so many significant digits once it is rounded. */
+const decimalsOf = (value, digits) => Math.max(0, digits - 1 - powerOf(value, digits));
 
 function si(value, unit, digits = 4) {
   if (value === null) return "none";
   if (value === 0) return `0 ${unit}`;
-  const [scale, prefix] = prefixOf(Math.abs(value));
+  const [scale, prefix] = prefixOf(Math.abs(value), digits);
   const scaled = value / scale;
-  const whole = Math.floor(Math.log10(Math.abs(scaled)) + 1e-9) + 1;
-  return minus(`${scaled.toFixed(Math.max(0, digits - whole))} ${prefix}${unit}`);
+  return minus(`${scaled.toFixed(decimalsOf(scaled, digits))} ${prefix}${unit}`);
 }
 
 const degrees = (angle, decimals = 1) => minus(`${(angle * 180 / Math.PI).toFixed(decimals)}°`).replace(/^\u2212(?=[0.]*°$)/, "");
@@ -130,6 +136,9 @@ function poseInFront(tilt, slide, distance) {
   return [0, 1].map((k) => at[k] + slide * tangent[k] + distance * normal[k] - arm[k]).concat(theta);
 }
 
+/** mu0 / (4 pi) (T m / A). */
+const MU0_OVER_4PI = 1e-7;
+
 /** U of the magnets as point dipoles: mu0 / (4 pi r^3) (m1 m2 - 3 (m1 e) (m2 e)) over all pairs. */
 function dipoleEnergy(pose) {
   let energy = 0;
@@ -140,7 +149,7 @@ function dipoleEnergy(pose) {
       const m1 = [Math.cos(a.angle) * a.moment, Math.sin(a.angle) * a.moment];
       const r = [at[0] - a.position[0], at[1] - a.position[1]];
       const r2 = dot(r, r);
-      energy += 1e-7 / (r2 * Math.sqrt(r2)) * (dot(m1, m2) - 3 * dot(m1, r) * dot(m2, r) / r2);
+      energy += MU0_OVER_4PI / (r2 * Math.sqrt(r2)) * (dot(m1, m2) - 3 * dot(m1, r) * dot(m2, r) / r2);
     }
   }
   return energy;

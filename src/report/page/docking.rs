@@ -6,7 +6,7 @@ use super::pathways::Played;
 use super::{Column, Fact, Illustration, Landscape, Page, Table, finite};
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::dynamics::Sample;
+use crate::dynamics::Snapshot;
 use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
 use crate::landscape::{Inventory, Proportion, State, StateKind};
 use crate::problem::Problem;
@@ -22,7 +22,7 @@ impl Page {
         design: &Design,
         problem: &Problem,
         docking: &Docking,
-        trajectories: &[(DockingRun, Vec<Sample>)],
+        trajectories: &[(DockingRun, Vec<Snapshot>)],
         pictures: Vec<Illustration>,
     ) -> Self {
         let inventory = Inventory {
@@ -32,7 +32,7 @@ impl Page {
         let scene = Scene::new(design, problem, &inventory);
         let played = trajectories
             .iter()
-            .map(|(run, samples)| Played::of_trajectory(name(docking, run), samples, problem));
+            .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
         let landscape = Some(Landscape::new(design, &scene, played.collect()));
         Self {
             title: format!("{}: docking", design.name),

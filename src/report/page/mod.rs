@@ -45,13 +45,19 @@ const SCRIPTS: [&str; 9] = [
 /// What a page shows.
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {
+    /// The heading.
     pub title: String,
+    /// A line below it.
     pub subtitle: String,
     /// What to know first.
     pub facts: Vec<Fact>,
+    /// The energy over configurations, with pathways; `None` where there is no one landscape.
     pub landscape: Option<Landscape>,
+    /// Curves and maps of a sweep; `None` elsewhere.
     pub charts: Option<Charts>,
+    /// Pictures, in order.
     pub pictures: Vec<Illustration>,
+    /// Tables, in order.
     pub tables: Vec<Table>,
     /// How it was made: version, seed, checksum.
     pub origin: String,
@@ -60,24 +66,31 @@ pub struct Page {
 /// A quantity told in a few words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fact {
+    /// What it is.
     pub name: String,
+    /// Its value, with the unit.
     pub value: String,
+    /// What to know of it, in small letters; may be empty.
     pub note: String,
 }
 
 /// A picture, as an SVG document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Illustration {
+    /// What it shows.
     pub title: String,
+    /// A whole document, put into the page as it is.
     pub svg: String,
 }
 
 /// A table that sorts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
+    /// What its rows are.
     pub title: String,
     /// What a row is.
     pub note: String,
+    /// The columns, in order.
     pub columns: Vec<Column>,
     /// Numbers (in SI units), texts, null, or a pair of a number that it sorts by and the text
     /// that is shown; one a column.
@@ -89,6 +102,7 @@ pub struct Table {
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Column {
+    /// The heading.
     pub name: String,
     /// SI unit of its numbers, to which the page adds a prefix; `rad` is shown in degrees, `%` for
     /// a share. Empty for counts and texts.
@@ -112,6 +126,7 @@ impl Table {
 }
 
 impl Column {
+    /// A column with this heading and SI unit, without a hint.
     pub fn new(name: &str, unit: &'static str) -> Self {
         Self {
             name: name.to_owned(),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{finite, fixed, rounded};
-use crate::dynamics::Sample;
+use crate::dynamics::Snapshot;
 use crate::landscape::{Pathway, Place};
 use crate::problem::Problem;
 use crate::report::csv;
@@ -29,13 +29,14 @@ pub struct Played {
 
 impl Played {
     /// A trajectory of moving tiles.
-    pub fn of_trajectory(name: String, samples: &[Sample], problem: &Problem) -> Self {
-        let points = samples.iter().map(|sample| {
-            let q = sample.motion.configuration;
+    pub fn of_trajectory(name: String, snapshots: &[Snapshot], problem: &Problem) -> Self {
+        let points = snapshots.iter().map(|snapshot| {
+            let q = snapshot.motion.configuration;
             let clearance = problem.clearance(&q).max(0.0);
             let [t, x, y, theta, clearance] =
-                [sample.time, q.x, q.y, q.theta, clearance].map(|v| fixed(v, 5));
-            let [potential, kinetic] = [sample.potential, sample.kinetic].map(|e| rounded(e, 4));
+                [snapshot.time, q.x, q.y, q.theta, clearance].map(|v| fixed(v, 5));
+            let [potential, kinetic] =
+                [snapshot.potential, snapshot.kinetic].map(|e| rounded(e, 4));
             [t, x, y, theta, potential, clearance, kinetic]
         });
         Self {

@@ -10,11 +10,9 @@ function columnFormat(column, table) {
   if (column.unit === "%") return { show: (v) => decimal(100 * v, 1), unit: "%" };
   if (!column.unit) return { show: (v) => minus(String(v)), unit: "" };
   const alike = table.columns.flatMap((other, k) => other.unit === column.unit ? table.rows.map((row) => row[k]) : []);
-  const [scale, prefix] = prefixOf(Math.max(1e-12, ...alike.map(Math.abs)));
-  const significant = (v) => {
-    const whole = Math.floor(Math.log10(Math.abs(v) || 1)) + 1;
-    return decimal(v, Math.min(6, Math.max(0, 4 - whole)));
-  };
+  const digits = column.unit === "m" ? 5 : 4;
+  const [scale, prefix] = prefixOf(Math.max(1e-12, ...alike.map(Math.abs)), digits);
+  const significant = (v) => decimal(v, Math.min(6, decimalsOf(v, digits)));
   return { show: (v) => column.unit === "m" ? decimal(v / scale, 2) : significant(v / scale), unit: prefix + column.unit };
 }
 

@@ -37,7 +37,7 @@ pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {
     (approach, slices)
 }
 
-struct Panel<'a> {
+struct ApproachPanel<'a> {
     grid: &'a Grid<Sample>,
     /// What is plotted against the tilt.
     quantity: &'a str,
@@ -54,13 +54,13 @@ pub fn draw(
     scale: &EnergyScale,
 ) -> Result<Picture, PictureError> {
     let panels = [
-        Panel {
+        ApproachPanel {
             grid: &slices.gap,
             quantity: "gap",
             condition: "slide 0",
             states: Vec::new(),
         },
-        Panel {
+        ApproachPanel {
             grid: &slices.slide,
             quantity: "slide",
             condition: "in contact",
@@ -90,7 +90,7 @@ pub fn draw(
         let bar = [MARGIN[3], top, 720.0, top + 20.0];
         colour_bar(root, underlays, scale, &range, bar)?;
         let mut entries = STATE_KEYS.to_vec();
-        if panels.iter().any(Panel::has_blocked) {
+        if panels.iter().any(ApproachPanel::has_blocked) {
             entries.push((Key::Blocked, "no contact"));
         }
         keys(root, underlays, (770.0, top), &entries)
@@ -110,7 +110,7 @@ fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> 
         .collect()
 }
 
-impl Panel<'_> {
+impl ApproachPanel<'_> {
     fn has_blocked(&self) -> bool {
         self.grid.values.iter().any(Option::is_none)
     }

@@ -9,7 +9,7 @@ use super::picture::{Area, Picture, PictureError};
 use super::scale::{colour, minus};
 use super::style::{GRID, INK, LABEL, SMALL, SOFT, Text, title};
 use crate::comparison::{Assessment, Quantity};
-use crate::units::prefix_of;
+use crate::units::prefix_and_decimals;
 
 const WIDTH: f64 = 1200.0;
 const HEAD: f64 = 60.0;
@@ -90,7 +90,7 @@ impl Map<'_, '_> {
         let (unit, name) = match (self.quantity, self.quantity.unit()) {
             (Quantity::Captured, _) => (0.01, "%".to_owned()),
             (_, "J") => {
-                let (unit, prefix) = prefix_of(0.999 * most);
+                let (unit, prefix, _) = prefix_and_decimals(most, 3);
                 (unit, format!("{prefix}J"))
             }
             _ => (1.0, String::new()),

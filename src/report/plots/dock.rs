@@ -12,7 +12,7 @@ use super::style::{
 };
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::dynamics::Sample;
+use crate::dynamics::Snapshot;
 use crate::dynamics::docking::{DockingMap, End};
 
 const WIDTH: u32 = 860;
@@ -189,13 +189,13 @@ fn contour(values: &[f64], [columns, rows]: [usize; 2], level: f64) -> Vec<[Plac
 /// See [`PictureError`].
 pub fn trajectories(
     design: &Design,
-    trajectories: &[(End, Vec<Sample>)],
+    trajectories: &[(End, Vec<Snapshot>)],
 ) -> Result<Picture, PictureError> {
     const SIDE: u32 = 760;
     const PLOT: f64 = 620.0;
     let reach = trajectories
         .iter()
-        .filter_map(|(_, samples)| samples.first())
+        .filter_map(|(_, snapshots)| snapshots.first())
         .map(|s| s.motion.configuration.position().amax())
         .fold(0.5, f64::max)
         * 1.08;
@@ -219,8 +219,8 @@ pub fn trajectories(
         )?;
         let origin = Configuration::new(0.0, 0.0, 0.0);
         tile(root, &view, &design.pair.fixed, &origin, FIXED_FILL)?;
-        for (end, samples) in trajectories {
-            let points: Vec<_> = samples
+        for (end, snapshots) in trajectories {
+            let points: Vec<_> = snapshots
                 .iter()
                 .map(|s| s.motion.configuration.position())
                 .take_while(|p| p.amax() <= reach)

@@ -1,6 +1,7 @@
 //! A film strip of the docking motion.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::heat::{POLE_KEYS, keys};
@@ -128,7 +129,7 @@ fn frames(pathway: &[PathwayPoint], scale: &EnergyScale) -> Vec<PathwayPoint> {
             let nearest = progress
                 .iter()
                 .enumerate()
-                .min_by(|a, b| (a.1 - wanted).abs().total_cmp(&(b.1 - wanted).abs()))
+                .min_by_key(|(_, done)| OrderedFloat((*done - wanted).abs()))
                 .map_or(0, |(index, _)| index);
             pathway[nearest]
         })

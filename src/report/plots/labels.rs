@@ -1,6 +1,7 @@
 //! Labels that keep out of each other's way.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 use plotters::prelude::{Color, WHITE};
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -46,7 +47,7 @@ pub fn label_column(
     [left, top, _, bottom]: Box4,
     mut labels: Vec<(Pixel, String)>,
 ) -> Result<(), PictureError> {
-    labels.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    labels.sort_by_key(|(anchor, _)| OrderedFloat(anchor.1));
     let (_, step) = extent(font, "");
     let mut heights: Vec<f64> = labels.iter().map(|(anchor, _)| anchor.1).collect();
     spread(&mut heights, step + 1.0, top + step, bottom - step);
@@ -158,7 +159,7 @@ impl Labels {
                 candidates.push((reach + 24.0 * away, place));
             }
         }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates.sort_by_key(|(distance, _)| OrderedFloat(*distance));
         candidates
             .into_iter()
             .map(|(_, place)| place)

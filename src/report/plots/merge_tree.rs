@@ -1,6 +1,6 @@
 //! The merge tree of a disconnectivity graph.
 
-use std::cmp::Ordering;
+use ordered_float::OrderedFloat;
 
 use super::scale::EnergyScale;
 
@@ -42,18 +42,18 @@ impl Tree {
 
     /// Lowest energy (J) of the tree's states.
     pub fn lowest(&self) -> f64 {
-        self.deepest().0
+        self.deepest().0.into_inner()
     }
 
     /// Energy (J) and class of the tree's deepest state; among equals the one of the lowest number.
-    fn deepest(&self) -> (f64, Option<usize>) {
+    fn deepest(&self) -> (OrderedFloat<f64>, Option<usize>) {
         match self {
-            Self::Leaf { class, energy } => (*energy, *class),
+            Self::Leaf { class, energy } => (OrderedFloat(*energy), *class),
             Self::Merge { children, .. } => children
                 .iter()
                 .map(Tree::deepest)
-                .min_by(deeper)
-                .unwrap_or((f64::INFINITY, None)),
+                .min()
+                .unwrap_or((OrderedFloat(f64::INFINITY), None)),
         }
     }
 
@@ -84,17 +84,13 @@ impl Tree {
                 other => children.push(other),
             }
         }
-        children.sort_by(|x, y| deeper(&x.deepest(), &y.deepest()));
+        children.sort_by_key(Tree::deepest);
         Self::Merge {
             energy: over.energy,
             bounds: over.bounds,
             children,
         }
     }
-}
-
-fn deeper(a: &(f64, Option<usize>), b: &(f64, Option<usize>)) -> Ordering {
-    a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
 }
 
 /// Joins leaves (class and energy) over saddles, the lowest first. Leaves that no saddle joins stay
@@ -104,7 +100,7 @@ pub fn merge(
     mut joins: Vec<Join>,
     scale: &EnergyScale,
 ) -> Vec<Tree> {
-    joins.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+    joins.sort_by_key(|join| OrderedFloat(join.energy));
     let leaf = |(class, energy)| Tree::Leaf { class, energy };
     let mut trees: Vec<Tree> = leaves.into_iter().map(leaf).collect();
     for join in &joins {
@@ -119,7 +115,7 @@ pub fn merge(
             trees.push(Tree::join([first, second], join, scale));
         }
     }
-    trees.sort_by(|x, y| deeper(&x.deepest(), &y.deepest()));
+    trees.sort_by_key(Tree::deepest);
     trees
 }
 

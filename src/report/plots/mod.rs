@@ -43,7 +43,9 @@ use scale::EnergyScale;
 /// A picture and the stem of the files that hold it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPicture {
+    /// The stem of the files.
     pub name: &'static str,
+    /// The picture.
     pub picture: Picture,
 }
 

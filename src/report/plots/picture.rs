@@ -21,15 +21,19 @@ pub type Area<'a> = DrawingArea<Canvas<'a>, Shift>;
 /// A drawing as SVG and as PNG.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
+    /// A whole document.
     pub svg: String,
+    /// A whole file.
     pub png: Vec<u8>,
 }
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
+    /// The drawing failed.
     #[error("could not lay out a picture: {0}")]
     Layout(String),
+    /// The bitmap could not be encoded.
     #[error("could not write a picture as PNG: {0}")]
     Png(#[from] png::EncodingError),
 }

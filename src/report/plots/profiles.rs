@@ -1,6 +1,7 @@
 //! The energy profile of each main pathway with its barrier marked.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 use plotters::prelude::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -49,7 +50,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
 }
 
 /// A panel's plot: where its points lie on the picture.
-struct Panel<'a, 'b> {
+struct PathwayPlot<'a, 'b> {
     root: &'a Area<'b>,
     scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
@@ -92,7 +93,7 @@ fn draw_panel(
     let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
     let at = |s: f64, energy: f64| pixel(&chart, (s - start) / metre, energy / joule);
     let (corner, opposite) = (at(start, high), at(start + length, low));
-    Panel {
+    PathwayPlot {
         root,
         scene,
         scale,
@@ -127,7 +128,7 @@ fn shown_energies(barrier: &Barrier) -> (f64, f64) {
     (low - 0.06 * span, high + 0.16 * span)
 }
 
-impl Panel<'_, '_> {
+impl PathwayPlot<'_, '_> {
     fn draw(&self) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let names = [barrier.from, barrier.to].map(|place| self.scene.name_of(place));
@@ -197,7 +198,7 @@ impl Panel<'_, '_> {
     fn barrier(&self, labels: &mut Labels) -> Result<(), PictureError> {
         let barrier = self.barrier;
         let path = &barrier.pathway;
-        let Some(top) = path.iter().max_by(|a, b| a.energy.total_cmp(&b.energy)) else {
+        let Some(top) = path.iter().max_by_key(|p| OrderedFloat(p.energy)) else {
             return Ok(());
         };
         let saddle = (self.at)(top.s, barrier.saddle_energy);

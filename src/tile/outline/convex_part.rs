@@ -9,7 +9,9 @@ use crate::tile::convex;
 /// from point i to point i + 1).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConvexPart {
+    /// The vertices (m).
     pub points: Vec<Vector2<f64>>,
+    /// The outward unit normal of each edge.
     pub normals: Vec<Vector2<f64>>,
 }
 
@@ -45,7 +47,9 @@ impl ConvexPart {
 /// A box with sides along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
+    /// Lowest x and y (m).
     pub low: Vector2<f64>,
+    /// Highest x and y (m).
     pub high: Vector2<f64>,
 }
 

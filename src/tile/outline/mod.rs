@@ -56,6 +56,7 @@ impl Outline {
         })
     }
 
+    /// The vertices (m), counter-clockwise.
     pub fn vertices(&self) -> &[Vector2<f64>] {
         &self.vertices
     }

@@ -7,14 +7,19 @@ use super::{cross, segments_meet, signed_area};
 /// Why a list of vertices is no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
+    /// Fewer than three vertices.
     #[error("an outline needs at least three vertices, this one has {0}")]
     TooFewVertices(usize),
+    /// Two vertices, by their numbers, lie on the same point.
     #[error("vertices {0} and {1} coincide")]
     RepeatedVertex(usize, usize),
+    /// The vertices run the wrong way round.
     #[error("the outline runs clockwise; list its vertices counter-clockwise")]
     Clockwise,
+    /// Two edges, by the numbers of their first vertices, meet where they should not.
     #[error("the edge from vertex {0} crosses or touches the edge from vertex {1}")]
     SelfCrossing(usize, usize),
+    /// No convex parts were found.
     #[error("the outline could not be split into convex parts; is it a simple polygon?")]
     NotDecomposable,
 }

@@ -5,6 +5,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 use tilebind::configuration::Configuration;
 
@@ -71,7 +72,7 @@ impl<'a> Grid<'a> {
             let mut near: Vec<usize> = (0..self.nodes.len())
                 .filter(|&k| self.nodes[k].free)
                 .collect();
-            near.sort_by(|a, b| around(a).total_cmp(&around(b)));
+            near.sort_by_key(|k| OrderedFloat(around(k)));
             near.truncate(30);
             near.into_iter()
                 .map(|k| (k, self.step(q, &self.nodes[k].configuration)))

@@ -2,6 +2,7 @@
 //! against itself with the tiles relabelled.
 
 use nalgebra::{Rotation2, Vector2, Vector3};
+use ordered_float::OrderedFloat;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -39,12 +40,7 @@ impl Case {
             .map(|_| scene.random_configuration(rng))
             .filter(|q| scene.contact.is_free(q))
             .collect();
-        free.sort_by(|a, b| {
-            scene
-                .potential
-                .energy(a)
-                .total_cmp(&scene.potential.energy(b))
-        });
+        free.sort_by_cached_key(|q| OrderedFloat(scene.potential.energy(q)));
         let from = free[0];
         let tolerance = 0.02 * scene.potential.energy(&from).abs();
         let to = free[rng.random_range(1..free.len())];

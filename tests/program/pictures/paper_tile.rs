@@ -1,5 +1,7 @@
 //! The paper's tiles with states and pathways put together by hand.
 
+use ordered_float::OrderedFloat;
+
 use std::sync::OnceLock;
 
 use tilebind::design::Design;
@@ -133,7 +135,7 @@ impl Pair {
         let pathway = self.pathway(start, waypoints);
         let saddle = *pathway
             .iter()
-            .max_by(|a, b| a.energy.total_cmp(&b.energy))
+            .max_by_key(|p| OrderedFloat(p.energy))
             .unwrap();
         let margin = width.map(|share| share * saddle.energy.abs().max(1e-3));
         self.inventory.barriers.push(Barrier {

@@ -4,6 +4,7 @@ mod kick;
 mod sides;
 
 use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -12,7 +13,7 @@ use super::{BarrierCheck, Below, CheckSettings};
 use crate::configuration::Configuration;
 use crate::dynamics::docking::{minimum_below, stream};
 use crate::dynamics::trajectory::normal;
-use crate::dynamics::{Body, Motion, MotionSettings, Sample, Simulation};
+use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot};
 use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
 
@@ -252,9 +253,9 @@ impl<'a> Checker<'a> {
         };
         let space = &self.problem.space;
         let mut spoilt = false;
-        let run = simulation.run(start, duration, rng, &mut |sample| {
-            let q = &sample.motion.configuration;
-            spoilt |= sample.total() >= ceiling;
+        let run = simulation.run(start, duration, rng, &mut |snapshot| {
+            let q = &snapshot.motion.configuration;
+            spoilt |= snapshot.total() >= ceiling;
             spoilt
                 || match &target {
                     Some(target) => space.distance(target, q) < ARRIVED,
@@ -272,9 +273,9 @@ impl<'a> Checker<'a> {
     }
 
     /// The place that slow motion leads to.
-    fn place_below(&self, sample: &Sample) -> Option<Place> {
+    fn place_below(&self, snapshot: &Snapshot) -> Option<Place> {
         let space = &self.problem.space;
-        let q = &sample.motion.configuration;
+        let q = &snapshot.motion.configuration;
         if space.is_far(q) {
             return Some(Place::Free);
         }
@@ -283,7 +284,7 @@ impl<'a> Checker<'a> {
         let nearest = self
             .states
             .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            .min_by_key(|state| OrderedFloat(distance(state)));
         let nearest = nearest.filter(|state| distance(state) < SAME)?;
         Some(Place::State(nearest.id))
     }

@@ -81,11 +81,13 @@ impl Checker<'_> {
         let slow = 1e-3 * self.barrier.forward();
         let mut rng = stream(self.settings.seed, 0);
         let mut spoilt = false;
-        let run = settling.run(start, SETTLING, &mut rng, &mut |sample| {
-            let q = &sample.motion.configuration;
-            spoilt |= sample.total() >= self.ceiling;
+        let run = settling.run(start, SETTLING, &mut rng, &mut |snapshot| {
+            let q = &snapshot.motion.configuration;
+            spoilt |= snapshot.total() >= self.ceiling;
             let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
-            spoilt || space.is_far(q) || (sample.kinetic < slow && self.states.iter().any(is_here))
+            spoilt
+                || space.is_far(q)
+                || (snapshot.kinetic < slow && self.states.iter().any(is_here))
         });
         *steps += run.free_steps + run.contact_steps;
         (!spoilt).then(|| self.place_below(&run.last)).flatten()

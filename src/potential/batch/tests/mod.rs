@@ -28,7 +28,8 @@ fn magnitudes(fixed: &[Dipole], moving: &[Dipole], q: &Configuration) -> (f64, V
     for second in moving {
         for first in fixed {
             let r = (q.transform(second.position) - first.position).norm();
-            let u = 1e-7 * first.moment.norm() * second.moment.norm() / r.powi(3);
+            let u =
+                crate::units::MU0_OVER_4PI * first.moment.norm() * second.moment.norm() / r.powi(3);
             let force = 3.0 * u / r;
             energy += u;
             gradient += Vector3::new(force, force, u + second.position.norm() * force);

@@ -62,7 +62,7 @@ pub(super) struct Motion {
 
 /// A piece of a pole face of the second block before one of the first.
 #[derive(Clone, Copy)]
-struct Panel {
+struct SheetPanel {
     /// `h` out of the first block's face and `v` along it, of the middle (m), and their change
     /// per metre of the panel.
     middle: Vector2<f64>,
@@ -77,7 +77,7 @@ struct Panel {
     arm: Vector2<f64>,
 }
 
-impl Panel {
+impl SheetPanel {
     /// A part of it, `offset` (m) from the middle.
     fn part(&self, offset: f64, half: f64) -> Self {
         let way = self.along * offset;
@@ -131,7 +131,7 @@ impl Pair {
         for (side, pole) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
             let offset = self.axis * (pole * self.second[0] / 2.0);
             let middle = self.place + offset;
-            let face = Panel {
+            let face = SheetPanel {
                 middle: Vector2::new(side * middle.x - self.first[0] / 2.0, middle.y),
                 along: Vector2::new(side * along.x, along.y),
                 half: self.second[1] / 2.0,
@@ -145,7 +145,7 @@ impl Pair {
     }
 
     /// Cuts a panel until each piece is far enough for its width, or fine enough.
-    fn cut(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
+    fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> f64 {
         let distance = self.distance(panel) - self.motion.reach - SLACK;
         if distance >= FAR * self.motion.reach {
             let ratio = distance / panel.half;
@@ -170,14 +170,14 @@ impl Pair {
     }
 
     /// The least distance (m) of a panel's points from the first block's pole face.
-    fn distance(&self, panel: &Panel) -> f64 {
+    fn distance(&self, panel: &SheetPanel) -> f64 {
         let end = panel.along * panel.half;
         let half = Vector2::new(0.0, self.first[1] / 2.0);
         segment_distance([panel.middle - end, panel.middle + end], [-half, half])
     }
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
-    fn gauss(&self, panel: &Panel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
+    fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
         let rules = Rules::get();
         let (places, weights): (&[f64], &[f64]) = match rule {
             Rule::Four => (&rules.four[0], &rules.four[1]),
@@ -217,14 +217,14 @@ impl Pair {
     }
 
     /// How far (m) the points of a panel get from its middle, along h and along v.
-    fn extent(&self, panel: &Panel) -> [f64; 2] {
+    fn extent(&self, panel: &SheetPanel) -> [f64; 2] {
         let extent = panel.along.abs() * panel.half;
         [extent.x + self.motion.reach, extent.y + self.motion.reach]
     }
 
     /// A panel that may touch the first block's pole face: its middle's form of first order, of the
     /// given remainder, or an interval by monotony.
-    fn touch(&self, panel: &Panel, remainder: Option<f64>, nodes: &mut Nodes) -> f64 {
+    fn touch(&self, panel: &SheetPanel, remainder: Option<f64>, nodes: &mut Nodes) -> f64 {
         let Some(remainder) = remainder else {
             return self.interval(panel, nodes);
         };
@@ -252,7 +252,7 @@ impl Pair {
 
     /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it. `None`
     /// where it has none (see the module's text), or one that says less than an interval.
-    fn touching_remainder(&self, panel: &Panel) -> Option<f64> {
+    fn touching_remainder(&self, panel: &SheetPanel) -> Option<f64> {
         let sheet = self.first[1] / 2.0;
         let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x, panel.middle.y.abs());
@@ -281,7 +281,7 @@ impl Pair {
 
     /// Phi falls with the distance from the face's line and with that from its middle line, so
     /// its extremes over a box are at two of the box's points.
-    fn interval(&self, panel: &Panel, nodes: &mut Nodes) -> f64 {
+    fn interval(&self, panel: &SheetPanel, nodes: &mut Nodes) -> f64 {
         let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x.abs(), panel.middle.y.abs());
         let weight = panel.weight();

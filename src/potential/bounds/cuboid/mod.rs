@@ -70,12 +70,9 @@ use crate::potential::batch::Level;
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::correction::Correction;
 use crate::tile::{Magnet, Outline, Tile};
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 use faces::{Motion, Pair};
 use nodes::{Nodes, Sum, Totals};
-
-/// mu0 / (4 pi) (T m / A).
-const SCALE: f64 = MU0 / (4.0 * std::f64::consts::PI);
 
 /// Blocks closer than this many sums of their radii are taken by their pole faces.
 const CLOSE: f64 = 3.0;
@@ -112,6 +109,7 @@ struct Enclosed {
 }
 
 impl CuboidBounds {
+    /// For the magnets of two tiles, with the best instruction set there is.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
         Self::with_level(fixed, moving, Level::best())
     }
@@ -182,7 +180,7 @@ fn faces(
     nodes: &mut Nodes,
 ) -> (Totals, f64) {
     let volume = |block: &Block| block.size.iter().product::<f64>();
-    let strength = SCALE * first.moment * second.moment / (volume(first) * volume(second));
+    let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     nodes.clear();
     let rest = Pair::new(first, second, strength, motion).append(nodes);
     nodes.fill(level.width());
@@ -263,7 +261,7 @@ impl CuboidBounds {
         let first = &fixed.block;
         let (sin, cos) = cell.centre.theta.sin_cos();
         let second = moving.block.moved(cos, sin, cell.centre.position());
-        let moment = (SCALE * first.moment * second.moment).abs();
+        let moment = (MU0_OVER_4PI * first.moment * second.moment).abs();
         if moment == 0.0 {
             return;
         }

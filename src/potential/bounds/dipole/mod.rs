@@ -18,18 +18,14 @@ mod taylor;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use std::f64::consts::PI;
-
 use super::near::{Interval, NearPair, depths};
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
 use crate::potential::dipole::Dipole;
 use crate::tile::Tile;
+use crate::units::MU0_OVER_4PI;
 pub(super) use taylor::{Spread, Taylor};
-
-/// mu0 / (4 pi) (T m / A).
-const SCALE: f64 = crate::units::MU0 / (4.0 * PI);
 
 /// Pairs closer than this many times the magnet's reach are bounded one by one.
 pub(super) const NEAR: f64 = 4.0;
@@ -76,6 +72,7 @@ struct Moving {
 }
 
 impl DipoleBounds {
+    /// For the magnets of two tiles, with the best instruction set there is.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
         Self::with_level(fixed, moving, Level::best())
     }
@@ -142,8 +139,8 @@ impl Fixed {
     fn new((dipole, depth): &(Dipole, f64)) -> Self {
         Self {
             position: dipole.position.into(),
-            moment: (dipole.moment * SCALE).into(),
-            magnitude: dipole.moment.norm() * SCALE,
+            moment: (dipole.moment * MU0_OVER_4PI).into(),
+            magnitude: dipole.moment.norm() * MU0_OVER_4PI,
             angle: dipole.moment.y.atan2(dipole.moment.x),
             depth: *depth,
         }

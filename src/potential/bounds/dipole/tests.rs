@@ -6,6 +6,7 @@ use crate::tile::{Magnet, Outline};
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
 
 /// A square of side 0.43 m with four magnets on each face, +1 for north pole out.
 pub fn square_tile(code: [f64; 4]) -> Tile {
@@ -242,7 +243,7 @@ fn exact_energy(fixed: &Tile, moving: &Tile, q: &Configuration) -> Double {
             sum = sum.add(energy);
         }
     }
-    sum.times(exact(SCALE))
+    sum.times(exact(MU0_OVER_4PI))
 }
 
 #[test]

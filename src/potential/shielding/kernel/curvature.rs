@@ -3,7 +3,7 @@
 use super::{COINCIDING, Columns, Magnet, Vectors, Way, dot};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task};
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) along motions in which
 /// no magnet is faster than 1 and none turns at more than the rate `turn` (1/m), with bounds of the
@@ -73,7 +73,7 @@ pub(super) fn dipole_limits<L: Lanes>(
         dot(l, first.moment, first.moment),
         dot(l, second.moment, second.moment),
     );
-    let k = l.mul(l.splat(MU0 / (4.0 * std::f64::consts::PI)), l.sqrt(squares));
+    let k = l.mul(l.splat(MU0_OVER_4PI), l.sqrt(squares));
     let cube = l.mul(k, l.mul(inverse, l.mul(inverse, inverse)));
     let energy = l.mul(l.splat(2.0), cube);
     let slope = l.mul_add(l.splat(6.0), inverse, l.mul(l.splat(2.0), turn));

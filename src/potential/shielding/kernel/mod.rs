@@ -12,7 +12,7 @@ use super::Front;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task};
 use crate::potential::cuboid::block::PairEnergy;
-use crate::units::MU0;
+use crate::units::MU0_OVER_4PI;
 pub(super) use cell::Forms;
 pub(super) use curvature::Curvature;
 use factor::pair_factor;
@@ -281,7 +281,7 @@ fn dipoles<L: Lanes, const SLOPE: bool>(
     let both = l.mul(along1, along2);
     let together = dot(l, m1, m2);
     let cube = l.mul(way.inverse, l.mul(way.inverse, way.inverse));
-    let scale = l.mul(l.splat(MU0 / (4.0 * std::f64::consts::PI)), cube);
+    let scale = l.mul(l.splat(MU0_OVER_4PI), cube);
     let energy = l.mul(scale, l.neg_mul_add(l.splat(3.0), both, together));
     let zero = l.splat(0.0);
     if !SLOPE {
