@@ -3,8 +3,6 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::svg::Drawings;
-
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
@@ -45,7 +43,7 @@ pub struct Place {
 impl Place {
     /// The place of a range of bytes of `text`; a range over several lines is cut at the end of
     /// its first.
-    fn new(text: &str, span: Span) -> Self {
+    pub(super) fn new(text: &str, span: Span) -> Self {
         let start = floor_char_boundary(text, span.start);
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
@@ -120,63 +118,5 @@ impl From<Range<usize>> for Span {
             start: range.start,
             end: range.end,
         }
-    }
-}
-
-/// A design file's name and text, from which every fault takes its place.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Source<'a> {
-    pub file: &'a str,
-    pub text: &'a str,
-    /// The drawings that the design refers to.
-    pub drawings: &'a Drawings<'a>,
-}
-
-impl Source<'_> {
-    pub fn error(
-        &self,
-        span: Span,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> DesignError {
-        DesignError {
-            file: self.file.to_owned(),
-            place: Some(Box::new(Place::new(self.text, span))),
-            message: message.into(),
-            help: help.into(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_fault_shows_its_place_and_its_mend() {
-        let source = Source {
-            file: "a.toml",
-            drawings: &Drawings::default(),
-            text: "name = \"ä\"\nside = 430 # m\n",
-        };
-        let at = source.text.find("430").unwrap();
-        let error = source.error((at..at + 3).into(), "too large", "use metres");
-        assert_eq!(
-            error.to_string(),
-            "a.toml:2:8: too large\n  |\n2 | side = 430 # m\n  |        ^^^\n  = help: use metres"
-        );
-    }
-
-    #[test]
-    fn columns_count_characters_and_places_never_leave_the_text() {
-        let source = Source {
-            file: "a.toml",
-            drawings: &Drawings::default(),
-            text: "ä = ü",
-        };
-        let place = |span: Range<usize>| *source.error(span.into(), "", "").place.unwrap();
-        assert_eq!((place(5..7).column, place(5..7).width), (5, 1));
-        assert_eq!((place(90..99).line, place(90..99).column), (1, 6));
-        assert_eq!(place(6..6).column, 5);
     }
 }

@@ -31,6 +31,7 @@
 
 mod base;
 mod build;
+pub(crate) mod drawings;
 mod error;
 mod face;
 mod magnet;
@@ -42,11 +43,13 @@ mod quantity;
 mod reader;
 mod schema;
 mod shield;
+mod source;
 mod svg;
 mod target;
 mod tile;
 
 pub use crate::potential::MagnetModel;
+pub use drawings::Drawing;
 pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
 pub use schema::{SCHEMA, STARTER};
@@ -55,8 +58,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::configuration::ConfigurationSpace;
@@ -64,10 +65,10 @@ use crate::potential::Interaction;
 use crate::potential::shielding::{ShieldRule, Shields};
 use crate::problem::Problem;
 use crate::tile::Pair;
-use error::Source;
+use drawings::Drawings;
 use magnet::{MAGNET_KEYS, MagnetKeys};
 use reader::{Result, Section};
-use svg::Drawings;
+use source::Source;
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
@@ -101,23 +102,6 @@ pub struct Design {
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
     /// through a curved surface.
     pub warnings: Vec<DesignError>,
-}
-
-/// A drawing that a design refers to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Drawing {
-    /// Its file, as the design names it.
-    pub file: String,
-    /// SHA-256 of the file's bytes, in hexadecimal.
-    pub sha256: String,
-}
-
-/// The text of a drawing that a design file calls `name`.
-///
-/// # Errors
-/// Where it cannot be read.
-pub(crate) fn drawing_text(design: &str, name: &str) -> std::io::Result<String> {
-    svg::read_text(design, name)
 }
 
 const ROOT_KEYS: [&str; 9] = [
@@ -218,7 +202,7 @@ impl Design {
                 .string("name")?
                 .map_or_else(|| stem(file), str::to_owned),
             description: root.string("description")?.unwrap_or_default().to_owned(),
-            sha256: hexadecimal(&Sha256::digest(text.as_bytes())),
+            sha256: drawings::sha256(text),
             table,
             pair: Arc::new(Pair {
                 bound: target.configuration(&fixed, &moving)?,
@@ -334,8 +318,4 @@ fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
 fn stem(file: &str) -> String {
     let stem = Path::new(file).file_stem().unwrap_or_default();
     stem.to_string_lossy().into_owned()
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

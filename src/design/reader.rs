@@ -3,8 +3,9 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{DesignError, Source, Span};
+use super::error::{DesignError, Span};
 use super::quantity::Quantity;
+use super::source::Source;
 
 pub(super) type Result<T> = std::result::Result<T, DesignError>;
 
@@ -103,10 +104,6 @@ impl<'a> Section<'a> {
 
     pub fn span(&self) -> Span {
         self.span
-    }
-
-    pub fn source(&self) -> Source<'a> {
-        self.source
     }
 
     /// A fault of the table as a whole.

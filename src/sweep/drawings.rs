@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value as Toml};
 
 use super::vary::{Axis, Value};
-use crate::design::drawing_text;
+use crate::design::drawings;
 
 /// The key that names a drawing, wherever it stands.
 const FILE: &str = "file";
@@ -49,6 +49,6 @@ pub fn held(file: &str, document: &Table, axes: &[Axis]) -> BTreeMap<String, Str
     }
     names
         .into_iter()
-        .filter_map(|name| Some((name.to_owned(), drawing_text(file, name).ok()?)))
+        .filter_map(|name| Some((name.to_owned(), drawings::read_text(file, name).ok()?)))
         .collect()
 }

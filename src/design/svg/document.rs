@@ -6,8 +6,9 @@ use kurbo::Affine;
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
-use super::super::error::{Source, Span};
+use super::super::error::Span;
 use super::super::reader::Result;
+use super::super::source::Source;
 use super::path::{SHAPES, draw};
 use super::pen::{Pen, points};
 use super::scale::scale;

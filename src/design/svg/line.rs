@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 
-use super::super::error::Source;
 use super::super::quantity;
 use super::super::reader::{Result, Section};
+use super::super::source::Source;
 use super::document::{Line, Shape};
 use super::{SAME_POINT, only_line, with_shape};
 use crate::tile::outline::{Outline, OutlineError};

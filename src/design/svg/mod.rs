@@ -24,27 +24,61 @@
 //!   two corners is, counter-clockwise from the first one. The base line of a face is straight.
 
 mod document;
-mod files;
 mod line;
 mod outline;
 mod path;
 mod pen;
 mod scale;
 
-pub(super) use files::{Drawings, read_text};
 pub(super) use line::read_line;
 #[cfg(test)]
 pub(super) use outline::OUTLINE_KEYS;
 pub(super) use outline::read_outline;
 pub(super) use scale::UNITS;
 
-use super::error::Source;
-use super::reader::{Result, Section, nearest_help};
+use super::drawings;
+use super::reader::{Entry, Result, Section, nearest_help};
+use super::source::Source;
 use crate::tile::profile::CHORD_ERROR;
-use document::Shape;
+use document::{Shape, Skipped};
 
 /// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
 const SAME_POINT: f64 = 1e-6;
+
+/// Gives the drawing that `entry` names to `use_it`.
+fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> Result<T> {
+    let name = entry.string()?;
+    let Source { file, drawings, .. } = entry.source();
+    let text = drawings.text(file, name).map_err(|error| {
+        let message = format!("cannot read the drawing \"{name}\": {error}");
+        entry.error(
+            message,
+            "paths of drawings start from the design file's folder",
+        )
+    })?;
+    use_it(&Source {
+        file: &drawings::path(file, name).display().to_string(),
+        text: &text,
+        drawings,
+    })
+}
+
+/// Notes what of a drawing is not read.
+fn note_skipped(source: &Source, skipped: &[Skipped]) {
+    let Some(&(first, _)) = skipped.first() else {
+        return;
+    };
+    let line = |at: usize| source.text[..at].matches('\n').count() + 1;
+    let all: Vec<String> = skipped
+        .iter()
+        .map(|(span, what)| format!("{what} in line {}", line(span.start)))
+        .collect();
+    source.drawings.note(source.error(
+        first,
+        format!("not read of the drawing: {}", all.join(", ")),
+        "what belongs to the shape is to be converted to a path; delete the rest",
+    ));
+}
 
 /// Gives the shape that a section asks for with `file`, `unit` and `id` to `use_it`, with the
 /// drawing that it is in.
@@ -58,9 +92,9 @@ fn with_shape<T>(
         .map(|entry| entry.word(&UNITS))
         .transpose()?;
     let id = section.get("id");
-    section.source().drawings.with(&file, |source| {
+    with_drawing(&file, |source| {
         let (shapes, skipped) = document::read(*source, unit, CHORD_ERROR)?;
-        source.drawings.note_skipped(source, &skipped);
+        note_skipped(source, &skipped);
         let ids: Vec<&str> = shapes.iter().filter_map(|s| s.id.as_deref()).collect();
         if let Some(entry) = id {
             let wanted = entry.string()?;

@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
-use super::super::error::Source;
 use super::super::quantity;
 use super::super::reader::{Entry, Result};
+use super::super::source::Source;
 use super::document::Shape;
 use super::line::apart;
 use super::{SAME_POINT, only_line, with_shape};

@@ -6,8 +6,8 @@ use kurbo::Affine;
 use roxmltree::Node;
 use svgtypes::{AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::super::error::Source;
 use super::super::reader::Result;
+use super::super::source::Source;
 use super::document::span;
 use super::path::{INCH, metres};
 

@@ -1,0 +1,93 @@
+//! The drawings that a design refers to: where they are read from, and what was found.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::error::DesignError;
+
+/// Largest drawing (bytes).
+const LARGEST: u64 = 16 << 20;
+
+/// A drawing that a design refers to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Drawing {
+    /// Its file, as the design names it.
+    pub file: String,
+    /// SHA-256 of the file's bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+/// The drawings of one design.
+#[derive(Debug, Default)]
+pub(super) struct Drawings<'a> {
+    /// Contents of the files by their names, where files are not to be read.
+    held: Option<&'a BTreeMap<String, String>>,
+    used: RefCell<BTreeMap<String, Drawing>>,
+    skipped: RefCell<Vec<DesignError>>,
+}
+
+/// The text of a drawing that the design at `design` calls `name`.
+pub(crate) fn read_text(design: &str, name: &str) -> std::io::Result<String> {
+    let path = path(design, name);
+    if std::fs::metadata(&path)?.len() > LARGEST {
+        let message = format!("it is larger than {} MB", LARGEST >> 20);
+        return Err(std::io::Error::other(message));
+    }
+    std::fs::read_to_string(path)
+}
+
+pub(super) fn path(design: &str, name: &str) -> std::path::PathBuf {
+    Path::new(design).with_file_name(name)
+}
+
+impl<'a> Drawings<'a> {
+    /// Drawings that are held, or else those beside the design.
+    pub fn new(held: Option<&'a BTreeMap<String, String>>) -> Self {
+        Self {
+            held,
+            ..Self::default()
+        }
+    }
+
+    /// The text of the drawing that the design at `design` calls `name`; it counts as used.
+    ///
+    /// # Errors
+    /// Where it is not held and cannot be read.
+    pub fn text(&self, design: &str, name: &str) -> std::io::Result<String> {
+        let text = match self.held {
+            Some(held) => held.get(name).cloned().ok_or(ErrorKind::NotFound.into()),
+            None => read_text(design, name),
+        }?;
+        let drawing = Drawing {
+            file: name.to_owned(),
+            sha256: sha256(&text),
+        };
+        self.used.borrow_mut().insert(name.to_owned(), drawing);
+        Ok(text)
+    }
+
+    /// Notes a doubt about a drawing, once.
+    pub fn note(&self, doubt: DesignError) {
+        let mut doubts = self.skipped.borrow_mut();
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+
+    /// The drawings that were used, by name, and what of them was not read.
+    pub fn finish(self) -> (Vec<Drawing>, Vec<DesignError>) {
+        let used = self.used.into_inner().into_values().collect();
+        (used, self.skipped.into_inner())
+    }
+}
+
+/// SHA-256 of a text, in hexadecimal.
+pub(super) fn sha256(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
