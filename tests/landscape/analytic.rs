@@ -49,7 +49,10 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
     free_distance: 10.0,
 };
 
-fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
+/// A barrier counts as settled when it moves by less than this fraction.
+pub const SETTLED: f64 = 0.005;
+
+pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
     let edge = EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -74,7 +77,7 @@ fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
     let roadmap = Roadmap::build(problem, &roadmap, &mut |_| ());
     let settings = SurveySettings {
         edge,
-        settled: 0.005,
+        settled: SETTLED,
         added_milestones: 100,
         most_rounds: 8,
         seed,

@@ -7,6 +7,7 @@ mod counts;
 #[path = "../shared/designs.rs"]
 mod designs;
 mod roadmap;
+mod seam;
 mod surfaces;
 mod symmetry;
 mod walls;

@@ -1,6 +1,8 @@
 //! Landscapes with known minima and saddles, in x and y; theta does not matter to them.
 
 use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use tilebind::Configuration;
 use tilebind::cell::{Cell, Quadratic};
@@ -9,7 +11,7 @@ use tilebind::potential::bounds::{CellBounds, Enclosure};
 
 /// Relative rounding errors allowed for in the enclosures: far more than the dozens of roundings
 /// (and the exponential's few units in the last place) that there are.
-const ROUNDING: f64 = 1e-13;
+pub const ROUNDING: f64 = 1e-13;
 
 /// Two wells in a valley along x:
 ///
@@ -221,72 +223,66 @@ impl CellBounds for MuellerBrown {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
+const SURFACE: MuellerBrown = MuellerBrown {
+    scale: 1.0,
+    length: 0.3,
+    origin: [0.05, -0.2],
+};
 
-    const SURFACE: MuellerBrown = MuellerBrown {
-        scale: 1.0,
-        length: 0.3,
-        origin: [0.05, -0.2],
-    };
+#[test]
+fn stationary_points_have_the_published_energies() {
+    for (x, y, energy) in [
+        (-0.55822, 1.44173, -146.69952),
+        (0.62350, 0.02804, -108.16672),
+        (-0.05001, 0.46669, -80.76782),
+        (-0.82200, 0.62431, -40.66484),
+        (0.21249, 0.29299, -72.24894),
+    ] {
+        let (u, gradient) = SURFACE.energy_and_gradient(&SURFACE.configuration(x, y));
+        assert!((u - energy).abs() < 1e-4, "{u} {energy}");
+        assert!(gradient.norm() * SURFACE.length < 2e-2, "{gradient}");
+    }
+}
 
-    #[test]
-    fn stationary_points_have_the_published_energies() {
-        for (x, y, energy) in [
-            (-0.55822, 1.44173, -146.69952),
-            (0.62350, 0.02804, -108.16672),
-            (-0.05001, 0.46669, -80.76782),
-            (-0.82200, 0.62431, -40.66484),
-            (0.21249, 0.29299, -72.24894),
-        ] {
-            let (u, gradient) = SURFACE.energy_and_gradient(&SURFACE.configuration(x, y));
-            assert!((u - energy).abs() < 1e-4, "{u} {energy}");
-            assert!(gradient.norm() * SURFACE.length < 2e-2, "{gradient}");
+/// Checks enclosures and curvature bounds against sampled energies, `extent` (m) around the origin.
+pub fn check_bounds<P: Potential + CellBounds>(potential: &P, extent: f64) {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    for _ in 0..2000 {
+        let mut random = |most: f64| rng.random_range(-most..most);
+        let size = 10f64.powf(random(2.0) - 2.0) * extent;
+        let cell = Cell {
+            centre: Configuration::new(random(extent), random(extent), random(3.0)),
+            half: [
+                random(size).abs(),
+                random(size).abs(),
+                random(size / extent).abs(),
+            ],
+        };
+        let enclosure = potential.enclose(&cell);
+        let reach = potential.displacement(cell.half.into());
+        let steepest = potential.curvature_bound(&cell.centre, reach);
+        for _ in 0..20 {
+            let d = cell.half.map(|half| random(1.0) * half);
+            let at = |t: f64| cell.centre.moved(Vector3::from(d) * t);
+            let u = potential.energy(&at(1.0));
+            let rest = u - enclosure.form.at(d);
+            assert!(rest >= enclosure.low && rest <= enclosure.high, "{cell:?}");
+            let bend = (u - 2.0 * enclosure.form.value + potential.energy(&at(-1.0))).abs();
+            let travelled = potential.displacement(d.into()).powi(2);
+            assert!(bend <= steepest * travelled * (1.0 + 1e-9) + 1e-9 * u.abs());
         }
     }
+}
 
-    /// Checks enclosures and curvature bounds against sampled energies.
-    fn check<P: Potential + CellBounds>(potential: &P, extent: f64) {
-        let mut rng = ChaCha8Rng::seed_from_u64(8);
-        for _ in 0..2000 {
-            let mut random = |most: f64| rng.random_range(-most..most);
-            let size = 10f64.powf(random(2.0) - 2.0) * extent;
-            let cell = Cell {
-                centre: Configuration::new(random(extent), random(extent), random(3.0)),
-                half: [random(size).abs(), random(size).abs(), 1.0],
-            };
-            let enclosure = potential.enclose(&cell);
-            let steepest = potential.curvature_bound(&cell.centre, cell.travel());
-            for _ in 0..20 {
-                let d = [
-                    random(1.0) * cell.half[0],
-                    random(1.0) * cell.half[1],
-                    random(1.0),
-                ];
-                let at = |t: f64| cell.centre.moved(Vector3::new(d[0], d[1], d[2]) * t);
-                let u = potential.energy(&at(1.0));
-                let rest = u - enclosure.form.at(d);
-                assert!(rest >= enclosure.low && rest <= enclosure.high, "{cell:?}");
-                let bend = (u - 2.0 * enclosure.form.value + potential.energy(&at(-1.0))).abs();
-                let travelled = d[0] * d[0] + d[1] * d[1];
-                assert!(bend <= steepest * travelled * (1.0 + 1e-9) + 1e-9 * u.abs());
-            }
-        }
-    }
-
-    #[test]
-    fn enclosures_hold_the_energy() {
-        check(&SURFACE, 0.5);
-        check(
-            &DoubleWell {
-                height: 2.0,
-                half_distance: 0.3,
-                stiffness: 5.0,
-            },
-            0.5,
-        );
-    }
+#[test]
+fn enclosures_hold_the_energy() {
+    check_bounds(&SURFACE, 0.5);
+    check_bounds(
+        &DoubleWell {
+            height: 2.0,
+            half_distance: 0.3,
+            stiffness: 5.0,
+        },
+        0.5,
+    );
 }
