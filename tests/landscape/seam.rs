@@ -7,10 +7,9 @@ use std::f64::consts::PI;
 use nalgebra::{Vector2, Vector3};
 use tilebind::cell::{Cell, Quadratic};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
-use tilebind::contact::Contact;
 use tilebind::landscape::capture::{FarStarts, ends};
 use tilebind::landscape::certificate::{Certifier, Effort, End};
-use tilebind::landscape::map::{EnergyMap, Pair, Window};
+use tilebind::landscape::map::{EnergyMap, Window};
 use tilebind::landscape::minimum::{Outcome, drift};
 use tilebind::potential::Potential;
 use tilebind::potential::bounds::{CellBounds, Enclosure};
@@ -192,9 +191,9 @@ fn the_certificate_brackets_the_saddle_from_both_sides() {
         let bracket = certifier
             .bracket(&from, &End::At(to), &[], &effort)
             .unwrap();
-        let upper = bracket.upper.expect("a way");
-        assert!(bracket.lower <= HEIGHT && HEIGHT <= upper, "{bracket:?}");
-        assert!(bracket.width() <= effort.tolerance, "{bracket:?}");
+        let upper = bracket.bounds.upper.expect("a way");
+        assert!(bracket.bounds.least() <= HEIGHT && HEIGHT <= upper, "{bracket:?}");
+        assert!(bracket.bounds.width() <= effort.tolerance, "{bracket:?}");
         let crosses = |pair: &[Configuration]| pair[0].theta * pair[1].theta < 0.0;
         assert!(bracket.pathway.windows(2).any(crosses));
         let far = |q: &Configuration| q.theta.abs() > PI - 2.0 * ASIDE;
@@ -259,12 +258,8 @@ fn the_map_takes_the_lower_of_both_sides() {
     let potential = Seam {
         centre: [0.7, 0.05],
     };
-    let pair = Pair {
-        fixed: &design.fixed,
-        moving: &design.moving,
-        potential: &potential,
-        contact: &Contact::new(&design.fixed.outline, &design.moving.outline),
-    };
+    let problem = Problem::without_contact(design.space(), Box::new(potential));
+    let problem = problem.with_tiles(design.pair);
     let window = Window {
         origin: Vector2::from(potential.centre),
         angle: 0.0,
@@ -273,7 +268,7 @@ fn the_map_takes_the_lower_of_both_sides() {
         samples: [12, 3],
     };
     // An orientation on the seam, and none near the wells: they are found from there.
-    let map = EnergyMap::new(&pair, &window, 8);
+    let map = EnergyMap::new(&problem, &window, 8);
     for sample in &map.lowest.values {
         let sample = sample.expect("free").configuration;
         let at = |theta| potential.energy(&Configuration::new(sample.x, sample.y, theta));
