@@ -67,10 +67,7 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
         files.insert(name, content.into_bytes());
     };
     add("states.csv".into(), csv::states(design, analysis));
-    add(
-        "barriers.csv".into(),
-        csv::barriers(&analysis.barriers, json::pathway_file),
-    );
+    add("barriers.csv".into(), csv::barriers(&analysis.barriers));
     if let Some(checks) = &analysis.dynamics {
         add(dynamics::TABLE.into(), dynamics::csv(checks));
     }

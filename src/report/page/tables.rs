@@ -1,12 +1,15 @@
 //! The tables and first facts of an analysis' page.
 
-use serde_json::{Value, json};
+use std::borrow::Borrow;
+
+use serde_json::json;
 
 use super::{Column, Fact, Table, finite};
 use crate::analysis::Analysis;
 use crate::design::Design;
-use crate::landscape::{Barrier, Proportion, StateKind};
-use crate::report::json::{face_names, kind, place_name};
+use crate::landscape::{Place, Proportion, StateKind};
+use crate::report::columns::{self, Cell, Output, StateRow};
+use crate::report::json::place_name;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
 use crate::report::plots::scene::Class;
@@ -15,34 +18,21 @@ use crate::units::{si, si_range};
 /// Significant digits of numbers in tables.
 const DIGITS: usize = 7;
 
-fn number(value: f64) -> Value {
-    json!(finite(value, DIGITS))
-}
-
-fn optional(value: Option<f64>) -> Value {
-    value.map_or(Value::Null, number)
-}
-
 fn energy(value: f64) -> String {
     minus(&si(value, "J", 4))
 }
 
-/// The lowest way out of a class of states.
-fn escape<'a>(analysis: &'a Analysis, class: &Class) -> Option<&'a Barrier> {
-    analysis.escapes[class.state.id].as_ref()
-}
-
-/// Share of the far starts that end in any state of a class.
-fn captured(analysis: &Analysis, class: &Class) -> Option<Proportion> {
+/// A class of states through one of them, with the share of the far starts that end in any.
+fn row<'a>(design: &Design, analysis: &'a Analysis, class: &Class<'a>) -> StateRow<'a> {
     let copies = analysis.states.iter();
     let counts: Option<Vec<usize>> = copies
         .filter(|state| state.class == class.state.class)
         .map(|state| Some(state.capture?.count))
         .collect();
-    Some(Proportion::new(
-        counts?.iter().sum(),
-        analysis.uncaptured.of,
-    ))
+    let of = analysis.uncaptured.of;
+    let mut row = StateRow::new(design, analysis, class.state);
+    row.capture = counts.map(|counts| Proportion::new(counts.iter().sum(), of));
+    row
 }
 
 /// What to know first: the bond, how often it is found, how it is left, the deepest trap.
@@ -53,7 +43,10 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         note,
     };
     let classes = scene.classes();
-    let first = |kind| classes.iter().find(move |class| class.state.kind == kind);
+    let first = |kind| {
+        let class = classes.iter().find(|class| class.state.kind == kind)?;
+        Some(row(design, analysis, class))
+    };
     let mut facts = Vec::new();
     let magnets = format!("magnets as {}s", design.model.name());
     let Some(bond) = first(StateKind::Bound) else {
@@ -63,7 +56,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         return facts;
     };
     facts.push(fact("bond", energy(bond.state.energy), magnets));
-    if let Some(share) = captured(analysis, bond).filter(|share| share.of > 0) {
+    if let Some(share) = bond.capture.filter(|share| share.of > 0) {
         facts.push(fact(
             "far starts that bind",
             format!("{:.1} %", 100.0 * share.share()),
@@ -76,7 +69,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             ),
         ));
     }
-    let way_out = |class: &Class| match escape(analysis, class) {
+    let way_out = |row: &StateRow| match row.escape() {
         None => ("not known".to_owned(), "no way out was found".to_owned()),
         Some(barrier) if barrier.caged => ("none".to_owned(), "proved: no way out".to_owned()),
         Some(barrier) => {
@@ -92,7 +85,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             (energy(barrier.forward()), format!("to {to}{certified}"))
         }
     };
-    let (height, note) = way_out(bond);
+    let (height, note) = way_out(&bond);
     facts.push(fact("barrier out of the bond", height, note));
     match first(StateKind::Misbound) {
         None => facts.push(fact("traps", "none".to_owned(), String::new())),
@@ -103,7 +96,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
                 trap.state.energy / bond.state.energy
             );
             facts.push(fact("deepest trap", energy(trap.state.energy), note));
-            let (height, note) = way_out(trap);
+            let (height, note) = way_out(&trap);
             facts.push(fact("barrier out of that trap", height, note));
         }
     }
@@ -113,85 +106,49 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
 /// The classes of states.
 pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
     let classes = scene.classes();
-    let rows = classes.iter().map(|class| {
-        let state = class.state;
-        let out = escape(analysis, class);
-        let [x, y, theta] = state.configuration.to_array();
-        let faces: Vec<_> = face_names(design, state)
-            .iter()
-            .map(|pair| pair.join("-"))
-            .collect();
-        vec![
-            json!(state.id),
-            json!(kind(state.kind)),
-            json!(class.copies),
-            number(state.energy),
-            optional(out.map(Barrier::forward)),
-            out.map_or(Value::Null, |barrier| json!(place_name(barrier.to))),
-            optional(captured(analysis, class).map(|share| share.share())),
-            number(x),
-            number(y),
-            number(theta),
-            json!(state.attracting),
-            json!(state.repelling),
-            json!(faces.join(" ")),
-        ]
-    });
+    let rows = classes.iter().map(|class| row(design, analysis, class));
     Table {
         title: "States".to_owned(),
         note: "One row for the states that symmetry maps onto each other: the one nearest to the \
                bound configuration. Captured: share of far starts that end in any of them. \
                Attracting, repelling: magnet pairs close together. A click shows the pose."
             .to_owned(),
-        columns: vec![
-            Column::new("state", ""),
-            Column::new("kind", ""),
-            Column::new("copies", ""),
-            Column::new("energy", "J"),
-            Column::new("way out", "J"),
-            Column::new("leads to", ""),
-            Column::new("captured", "%"),
-            Column::new("x", "m"),
-            Column::new("y", "m"),
-            Column::new("\u{3b8}", "rad"),
-            Column::new("attracting", ""),
-            Column::new("repelling", ""),
-            Column::new("faces", ""),
-        ],
-        rows: rows.collect(),
         states: classes.iter().map(|class| class.state.id).collect(),
+        ..of_columns(&columns::states(Output::Page), rows, place_name)
     }
 }
 
 /// The barriers between classes.
 pub fn barriers(analysis: &Analysis, scene: &Scene) -> Table {
-    let rows = analysis.barriers.iter().map(|barrier| {
-        vec![
-            json!(scene.name_of(barrier.from)),
-            json!(scene.name_of(barrier.to)),
-            number(barrier.saddle_energy),
-            optional(barrier.lower),
-            optional(barrier.upper),
-            number(barrier.forward()),
-            number(barrier.reverse()),
-        ]
-    });
+    let columns = columns::barriers(Output::Page);
     Table {
         title: "Barriers".to_owned(),
         note:
             "The highest energy on the best way found, its certified bounds, and its height seen \
                from either end."
                 .to_owned(),
-        columns: vec![
-            Column::new("from", ""),
-            Column::new("to", ""),
-            Column::new("saddle", "J"),
-            Column::new("at least", "J"),
-            Column::new("at most", "J"),
-            Column::new("forward", "J"),
-            Column::new("reverse", "J"),
-        ],
-        rows: rows.collect(),
+        ..of_columns(&columns, &analysis.barriers, |place| scene.name_of(place))
+    }
+}
+
+/// A table of the columns that the page shows, `place` naming places.
+fn of_columns<Row>(
+    columns: &[columns::Column<Row>],
+    rows: impl IntoIterator<Item = impl Borrow<Row>>,
+    place: impl Fn(Place) -> String,
+) -> Table {
+    let cell = |cell: Cell| match cell {
+        Cell::Value(value) => value,
+        Cell::Real(value) => json!(finite(value, DIGITS)),
+        Cell::Place(at) => json!(place(at)),
+    };
+    let cells = |row: &Row| columns.iter().map(|c| cell((c.get)(row))).collect();
+    let heads = columns.iter().map(|c| Column::new(c.heading, c.unit));
+    Table {
+        title: String::new(),
+        note: String::new(),
+        columns: heads.collect(),
+        rows: rows.into_iter().map(|row| cells(row.borrow())).collect(),
         states: Vec::new(),
     }
 }
