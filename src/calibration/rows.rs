@@ -1,5 +1,9 @@
 //! Measurements from a CSV file.
 
+use std::io::Read;
+
+use csv::{ReaderBuilder, StringRecord, Terminator, Trim};
+
 use super::Row;
 use crate::configuration::Configuration;
 
@@ -71,20 +75,16 @@ pub enum CsvError {
     },
 }
 
-/// Reads measurements. Empty lines and lines that begin with `#` are skipped.
+/// Reads measurements. Lines without entries and lines that begin with `#` are skipped.
 ///
 /// # Errors
 /// Where the text is not a table of the given [`COLUMNS`].
 pub fn read_rows(text: &str) -> Result<Vec<Row>, CsvError> {
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(i, line)| (i + 1, line.trim()))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let (_, header) = lines.next().ok_or(CsvError::Empty)?;
-    let columns = columns(header)?;
-    let rows: Vec<Row> = lines
-        .map(|(line, text)| row(line, text, &columns))
+    let mut records = records(text);
+    let (_, header) = records.next().ok_or(CsvError::Empty)?;
+    let columns = columns(&header)?;
+    let rows: Vec<Row> = records
+        .map(|(line, record)| row(line, &record, &columns))
         .collect::<Result<_, _>>()?;
     if rows.is_empty() {
         return Err(CsvError::NoRows);
@@ -92,14 +92,30 @@ pub fn read_rows(text: &str) -> Result<Vec<Row>, CsvError> {
     Ok(rows)
 }
 
+/// The lines that say something, with their numbers, cut into trimmed entries.
+fn records(text: &str) -> impl Iterator<Item = (usize, StringRecord)> {
+    // Every line ends with a line feed, also the last one: so the reader has passed just one more
+    // than those it has read, whatever it skipped.
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(Trim::All)
+        .comment(Some(b'#'))
+        .terminator(Terminator::Any(b'\n'))
+        .from_reader(text.as_bytes().chain(&b"\n"[..]));
+    let records = std::iter::from_fn(move || {
+        let mut record = StringRecord::new();
+        // Text that is in memory cannot fail to be read.
+        let found = reader.read_record(&mut record).unwrap_or(false);
+        found.then(|| (reader.position().line() as usize - 1, record))
+    });
+    records.filter(|(_, record)| !record.iter().all(str::is_empty) && !record[0].starts_with('#'))
+}
+
 /// Which of [`COLUMNS`] each column of the file is.
-fn columns(header: &str) -> Result<Vec<usize>, CsvError> {
+fn columns(header: &StringRecord) -> Result<Vec<usize>, CsvError> {
     let mut columns = Vec::new();
-    for name in header
-        .trim_start_matches('\u{feff}')
-        .split(',')
-        .map(str::trim)
-    {
+    for name in header {
         let known = COLUMNS.iter().position(|column| *column == name);
         let column = known.ok_or_else(|| CsvError::UnknownColumn(name.to_owned()))?;
         if columns.contains(&column) {
@@ -116,8 +132,7 @@ fn columns(header: &str) -> Result<Vec<usize>, CsvError> {
     Ok(columns)
 }
 
-fn row(line: usize, text: &str, columns: &[usize]) -> Result<Row, CsvError> {
-    let entries: Vec<&str> = text.split(',').map(str::trim).collect();
+fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, CsvError> {
     if entries.len() != columns.len() {
         return Err(CsvError::WrongCount {
             line,
@@ -126,7 +141,7 @@ fn row(line: usize, text: &str, columns: &[usize]) -> Result<Row, CsvError> {
         });
     }
     let mut values = [None; COLUMNS.len()];
-    for (&column, &entry) in columns.iter().zip(&entries) {
+    for (&column, entry) in columns.iter().zip(entries) {
         if column >= NEEDED && entry.is_empty() {
             continue;
         }
@@ -169,6 +184,15 @@ mod tests {
         assert_eq!(rows[0].measured, [None, Some(-2.5), None, None]);
         assert_eq!(rows[1].measured, [Some(-1e-3), None, None, None]);
         assert_eq!(rows[1].configuration, Configuration::new(0.44, 0.01, -0.1));
+    }
+
+    #[test]
+    fn a_table_from_a_spreadsheet_is_read() {
+        let text = "\u{feff}\"x_m\",\"y_m\",\"theta_rad\",\"iron\",\"energy_J\"\r\n\r\n,,,,\r\n  \r\n\
+                    # of \"May\r\n  # and, \"June\r\n\"0.43\",0,0.1,1,\"2\" \r\n0.44,0,0.1,0,3";
+        let rows = read_rows(text).unwrap_or_else(|error| panic!("{error}"));
+        let read: Vec<_> = rows.iter().map(|row| (row.line, row.measured[0])).collect();
+        assert_eq!(read, [(7, Some(2.0)), (8, Some(3.0))]);
     }
 
     #[test]

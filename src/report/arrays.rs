@@ -15,23 +15,25 @@
 //! | `milestones` | pose and energy; an edge's `from` and `to` are places in this list |
 //! | `edges` | from, to, highest energy and where it is on the way (0 to 1), length, work and -ln of the transition probability either way |
 
+use std::borrow::Borrow;
+
+use super::columns::{self, Cell, Column, Output, StateRow};
 use super::page::landscape::{in_front, whole};
 use super::plots::Scene;
 use super::writer::Files;
-use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::volume::Volume;
-use crate::landscape::{Barrier, Place, State, StateKind};
+use crate::landscape::{Barrier, Place};
 use crate::pipeline::Analysis;
-use crate::roadmap::Roadmap;
+use crate::roadmap::{Edge, EdgeCosts, Milestone, Roadmap};
 
 /// The folder of the arrays.
 pub const FOLDER: &str = "arrays";
 
 /// A field of a structured array.
 enum Field {
-    Whole(&'static str, Vec<i64>),
-    Real(&'static str, Vec<f64>),
+    Whole(String, Vec<i64>),
+    Real(String, Vec<f64>),
 }
 
 use Field::{Real, Whole};
@@ -51,8 +53,17 @@ pub fn files(design: &Design, analysis: &Analysis) -> Files {
     let shape = [1, 2].map(|k| front.volume.axes[k].len());
     add("front_landing_m", grid(&shape, &or_nan(&front.landing)));
     let roadmap = Roadmap::build(&analysis.problem, &analysis.roadmap, &mut |_| {});
-    add("states", table(&states(analysis)));
-    add("barriers", table(&barriers(analysis)));
+    let states = StateRow::all(design, analysis);
+    let escapes = states.iter().filter_map(|row| row.escape.as_ref());
+    let barriers: Vec<&Barrier> = escapes.chain(&analysis.inventory.barriers).collect();
+    add(
+        "states",
+        table(&fields(&columns::states(Output::Npy), &states)),
+    );
+    add(
+        "barriers",
+        table(&fields(&columns::barriers(Output::Npy), &barriers)),
+    );
     add("milestones", table(&milestones(&roadmap)));
     add("edges", table(&edges(&roadmap)));
     files
@@ -78,96 +89,71 @@ fn or_nan(values: &[Option<f64>]) -> Vec<f64> {
         .collect()
 }
 
-fn states(analysis: &Analysis) -> Vec<Field> {
-    let states = &analysis.inventory.states;
-    let whole = |of: &dyn Fn(&State) -> usize| states.iter().map(|s| of(s) as i64).collect();
-    let real = |of: &dyn Fn(&State) -> Option<f64>| {
-        states.iter().map(|s| of(s).unwrap_or(f64::NAN)).collect()
+/// The fields of a table; -1 for `free`, NaN where nothing is known.
+fn fields<Row>(columns: &[Column<Row>], rows: &[impl Borrow<Row>]) -> Vec<Field> {
+    let field = |column: &Column<Row>| {
+        let name = column.key();
+        let cells = rows.iter().map(|row| (column.get)(row.borrow()));
+        if column.unit.is_empty() {
+            Whole(name, cells.map(whole_number).collect())
+        } else {
+            Real(name, cells.map(real_number).collect())
+        }
     };
-    let escape = |state: &State| analysis.escape(state.id);
-    let mut fields = vec![
-        Whole("id", whole(&|state| state.id)),
-        Whole("class", whole(&|state| state.class)),
-        Whole("bound", whole(&|s| usize::from(s.kind == StateKind::Bound))),
-    ];
-    fields.extend(poses(states.iter().map(|state| &state.configuration)));
-    fields.extend([
-        Real("energy_J", real(&|state| Some(state.energy))),
-        Real("block_energy_J", real(&|state| state.block_energy)),
-        Real(
-            "escape_saddle_energy_J",
-            real(&|state| Some(escape(state)?.saddle_energy)),
-        ),
-        Real("capture_share", real(&|state| Some(state.capture?.share()))),
-    ]);
-    fields
+    columns.iter().map(field).collect()
 }
 
-fn barriers(analysis: &Analysis) -> Vec<Field> {
-    let escapes = analysis
-        .inventory
-        .states
-        .iter()
-        .filter_map(|state| analysis.escape(state.id));
-    let all: Vec<Barrier> = escapes
-        .chain(analysis.inventory.barriers.iter().cloned())
-        .collect();
-    let end = |of: &dyn Fn(&Barrier) -> Place| {
-        let number = |barrier: &Barrier| match of(barrier) {
-            Place::State(id) => id as i64,
-            Place::Free => -1,
-        };
-        all.iter().map(number).collect()
-    };
-    let real = |of: &dyn Fn(&Barrier) -> Option<f64>| {
-        let value = |barrier: &Barrier| of(barrier).unwrap_or(f64::NAN);
-        all.iter().map(value).collect()
-    };
-    let mut fields = vec![
-        Whole("from", end(&|barrier| barrier.from)),
-        Whole("to", end(&|barrier| barrier.to)),
-        Real("saddle_energy_J", real(&|b| Some(b.saddle_energy))),
-        Real("lower_J", real(&|barrier| barrier.bounds.lower)),
-        Real("upper_J", real(&|barrier| barrier.bounds.upper)),
-    ];
-    fields.extend(poses(all.iter().map(|barrier| &barrier.saddle)));
-    fields
+fn whole_number(cell: Cell) -> i64 {
+    match cell {
+        Cell::Value(value) => value.as_i64().unwrap_or(-1),
+        Cell::Place(Place::State(id)) => id as i64,
+        Cell::Place(Place::Free) | Cell::Real(_) => -1,
+    }
+}
+
+fn real_number(cell: Cell) -> f64 {
+    match cell {
+        Cell::Real(value) => value,
+        Cell::Value(_) | Cell::Place(_) => f64::NAN,
+    }
 }
 
 fn milestones(roadmap: &Roadmap) -> Vec<Field> {
-    let milestones = &roadmap.milestones;
-    let mut fields = Vec::from(poses(milestones.iter().map(|m| &m.configuration)));
-    let energies = milestones.iter().map(|milestone| milestone.energy);
-    fields.push(Real("energy_J", energies.collect()));
-    fields
+    let real = |name: &str, of: fn(&Milestone) -> f64| {
+        Real(name.to_owned(), roadmap.milestones.iter().map(of).collect())
+    };
+    vec![
+        real("x_m", |milestone| milestone.configuration.x),
+        real("y_m", |milestone| milestone.configuration.y),
+        real("theta_rad", |milestone| milestone.configuration.theta),
+        real("energy_J", |milestone| milestone.energy),
+    ]
 }
 
 fn edges(roadmap: &Roadmap) -> Vec<Field> {
     let edges = &roadmap.edges;
-    let whole = |of: &dyn Fn(usize) -> u32| (0..edges.len()).map(|k| of(k).into()).collect();
-    let real = |of: &dyn Fn(&crate::roadmap::EdgeCosts) -> f64| {
-        edges.iter().map(|edge| of(&edge.costs)).collect()
+    let whole = |name: &str, of: fn(&Edge) -> u32| {
+        Whole(
+            name.to_owned(),
+            edges.iter().map(|e| of(e).into()).collect(),
+        )
+    };
+    let real = |name: &str, of: fn(&EdgeCosts) -> f64| {
+        Real(
+            name.to_owned(),
+            edges.iter().map(|e| of(&e.costs)).collect(),
+        )
     };
     vec![
-        Whole("from", whole(&|k| edges[k].from)),
-        Whole("to", whole(&|k| edges[k].to)),
-        Real("peak_J", real(&|costs| costs.peak)),
-        Real("peak_at", real(&|costs| costs.peak_at)),
-        Real("length_m", real(&|costs| costs.length)),
-        Real("work_forwards_J", real(&|costs| costs.work[0])),
-        Real("work_backwards_J", real(&|costs| costs.work[1])),
-        Real("improbability_forwards", real(&|c| c.improbability[0])),
-        Real("improbability_backwards", real(&|c| c.improbability[1])),
-    ]
-}
-
-fn poses<'a>(configurations: impl Iterator<Item = &'a Configuration>) -> [Field; 3] {
-    let poses: Vec<[f64; 3]> = configurations.map(Configuration::to_array).collect();
-    let column = |k: usize| poses.iter().map(|pose| pose[k]).collect();
-    [
-        Real("x_m", column(0)),
-        Real("y_m", column(1)),
-        Real("theta_rad", column(2)),
+        whole("from", |edge| edge.from),
+        whole("to", |edge| edge.to),
+        real("peak_J", |costs| costs.peak),
+        real("peak_at", |costs| costs.peak_at),
+        real("length_m", |costs| costs.length),
+        real("work_forwards_J", |costs| costs.work[0]),
+        real("work_backwards_J", |costs| costs.work[1]),
+        real("improbability_forwards", |c| c.improbability[0]),
+        real("improbability_backwards", |c| c.improbability[1]),
     ]
 }
 
@@ -233,7 +219,10 @@ mod tests {
         assert_eq!(file.len(), 128 + 3 * 8);
         assert_eq!(file[136..144], 2.0_f64.to_le_bytes());
 
-        let file = table(&[Whole("a", vec![1, -2]), Real("b_J", vec![0.5, 0.25])]);
+        let file = table(&[
+            Whole("a".into(), vec![1, -2]),
+            Real("b_J".into(), vec![0.5, 0.25]),
+        ]);
         let text = String::from_utf8_lossy(&file[10..]);
         assert!(text.starts_with("{'descr': [('a', '<i8'), ('b_J', '<f8')], "));
         assert!(text.contains("'shape': (2,), }"));

@@ -1,20 +1,15 @@
 //! Tables as comma-separated values, units in the headers.
 
-use std::fmt::Write;
+use std::borrow::Borrow;
 
-use super::json::{copies, face_names, kind, place_name, positive_zero};
-use crate::configuration::Configuration;
+use super::columns::{self, Cell, Column, Output, StateRow};
+use super::json::{place_name, positive_zero};
 use crate::design::Design;
 use crate::landscape::{Barrier, Pathway, PathwayPoint};
 use crate::pipeline::Analysis;
 
-const STATES: &str = "id,kind,class,copies,x_m,y_m,theta_rad,energy_J,escape_J,escape_to,\
-                      capture_share,capture_low,capture_high,attracting,repelling,faces,\
-                      block_energy_J,dipole_error_J";
-const BARRIERS: &str = "from,to,saddle_energy_J,lower_J,upper_J,forward_J,reverse_J,\
-                        spread_low_J,spread_high_J,x_m,y_m,theta_rad,pathway";
 /// Lengths are in m, theta is in rad.
-const PATHWAY: &str = "s,x,y,theta,energy_J,clearance_m";
+const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
 
 /// How far (m, and rad) a dropped point of a pathway may lie from the straight motion between its
 /// neighbours in the file.
@@ -27,88 +22,66 @@ const ENERGY_TOLERANCE: f64 = 1e-3;
 /// The table of states. Where magnets are point dipoles its last two columns hold the energy of the
 /// blocks they stand for, and how much higher the dipoles' is.
 pub fn states(design: &Design, analysis: &Analysis) -> String {
-    let mut table = String::from(STATES);
-    for state in &analysis.inventory.states {
-        let escape = analysis.escape(state.id);
-        let (escape_height, escape_to) = match escape {
-            Some(escape) => (number(escape.forward()), place_name(escape.to)),
-            None => Default::default(),
-        };
-        let [share, low, high] = match &state.capture {
-            Some(capture) => [capture.share(), capture.low, capture.high].map(number),
-            None => Default::default(),
-        };
-        let faces: Vec<String> = face_names(design, state)
-            .iter()
-            .map(|pair| pair.join("-"))
-            .collect();
-        let _ = write!(
-            table,
-            "\n{},{},{},{},{},{},{escape_height},{escape_to},{share},{low},{high},{},{},{},{},{}",
-            state.id,
-            kind(state.kind),
-            state.class,
-            copies(state, &analysis.inventory.states),
-            pose(&state.configuration),
-            number(state.energy),
-            state.attracting,
-            state.repelling,
-            faces.join(" "),
-            state.block_energy.map(number).unwrap_or_default(),
-            state.dipole_error().map(number).unwrap_or_default(),
-        );
-    }
-    table.push('\n');
-    table
+    of_columns(
+        &columns::states(Output::Csv),
+        StateRow::all(design, analysis),
+    )
 }
 
-/// The table of barriers; `pathway_file` names the file of a barrier's pathway.
-pub fn barriers(barriers: &[Barrier], pathway_file: impl Fn(&Barrier) -> String) -> String {
-    let mut table = String::from(BARRIERS);
-    for barrier in barriers {
-        let optional = |value: Option<f64>| value.map(number).unwrap_or_default();
-        // Without a way the barrier is infinite: an empty cell.
-        let finite = |value: f64| optional(Some(value).filter(|value| value.is_finite()));
-        let _ = write!(
-            table,
-            "\n{},{},{},{},{},{},{},{},{},{},{}",
-            place_name(barrier.from),
-            place_name(barrier.to),
-            finite(barrier.saddle_energy),
-            optional(barrier.bounds.lower),
-            optional(barrier.bounds.upper),
-            finite(barrier.forward()),
-            finite(barrier.reverse()),
-            optional(barrier.spread.map(|spread| spread.0)),
-            optional(barrier.spread.map(|spread| spread.1)),
-            pose(&barrier.saddle),
-            if barrier.pathway.is_empty() {
-                String::new()
-            } else {
-                pathway_file(barrier)
-            },
-        );
+/// The table of barriers.
+pub fn barriers(barriers: &[Barrier]) -> String {
+    of_columns(&columns::barriers(Output::Csv), barriers)
+}
+
+fn of_columns<Row>(
+    columns: &[Column<Row>],
+    rows: impl IntoIterator<Item = impl Borrow<Row>>,
+) -> String {
+    let cells = |row: &Row| columns.iter().map(|c| cell((c.get)(row))).collect();
+    let rows = rows
+        .into_iter()
+        .map(|row| -> Vec<_> { cells(row.borrow()) });
+    table(columns.iter().map(Column::key), rows)
+}
+
+/// What is not known, or infinite, is an empty cell.
+fn cell(cell: Cell) -> String {
+    match cell {
+        Cell::Value(serde_json::Value::Null) => String::new(),
+        Cell::Value(serde_json::Value::String(text)) => text,
+        Cell::Value(value) => value.to_string(),
+        Cell::Real(value) => finite(value),
+        Cell::Place(place) => place_name(place),
     }
-    table.push('\n');
-    table
 }
 
 /// A pathway, point by point. Points are left out where the motion between their neighbours is
 /// straight and the energy along it linear; the highest point always stays.
 pub fn pathway(pathway: &Pathway) -> String {
-    let mut table = String::from(PATHWAY);
-    for point in thinned(pathway) {
-        let _ = write!(
-            table,
-            "\n{},{},{},{}",
-            number(point.s),
-            pose(&point.configuration),
-            number(point.energy),
-            number(point.clearance),
-        );
+    let rows = thinned(pathway).into_iter().map(|point| {
+        let [x, y, theta] = point.configuration.to_array();
+        [point.s, x, y, theta, point.energy, point.clearance].map(number)
+    });
+    table(PATHWAY, rows)
+}
+
+/// A table: the names of its columns, and its rows, each of as many cells. Cells are quoted where
+/// they hold a comma, a quote or a line's end (RFC 4180).
+///
+/// # Panics
+/// Where a row has more or fewer cells than there are columns.
+pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
+    columns: impl IntoIterator<Item: AsRef<[u8]>>,
+    rows: impl IntoIterator<Item = Row>,
+) -> String {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let mut written = writer.write_record(columns);
+    for row in rows {
+        written = written.and_then(|()| writer.write_record(row));
     }
-    table.push('\n');
-    table
+    written.expect("a vector takes rows of equal length");
+    let bytes = writer.into_inner().expect("a vector takes all");
+    String::from_utf8(bytes).expect("cells are text")
 }
 
 /// The points of a pathway that are not on the straight line between their neighbours.
@@ -152,8 +125,13 @@ fn is_between(pathway: &Pathway, start: usize, between: usize, end: usize, allow
         && linear(|p| p.energy).abs() <= allowed
 }
 
-fn pose(q: &Configuration) -> String {
-    q.to_array().map(number).join(",")
+/// A number; empty if it is none, or infinite.
+fn finite(value: f64) -> String {
+    if value.is_finite() {
+        number(value)
+    } else {
+        String::new()
+    }
 }
 
 /// A number with ten significant digits at most.
@@ -184,6 +162,7 @@ pub(crate) fn text(cell: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::configuration::Configuration;
 
     fn point(s: f64, energy: f64) -> PathwayPoint {
         PathwayPoint {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::json;
 
-use super::json;
+use super::{csv, json};
 use crate::design::Design;
 use crate::dynamics::docking::{
     Docking, DockingMap, DockingSettings, ENGINE, End, MatchRule, OnRate, Start, share_within,
@@ -157,60 +157,53 @@ fn timing(docking: &Docking) -> serde_json::Value {
 
 /// `runs.csv`: one trajectory a line.
 pub fn runs_csv(docking: &Docking) -> String {
-    let mut text = "run,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,\
-                    orientation_rad,speed_m_per_s,end,trap,time_to_bind_s,\
-                    end_x_m,end_y_m,end_theta_rad\n"
-        .to_owned();
-    for run in &docking.runs {
+    let head = "run,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,orientation_rad,\
+                speed_m_per_s,end,trap,time_to_bind_s,end_x_m,end_y_m,end_theta_rad";
+    let rows = docking.runs.iter().map(|run| {
         let Start {
             motion,
             orientation,
             speed,
         } = run.start;
         let (end, trap, since) = match run.end {
-            End::Bound { since } => ("bound", String::new(), format!("{since:.6}")),
-            End::Misbound { trap } => {
-                let trap = trap.map_or_else(String::new, |k| k.to_string());
-                ("misbound", trap, String::new())
-            }
-            End::Free => ("free", String::new(), String::new()),
+            End::Bound { since } => ("bound", None, Some(since)),
+            End::Misbound { trap } => ("misbound", trap, None),
+            End::Free => ("free", None, None),
         };
-        let last = run.last.motion.configuration;
-        text += &format!(
-            "{},{},{orientation:.9},{speed:.9},{end},{trap},{since},{:.9},{:.9},{:.9}\n",
-            run.index,
-            motion_fields(&motion),
-            last.x,
-            last.y,
-            last.theta
-        );
-    }
-    text
+        let mut row = vec![run.index.to_string()];
+        row.extend(motion_cells(&motion));
+        row.extend([orientation, speed].map(decimals));
+        row.extend([
+            end.to_owned(),
+            trap.map(|k| k.to_string()).unwrap_or_default(),
+            since.map(|since| format!("{since:.6}")).unwrap_or_default(),
+        ]);
+        row.extend(run.last.motion.configuration.to_array().map(decimals));
+        row
+    });
+    csv::table(head.split(','), rows)
 }
 
 /// One trajectory, a snapshot a line.
 pub fn trajectory_csv(snapshots: &[Snapshot]) -> String {
-    let mut text = "time_s,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,\
-                    potential_J,kinetic_J\n"
-        .to_owned();
-    for snapshot in snapshots {
-        text += &format!(
-            "{:.6},{},{:.9e},{:.9e}\n",
-            snapshot.time,
-            motion_fields(&snapshot.motion),
-            snapshot.potential,
-            snapshot.kinetic
-        );
-    }
-    text
+    let head =
+        "time_s,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,potential_J,kinetic_J";
+    let rows = snapshots.iter().map(|snapshot| {
+        let mut row = vec![format!("{:.6}", snapshot.time)];
+        row.extend(motion_cells(&snapshot.motion));
+        row.extend([snapshot.potential, snapshot.kinetic].map(|energy| format!("{energy:.9e}")));
+        row
+    });
+    csv::table(head.split(','), rows)
 }
 
-fn motion_fields(motion: &Motion) -> String {
+fn motion_cells(motion: &Motion) -> [String; 6] {
     let (q, v) = (motion.configuration, motion.velocity);
-    format!(
-        "{:.9},{:.9},{:.9},{:.9},{:.9},{:.9}",
-        q.x, q.y, q.theta, v.x, v.y, v.z
-    )
+    [q.x, q.y, q.theta, v.x, v.y, v.z].map(decimals)
+}
+
+fn decimals(value: f64) -> String {
+    format!("{value:.9}")
 }
 
 /// A few lines for the terminal.

@@ -1,6 +1,7 @@
 //! Results for people and programs to read.
 //!
 //! - [`json`] - `report.json`, everything that is known;
+//! - [`columns`] - what is told of states and of barriers, once for all outputs;
 //! - [`csv`] - tables of states and barriers, and pathways;
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
@@ -15,6 +16,7 @@
 
 pub mod arrays;
 pub mod calibration;
+pub mod columns;
 pub mod comparison;
 pub mod csv;
 pub mod docking;

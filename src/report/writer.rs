@@ -68,7 +68,7 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     add("states.csv".into(), csv::states(design, analysis));
     add(
         "barriers.csv".into(),
-        csv::barriers(&analysis.inventory.barriers, json::pathway_file),
+        csv::barriers(&analysis.inventory.barriers),
     );
     if let Some(checks) = &analysis.dynamics {
         add(dynamics::TABLE.into(), dynamics::csv(checks));

@@ -192,7 +192,10 @@ fn the_certificate_brackets_the_saddle_from_both_sides() {
             .bracket(&from, &End::At(to), &[], &effort)
             .unwrap();
         let upper = bracket.bounds.upper.expect("a way");
-        assert!(bracket.bounds.least() <= HEIGHT && HEIGHT <= upper, "{bracket:?}");
+        assert!(
+            bracket.bounds.least() <= HEIGHT && HEIGHT <= upper,
+            "{bracket:?}"
+        );
         assert!(bracket.bounds.width() <= effort.tolerance, "{bracket:?}");
         let crosses = |pair: &[Configuration]| pair[0].theta * pair[1].theta < 0.0;
         assert!(bracket.pathway.windows(2).any(crosses));

@@ -2,121 +2,82 @@
 //!
 //! Every number carries its unit in its key (`energy_J`); poses are `[x, y, theta]` in m, m and
 //! rad. All that depends on the machine is under `timing`: everything else is the same for the
-//! same design, settings and version.
+//! same design, settings and version. What is not known, or infinite, is null.
 
-mod barriers;
-mod effort;
 mod layout;
-mod settings;
-mod states;
+mod names;
 
-use serde::Serialize;
+use std::borrow::Borrow;
 
-pub(super) use barriers::place;
-pub use barriers::{AlternativeEntry, BarrierEntry, alternative_file, pathway_file, place_name};
-pub use effort::{CountsEntry, StageEntry, TimingEntry};
+use serde_json::{Map, Value, json};
+
 pub use layout::text;
-pub use settings::SettingsEntry;
-pub use states::{FreeEntry, ProportionEntry, StateEntry, copies, face_names, kind};
+pub(super) use names::place;
+pub use names::{alternative_file, face_names, kind, pathway_file, place_name};
 
-use super::dynamics::DynamicsEntry;
+use super::columns::{Cell, Column, Output, StateRow, barriers, states};
+use super::dynamics;
 use crate::configuration::Configuration;
-use crate::design::{Design, Drawing};
+use crate::design::Design;
+use crate::landscape::{Alternative, PathwayCost, Proportion};
 use crate::pipeline::Analysis;
 
 /// The content of `report.json`.
-#[derive(Debug, Serialize)]
-pub struct Report {
-    /// Version of tilebind.
-    pub tilebind: &'static str,
-    pub design: DesignEntry,
-    pub seed: u64,
-    pub settings: SettingsEntry,
-    pub bound: BoundEntry,
-    pub states: Vec<StateEntry>,
-    pub free: FreeEntry,
-    pub barriers: Vec<BarrierEntry>,
-    /// Why the bounds of all barriers are null; itself null where they are certified.
-    pub uncertified: Option<String>,
-    /// What moving tiles say of the barriers; null where they were not asked.
-    pub dynamics: Option<DynamicsEntry>,
-    pub alternatives: Vec<AlternativeEntry>,
-    pub counts: CountsEntry,
-    pub timing: TimingEntry,
-}
-
-/// Which design was analysed.
-#[derive(Debug, Serialize)]
-pub struct DesignEntry {
-    pub name: String,
-    pub description: String,
-    /// Of the design file's bytes.
-    pub sha256: String,
-    /// The drawings that the design refers to.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub drawings: Vec<Drawing>,
-}
-
-/// The configuration in which the target faces coincide.
-#[derive(Debug, Serialize)]
-#[allow(non_snake_case)]
-pub struct BoundEntry {
-    pub pose: [f64; 3],
-    pub energy_J: f64,
-    /// The state in which the tiles are bound; null if the bond does not hold.
-    pub state: Option<usize>,
-}
+#[derive(Clone, Debug)]
+pub struct Report(Value);
 
 impl Report {
     /// The report of an analysis that took `total_wall` (s).
     pub fn new(design: &Design, analysis: &Analysis, total_wall: f64) -> Self {
-        let states = analysis.inventory.states.iter();
-        Self {
-            tilebind: env!("CARGO_PKG_VERSION"),
-            design: DesignEntry {
-                name: design.name.clone(),
-                description: design.description.clone(),
-                sha256: design.sha256.clone(),
-                drawings: design.drawings.clone(),
+        let counts = &analysis.counts;
+        let stages = analysis.stages.iter().map(|stage| {
+            json!({
+                "name": stage.name,
+                "wall_s": stage.wall_s,
+                "energy_evaluations": stage.energy_evaluations,
+            })
+        });
+        Self(json!({
+            "tilebind": env!("CARGO_PKG_VERSION"),
+            "design": identity(design),
+            "seed": analysis.settings.seed,
+            "settings": settings(design, analysis),
+            // The configuration in which the target faces coincide, and the state in which the
+            // tiles are bound; null if the bond does not hold.
+            "bound": {
+                "pose": pose(&analysis.bound.0),
+                "energy_J": positive_zero(analysis.bound.1),
+                "state": analysis.inventory.bound_state,
             },
-            seed: analysis.settings.seed,
-            settings: SettingsEntry::new(design, analysis),
-            bound: BoundEntry {
-                pose: pose(&analysis.bound.0),
-                energy_J: positive_zero(analysis.bound.1),
-                state: analysis.inventory.bound_state,
+            "states": entries(&states(Output::Json), StateRow::all(design, analysis)),
+            // Share of the far starts that ended in no state; inner and outer radius of the ring
+            // from which they are drawn.
+            "free": {"capture": proportion(analysis.uncaptured), "ring_m": analysis.ring},
+            "barriers": entries(&barriers(Output::Json), &analysis.inventory.barriers),
+            // Why the bounds of all barriers are null; itself null where they are certified.
+            "uncertified": analysis.uncertified.map(|why| why.to_string()),
+            "dynamics": dynamics::json(analysis),
+            "alternatives": analysis.inventory.alternatives.iter().map(alternative).collect::<Value>(),
+            "counts": {
+                "milestones": counts.milestones,
+                "edges": counts.edges,
+                "transition_states": counts.transition_states,
+                // Minima left out because next to nothing keeps them.
+                "shallow_minima": analysis.inventory.shallow,
+                "energy_evaluations": counts.energy_evaluations,
+                // Of the certificate.
+                "cells": counts.cells,
             },
-            states: states
-                .map(|state| {
-                    let escape = analysis.escape(state.id);
-                    StateEntry::new(design, state, &analysis.inventory.states, escape.as_ref())
-                })
-                .collect(),
-            free: FreeEntry::new(analysis),
-            barriers: analysis
-                .inventory
-                .barriers
-                .iter()
-                .map(BarrierEntry::new)
-                .collect(),
-            uncertified: analysis.uncertified.map(|why| why.to_string()),
-            dynamics: DynamicsEntry::new(analysis),
-            alternatives: analysis
-                .inventory
-                .alternatives
-                .iter()
-                .map(AlternativeEntry::new)
-                .collect(),
-            counts: CountsEntry::new(analysis),
-            timing: TimingEntry::new(analysis, total_wall),
-        }
+            "timing": {"total_wall_s": total_wall, "stages": stages.collect::<Value>()},
+        }))
     }
 
     /// Names no pathway for the escapes of states that are copies of another one.
     pub fn without_copies(mut self) -> Self {
-        for state in self.states.iter_mut().filter(|s| s.id != s.class) {
-            if let Some(escape) = &mut state.escape {
-                escape.pathway = None;
+        let states = self.0["states"].as_array_mut().into_iter().flatten();
+        for state in states.filter(|state| state["id"] != state["class"]) {
+            if let Some(pathway) = state.pointer_mut("/escape/pathway") {
+                *pathway = Value::Null;
             }
         }
         self
@@ -124,12 +85,98 @@ impl Report {
 
     /// The text of `report.json`.
     pub fn to_text(&self) -> String {
-        text(self)
+        text(&self.0)
     }
 }
 
+/// Which design was analysed; the checksum is of the design file's bytes.
+fn identity(design: &Design) -> Value {
+    let mut identity = json!({
+        "name": design.name,
+        "description": design.description,
+        "sha256": design.sha256,
+    });
+    if !design.drawings.is_empty() {
+        identity["drawings"] = json!(design.drawings);
+    }
+    identity
+}
+
+/// All that decides the result, besides the design and the seed.
+fn settings(design: &Design, analysis: &Analysis) -> Value {
+    let settings = &analysis.settings;
+    let shields = &design.interaction.shields;
+    json!({
+        "model": design.interaction.model.name(),
+        // The rule by which shields act; null for bare magnets.
+        "shields": (!shields.is_none()).then(|| shields.rule.name()),
+        "milestones": settings.milestones,
+        "neighbours": analysis.roadmap.neighbours,
+        // Energy of Boltzmann's acceptance rule; null for the linear rule.
+        "boltzmann_J": settings.boltzmann,
+        "thermal_energy_J": analysis.roadmap.edges.thermal_energy,
+        "settled": settings.settled,
+        "least_depth": settings.least_depth,
+        "far_starts": settings.far_starts,
+        "repeats": settings.repeats,
+        // Width to which certified bounds are narrowed; null for a hundredth of the bond or a
+        // twentieth of the barrier, whichever is less.
+        "tolerance_J": settings.tolerance,
+        "certify_s": settings.certify_seconds,
+        "certify_cells": settings.certify_cells,
+        // Which barriers are certified, and checked by moving tiles.
+        "claims": names::claims(settings.claims),
+    })
+}
+
+/// A pathway by another cost than the highest energy: the work against the energy on the way, or
+/// -ln of the product of the transition probabilities.
+fn alternative(alternative: &Alternative) -> Value {
+    let cost = |by: PathwayCost| (alternative.by == by).then_some(alternative.cost);
+    json!({
+        "from": place(alternative.from),
+        "to": place(alternative.to),
+        "by": names::cost(alternative.by),
+        "work_J": cost(PathwayCost::Work),
+        "minus_ln_probability": cost(PathwayCost::Probability),
+        "pathway": alternative_file(alternative),
+    })
+}
+
+/// A sampled proportion with its 95 % Wilson interval.
+pub(super) fn proportion(proportion: Proportion) -> Value {
+    json!({
+        "share": proportion.share(),
+        "low": proportion.low,
+        "high": proportion.high,
+        "count": proportion.count,
+        "of": proportion.of,
+    })
+}
+
+fn entries<Row>(
+    columns: &[Column<Row>],
+    rows: impl IntoIterator<Item = impl Borrow<Row>>,
+) -> Value {
+    let rows = rows.into_iter();
+    rows.map(|row| entry(columns, row.borrow())).collect()
+}
+
+/// A row as an object.
+pub(super) fn entry<Row>(columns: &[Column<Row>], row: &Row) -> Value {
+    let cells = columns.iter().map(|column| {
+        let value = match (column.get)(row) {
+            Cell::Value(value) => value,
+            Cell::Real(value) => json!(positive_zero(value)),
+            Cell::Place(at) => place(at),
+        };
+        (column.key(), value)
+    });
+    Value::Object(cells.collect::<Map<_, _>>())
+}
+
 /// A configuration as entries have it.
-fn pose(q: &Configuration) -> [f64; 3] {
+pub(super) fn pose(q: &Configuration) -> [f64; 3] {
     q.to_array().map(positive_zero)
 }
 

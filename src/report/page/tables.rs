@@ -1,12 +1,15 @@
 //! The tables and first facts of an analysis' page.
 
-use serde_json::{Value, json};
+use std::borrow::Borrow;
+
+use serde_json::json;
 
 use super::{Column, Fact, Table, finite};
 use crate::design::Design;
-use crate::landscape::{Barrier, Kind, StateKind};
+use crate::landscape::{Kind, Place};
 use crate::pipeline::Analysis;
-use crate::report::json::{face_names, kind, place_name};
+use crate::report::columns::{self, Cell, Output, StateRow};
+use crate::report::json::place_name;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
 use crate::units::{si, si_range};
@@ -14,24 +17,15 @@ use crate::units::{si, si_range};
 /// Significant digits of numbers in tables.
 const DIGITS: usize = 7;
 
-fn number(value: f64) -> Value {
-    json!(finite(value, DIGITS))
-}
-
-fn optional(value: Option<f64>) -> Value {
-    value.map_or(Value::Null, number)
-}
-
 fn energy(value: f64) -> String {
     minus(&si(value, "J", 4))
 }
 
-/// The lowest way out of a class of states.
-fn escape<'a>(analysis: &'a Analysis, kind: &Kind) -> Option<&'a Barrier> {
-    let Analysis {
-        problem, inventory, ..
-    } = analysis;
-    inventory.escape_of_kind(problem, kind.first().id)
+/// A kind of states through the first of them, with the share of the far starts that end in any.
+fn row<'a>(design: &Design, analysis: &'a Analysis, kind: &Kind<'a>) -> StateRow<'a> {
+    let mut row = StateRow::new(design, analysis, kind.first());
+    row.capture = Some(kind.captured());
+    row
 }
 
 /// What to know first: the bond, how often it is found, how it is left, the deepest trap.
@@ -41,18 +35,21 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         value,
         note,
     };
-    let classes = scene.kinds();
-    let first = |kind| classes.iter().find(move |class| class.first().kind == kind);
+    let kinds = scene.kinds();
+    let first = |is_bond| {
+        let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
+        Some(row(design, analysis, kind))
+    };
     let mut facts = Vec::new();
     let magnets = format!("magnets as {}s", design.interaction.model.name());
-    let Some(bond) = first(StateKind::Bound) else {
+    let Some(bond) = first(true) else {
         let value = energy(analysis.bound.1);
         let note = "the tiles do not stay where the target faces coincide".to_owned();
         facts.push(fact("no bond", value, note));
         return facts;
     };
-    facts.push(fact("bond", energy(bond.first().energy), magnets));
-    if let Some(share) = Some(bond.captured()).filter(|share| share.of > 0) {
+    facts.push(fact("bond", energy(bond.state.energy), magnets));
+    if let Some(share) = bond.capture.filter(|share| share.of > 0) {
         facts.push(fact(
             "far starts that bind",
             format!("{:.1} %", 100.0 * share.share()),
@@ -65,36 +62,32 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             ),
         ));
     }
-    let way_out = |class: &Kind| match escape(analysis, class) {
-        None => ("not known".to_owned(), "no way out was found".to_owned()),
+    let way_out = |row: &StateRow| match &row.escape {
         Some(barrier) if barrier.bounds.caged => {
-            ("none".to_owned(), "proved: no way out".to_owned())
+            ("caged".to_owned(), "proved: no way out".to_owned())
         }
-        Some(barrier) => {
-            let certified = match (barrier.bounds.lower, barrier.bounds.upper) {
-                (Some(lower), Some(upper)) => {
-                    let from = barrier.from_energy;
-                    let range = si_range(lower - from, upper - from, "J", 4);
-                    format!("; certified {}", minus(&range))
-                }
-                _ => String::new(),
-            };
+        Some(barrier) if barrier.has_way() => {
+            let certified = barrier.bounds.above(barrier.from_energy).both();
+            let certified = certified.map_or_else(String::new, |(lower, upper)| {
+                format!("; certified {}", minus(&si_range(lower, upper, "J", 4)))
+            });
             let to = place_name(barrier.to);
             (energy(barrier.forward()), format!("to {to}{certified}"))
         }
+        _ => ("not known".to_owned(), "no way out was found".to_owned()),
     };
-    let (height, note) = way_out(bond);
+    let (height, note) = way_out(&bond);
     facts.push(fact("barrier out of the bond", height, note));
-    match first(StateKind::Misbound) {
+    match first(false) {
         None => facts.push(fact("traps", "none".to_owned(), String::new())),
         Some(trap) => {
             let note = format!(
                 "state {}; {:.2} of the bond",
-                trap.first().id,
-                trap.first().energy / bond.first().energy
+                trap.state.id,
+                trap.state.energy / bond.state.energy
             );
-            facts.push(fact("deepest trap", energy(trap.first().energy), note));
-            let (height, note) = way_out(trap);
+            facts.push(fact("deepest trap", energy(trap.state.energy), note));
+            let (height, note) = way_out(&trap);
             facts.push(fact("barrier out of that trap", height, note));
         }
     }
@@ -103,86 +96,52 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
 
 /// The classes of states.
 pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
-    let classes = scene.kinds();
-    let rows = classes.iter().map(|class| {
-        let state = class.first();
-        let out = escape(analysis, class);
-        let [x, y, theta] = state.configuration.to_array();
-        let faces: Vec<_> = face_names(design, state)
-            .iter()
-            .map(|pair| pair.join("-"))
-            .collect();
-        vec![
-            json!(state.id),
-            json!(kind(state.kind)),
-            json!(class.copies()),
-            number(state.energy),
-            optional(out.map(Barrier::forward)),
-            out.map_or(Value::Null, |barrier| json!(place_name(barrier.to))),
-            number(class.captured().share()),
-            number(x),
-            number(y),
-            number(theta),
-            json!(state.attracting),
-            json!(state.repelling),
-            json!(faces.join(" ")),
-        ]
-    });
+    let kinds = scene.kinds();
+    let rows = kinds.iter().map(|kind| row(design, analysis, kind));
     Table {
         title: "States".to_owned(),
         note: "One row for the states that symmetry maps onto each other: the one nearest to the \
                bound configuration. Captured: share of far starts that end in any of them. \
                Attracting, repelling: magnet pairs close together. A click shows the pose."
             .to_owned(),
-        columns: vec![
-            Column::new("state", ""),
-            Column::new("kind", ""),
-            Column::new("copies", ""),
-            Column::new("energy", "J"),
-            Column::new("way out", "J"),
-            Column::new("leads to", ""),
-            Column::new("captured", "%"),
-            Column::new("x", "m"),
-            Column::new("y", "m"),
-            Column::new("\u{3b8}", "rad"),
-            Column::new("attracting", ""),
-            Column::new("repelling", ""),
-            Column::new("faces", ""),
-        ],
-        rows: rows.collect(),
-        states: classes.iter().map(|class| class.first().id).collect(),
+        states: kinds.iter().map(|kind| kind.first().id).collect(),
+        ..of_columns(&columns::states(Output::Page), rows, place_name)
     }
 }
 
 /// The barriers between classes.
 pub fn barriers(analysis: &Analysis, scene: &Scene) -> Table {
-    let rows = analysis.inventory.barriers.iter().map(|barrier| {
-        vec![
-            json!(scene.name_of(barrier.from)),
-            json!(scene.name_of(barrier.to)),
-            number(barrier.saddle_energy),
-            optional(barrier.bounds.lower),
-            optional(barrier.bounds.upper),
-            number(barrier.forward()),
-            number(barrier.reverse()),
-        ]
-    });
+    let columns = columns::barriers(Output::Page);
     Table {
         title: "Barriers".to_owned(),
         note:
             "The highest energy on the best way found, its certified bounds, and its height seen \
                from either end."
                 .to_owned(),
-        columns: vec![
-            Column::new("from", ""),
-            Column::new("to", ""),
-            Column::new("saddle", "J"),
-            Column::new("at least", "J"),
-            Column::new("at most", "J"),
-            Column::new("forward", "J"),
-            Column::new("reverse", "J"),
-        ],
-        rows: rows.collect(),
+        ..of_columns(&columns, &analysis.inventory.barriers, |place| {
+            scene.name_of(place)
+        })
+    }
+}
+
+/// A table of the columns that the page shows, `place` naming places.
+fn of_columns<Row>(
+    columns: &[columns::Column<Row>],
+    rows: impl IntoIterator<Item = impl Borrow<Row>>,
+    place: impl Fn(Place) -> String,
+) -> Table {
+    let cell = |cell: Cell| match cell {
+        Cell::Value(value) => value,
+        Cell::Real(value) => json!(finite(value, DIGITS)),
+        Cell::Place(at) => json!(place(at)),
+    };
+    let cells = |row: &Row| columns.iter().map(|c| cell((c.get)(row))).collect();
+    let heads = columns.iter().map(|c| Column::new(c.heading, c.unit));
+    Table {
+        title: String::new(),
+        note: String::new(),
+        columns: heads.collect(),
+        rows: rows.into_iter().map(|row| cells(row.borrow())).collect(),
         states: Vec::new(),
     }
 }

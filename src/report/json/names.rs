@@ -1,0 +1,70 @@
+//! What states, places, faces and pathways are called in all files.
+
+use serde_json::{Value, json};
+
+use crate::design::Design;
+use crate::landscape::{Alternative, Barrier, Claims, PathwayCost, Place, State, StateKind};
+use crate::tile::Tile;
+
+/// What a kind of state is called.
+pub fn kind(kind: StateKind) -> &'static str {
+    match kind {
+        StateKind::Bound => "bound",
+        StateKind::Misbound => "misbound",
+    }
+}
+
+/// What a cost of pathways is called.
+pub(super) fn cost(cost: PathwayCost) -> &'static str {
+    match cost {
+        PathwayCost::Work => "work",
+        PathwayCost::Probability => "probability",
+    }
+}
+
+/// What the barriers are called of which more is claimed than an estimate.
+pub(super) fn claims(claims: Claims) -> &'static str {
+    match claims {
+        Claims::All => "all",
+        Claims::BondAndDeepestTrap => "bond-and-deepest-trap",
+    }
+}
+
+/// Names of the faces in contact: of the fixed tile, of the moving tile.
+pub fn face_names(design: &Design, state: &State) -> Vec<[String; 2]> {
+    let name = |tile: &Tile, i: usize| tile.faces[i].name.clone();
+    state
+        .faces
+        .iter()
+        .map(|&(f, m)| [name(&design.pair.fixed, f), name(&design.pair.moving, m)])
+        .collect()
+}
+
+/// A place as an entry names it: a state's id, or `free`.
+pub(in crate::report) fn place(place: Place) -> Value {
+    match place {
+        Place::State(id) => json!(id),
+        Place::Free => json!("free"),
+    }
+}
+
+/// What a place is called in tables and file names: a state's id, or `free`.
+pub fn place_name(place: Place) -> String {
+    match place {
+        Place::State(id) => id.to_string(),
+        Place::Free => "free".to_owned(),
+    }
+}
+
+/// The file of a barrier's pathway, relative to the report.
+pub fn pathway_file(barrier: &Barrier) -> String {
+    let (from, to) = (place_name(barrier.from), place_name(barrier.to));
+    format!("pathways/{from}-{to}.csv")
+}
+
+/// The file of an alternative pathway, relative to the report.
+pub fn alternative_file(alternative: &Alternative) -> String {
+    let (from, to) = (place_name(alternative.from), place_name(alternative.to));
+    let by = cost(alternative.by);
+    format!("pathways/{from}-{to}-by-{by}.csv")
+}
