@@ -18,9 +18,9 @@ impl Operations {
     pub const fn per_pair(gradient: bool, exact_estimate: bool) -> Self {
         let (simple, fused) = match (gradient, exact_estimate) {
             (false, false) => (9, 10),
-            (false, true) => (0, 0),
+            (false, true) => (7, 6),
             (true, false) => (13, 16),
-            (true, true) => (0, 0),
+            (true, true) => (11, 12),
         };
         Self {
             simple,
