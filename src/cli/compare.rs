@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{self, Assessment, Quantity};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::observer::Observer;
@@ -50,7 +51,7 @@ pub struct Compare {
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
           hide_possible_values = true)]
-    by: Quantity,
+    by: &'static Quantity,
 
     #[command(flatten)]
     options: AssessmentOptions,
@@ -143,8 +144,8 @@ impl Observer for Part<'_> {
 }
 
 /// A figure by its name in the tables.
-fn quantity() -> Word<Quantity> {
-    let known = Quantity::ALL.map(Quantity::key).join(", ");
-    let names = Quantity::ALL.map(|quantity| (quantity.key(), quantity));
-    Word::new(&names, format!("known: {known}"))
+fn quantity() -> Word<&'static Quantity> {
+    let names: Vec<_> = QUANTITIES.iter().map(|one| (one.key, one)).collect();
+    let known: Vec<_> = QUANTITIES.iter().map(|one| one.key).collect();
+    Word::new(&names, format!("known: {}", known.join(", ")))
 }

@@ -12,7 +12,7 @@
 //! - The *capture range* is defined in [`capture_range`].
 
 pub mod capture_range;
-mod quantity;
+pub mod quantity;
 pub mod ranking;
 
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ use crate::observer::Observer;
 use crate::pipeline::{self, Analysis, Settings};
 
 pub use capture_range::CaptureRange;
-pub use quantity::{Bounds, Estimate, Quantity};
+pub use quantity::{Estimate, Quantity};
 
 /// How designs are assessed: all that decides an assessment besides the design and the seed.
 ///

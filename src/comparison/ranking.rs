@@ -1,21 +1,17 @@
 //! Designs sorted by a figure, and which order is proved.
 
-use std::cmp::Reverse;
-
-use ordered_float::OrderedFloat;
-
 use super::{Assessment, Quantity};
 use crate::landscape::certificate::{self, Ordering};
 
 /// The designs' places in `assessments` from the best to the worst by a figure, larger being
 /// better; those without the figure come last, equal ones in their order.
-pub fn ranked(assessments: &[Assessment], by: Quantity) -> Vec<usize> {
+pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     let value = |index: usize| {
         let estimate = by.of(&assessments[index]);
         estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
     };
     let mut order: Vec<usize> = (0..assessments.len()).collect();
-    order.sort_by_key(|&k| Reverse(OrderedFloat(value(k))));
+    order.sort_by(|&a, &b| value(b).total_cmp(&value(a)).then(a.cmp(&b)));
     order
 }
 
@@ -24,7 +20,7 @@ pub fn ranked(assessments: &[Assessment], by: Quantity) -> Vec<usize> {
 ///
 /// The bounds are those of the saddle; the energy of the state from which the climb is measured is
 /// computed in double precision at the minimum that was found.
-pub fn order(a: &Assessment, b: &Assessment, quantity: Quantity) -> Ordering {
+pub fn order(a: &Assessment, b: &Assessment, quantity: &Quantity) -> Ordering {
     let bounds = |assessment| {
         let estimate = quantity.of(assessment)?;
         Some((estimate.low?, estimate.high))
@@ -40,6 +36,7 @@ pub fn order(a: &Assessment, b: &Assessment, quantity: Quantity) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::comparison::quantity::QUANTITIES;
     use crate::comparison::{Bond, Way};
     use crate::landscape::SaddleBounds;
 
@@ -79,44 +76,36 @@ mod tests {
         }
     }
 
+    fn unbinding_and_binding() -> [&'static Quantity; 2] {
+        let named = |key| QUANTITIES.iter().find(|one| one.key == key).unwrap();
+        ["unbinding", "binding"].map(named)
+    }
+
     #[test]
     fn the_climb_is_measured_from_the_state() {
+        let [unbinding, binding] = unbinding_and_binding();
         // The same saddle, from depths 3 and 1: climbs of 3 to 3.5 and of 1 to 1.5.
         let deep = design("dipole", -3.0, way(0.0, 0.5));
         let shallow = design("dipole", -1.0, way(0.0, 0.5));
-        assert_eq!(
-            order(&deep, &shallow, Quantity::Unbinding),
-            Ordering::Higher
-        );
-        assert_eq!(order(&shallow, &deep, Quantity::Unbinding), Ordering::Lower);
-        assert_eq!(
-            order(&deep, &shallow, Quantity::Binding),
-            Ordering::Undecided
-        );
+        assert_eq!(order(&deep, &shallow, unbinding), Ordering::Higher);
+        assert_eq!(order(&shallow, &deep, unbinding), Ordering::Lower);
+        assert_eq!(order(&deep, &shallow, binding), Ordering::Undecided);
         let blocks = design("cuboid", -1.0, way(0.0, 0.5));
-        assert_eq!(
-            order(&deep, &blocks, Quantity::Unbinding),
-            Ordering::Undecided
-        );
+        assert_eq!(order(&deep, &blocks, unbinding), Ordering::Undecided);
         let unknown = design("dipole", -1.0, Way::default());
-        assert_eq!(
-            order(&deep, &unknown, Quantity::Unbinding),
-            Ordering::Undecided
-        );
-        assert_eq!(
-            ranked(&[shallow, unknown, deep], Quantity::Unbinding),
-            [2, 0, 1]
-        );
+        assert_eq!(order(&deep, &unknown, unbinding), Ordering::Undecided);
+        assert_eq!(ranked(&[shallow, unknown, deep], unbinding), [2, 0, 1]);
     }
 
     #[test]
     fn a_cage_is_higher_than_any_barrier_with_a_way_over_it() {
+        let [_, binding] = unbinding_and_binding();
         let mut caged = Way::default();
         caged.bounds.caged = true;
         let cage = design("dipole", -1.0, caged);
         let open = design("dipole", -1.0, way(0.0, 0.5));
-        assert_eq!(order(&cage, &open, Quantity::Binding), Ordering::Higher);
-        assert_eq!(order(&cage, &cage, Quantity::Binding), Ordering::Undecided);
-        assert_eq!(ranked(&[open, cage], Quantity::Binding), [1, 0]);
+        assert_eq!(order(&cage, &open, binding), Ordering::Higher);
+        assert_eq!(order(&cage, &cage, binding), Ordering::Undecided);
+        assert_eq!(ranked(&[open, cage], binding), [1, 0]);
     }
 }

@@ -1,18 +1,17 @@
 //! Designs side by side: tables for the terminal, CSV, JSON and Markdown.
 
 use std::fmt::Write;
+use std::iter::once;
 
 use serde_json::{Map, Value, json};
 
 use super::csv::{number, text};
-use super::figures::{NOT_HEAD_ON, WHY_NOT_HEAD_ON, cell, misses_head_on, to_either_side};
+use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
 use super::json;
 use super::summary::write_table;
-use crate::comparison::{Assessment, AssessmentSettings, Bounds, Quantity, capture_range, ranking};
+use crate::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
+use crate::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use crate::landscape::certificate::Ordering;
-
-/// Figures whose order may be proved.
-const ORDERED: [Quantity; 3] = [Quantity::Unbinding, Quantity::Binding, Quantity::TrapEscape];
 
 /// Columns of what moving tiles say of the barriers: how many they checked, contradict, and show to
 /// be estimated too high.
@@ -27,15 +26,17 @@ const CHECKED: [&str; 3] = [
 pub struct Comparison {
     /// Best first.
     pub designs: Vec<Assessment>,
-    /// The quantity they are ranked by.
-    pub by: Quantity,
-    /// What each was assessed with.
+    pub by: &'static Quantity,
     pub settings: AssessmentSettings,
 }
 
 impl Comparison {
     /// Designs ranked by a figure.
-    pub fn new(designs: &[Assessment], by: Quantity, settings: AssessmentSettings) -> Self {
+    pub fn new(
+        designs: &[Assessment],
+        by: &'static Quantity,
+        settings: AssessmentSettings,
+    ) -> Self {
         let order = ranking::ranked(designs, by);
         Self {
             designs: order.into_iter().map(|i| designs[i].clone()).collect(),
@@ -49,7 +50,7 @@ impl Comparison {
         let mut out = format!(
             "{} designs, ranked by {}\n",
             self.designs.len(),
-            self.by.label()
+            self.by.label
         );
         for table in self.tables() {
             write_table(&mut out, &table);
@@ -66,7 +67,7 @@ impl Comparison {
 
     /// The same for people, as Markdown.
     pub fn markdown(&self) -> String {
-        let mut out = format!("# Designs ranked by {}\n", self.by.label());
+        let mut out = format!("# Designs ranked by {}\n", self.by.label);
         for table in self.tables() {
             out.push('\n');
             out += &markdown_table(&table);
@@ -95,47 +96,21 @@ impl Comparison {
         note
     }
 
-    fn tables(&self) -> [Vec<Vec<String>>; 2] {
-        let heads = |heads: &[&str]| heads.iter().map(|head| (*head).to_owned()).collect();
-        let mut depths = vec![heads(&[
-            "design",
-            "bond",
-            "deepest trap",
-            "selectivity",
-            "captured",
-            "offset (mm)",
-            "gap (mm)",
-            "tilt (°)",
-        ])];
-        let mut barriers = vec![heads(&[
-            "design",
-            "unbinding barrier",
-            "binding barrier",
-            "escape from the deepest trap",
-            "kinds of trap",
-        ])];
-        for design in &self.designs {
-            let cell = |quantity: Quantity| cell(quantity, design);
-            let name = self.name(design);
-            depths.push(vec![
-                name.clone(),
-                cell(Quantity::BondDepth),
-                cell(Quantity::TrapDepth),
-                cell(Quantity::Selectivity),
-                cell(Quantity::Captured),
-                to_either_side(design, [Quantity::OffsetLow, Quantity::OffsetHigh]),
-                cell(Quantity::Gap),
-                to_either_side(design, [Quantity::TiltLow, Quantity::TiltHigh]),
-            ]);
-            barriers.push(vec![
-                name,
-                cell(Quantity::Unbinding),
-                cell(Quantity::Binding),
-                cell(Quantity::TrapEscape),
-                cell(Quantity::TrapKinds),
-            ]);
+    /// Row by row, the first one the head.
+    fn tables(&self) -> Vec<Vec<Vec<String>>> {
+        let names = self.designs.iter().map(|design| vec![self.name(design)]);
+        let names: Vec<_> = once(vec!["design".to_owned()]).chain(names).collect();
+        let mut tables = Vec::new();
+        for (place, of) in placed(|quantity| quantity.column) {
+            let number = usize::from(place.row);
+            tables.resize(tables.len().max(number + 1), names.clone());
+            let cells = self.designs.iter().map(|design| cell(&of, design));
+            let column = once(heading(place.heading, of[0].measure)).chain(cells);
+            for (row, cell) in tables[number].iter_mut().zip(column) {
+                row.push(cell);
+            }
         }
-        [depths, barriers]
+        tables
     }
 
     /// A design's name, with the model where models differ.
@@ -164,7 +139,7 @@ impl Comparison {
     /// Figures with bounds, and the designs from the highest to the lowest: `a > b ~ c`.
     pub fn certified_orders(&self) -> Vec<(&'static str, String)> {
         let mut orders = Vec::new();
-        for quantity in ORDERED {
+        for (heading, quantity) in ordered() {
             let order = ranking::ranked(&self.designs, quantity);
             let known: Vec<&Assessment> = order
                 .into_iter()
@@ -182,7 +157,7 @@ impl Comparison {
                 };
                 let _ = write!(line, " {sign} {}", self.name(pair[1]));
             }
-            orders.push((named(quantity), line));
+            orders.push((heading, line));
         }
         orders
     }
@@ -218,7 +193,7 @@ impl Comparison {
             .collect();
         json::text(&json!({
             "tilebind": env!("CARGO_PKG_VERSION"),
-            "ranked_by": self.by.key(),
+            "ranked_by": self.by.key,
             "settings": self.settings,
             "capture_range": capture_settings(),
             "designs": designs,
@@ -229,7 +204,7 @@ impl Comparison {
     /// For each figure the pairs of designs whose order is proved, by their places in the ranking.
     fn proved(&self) -> Value {
         let mut all = Map::new();
-        for quantity in ORDERED {
+        for (_, quantity) in ordered() {
             let mut pairs = Vec::new();
             for (i, a) in self.designs.iter().enumerate() {
                 for (j, b) in self.designs.iter().enumerate() {
@@ -241,7 +216,7 @@ impl Comparison {
                     }
                 }
             }
-            all.insert(quantity.key().to_owned(), Value::Array(pairs));
+            all.insert(quantity.key.to_owned(), Value::Array(pairs));
         }
         Value::Object(all)
     }
@@ -261,11 +236,11 @@ pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> String {
     })
 }
 
-fn named(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::TrapEscape => "escape from the deepest trap",
-        other => other.label(),
-    }
+/// The quantities whose order may be proved, with their headings in the tables.
+fn ordered() -> impl Iterator<Item = (&'static str, &'static Quantity)> {
+    let certified = |quantity: &Quantity| quantity.column.filter(|_| quantity.bounds == CERTIFIED);
+    let places = placed(certified).into_iter();
+    places.flat_map(|(place, shared)| shared.into_iter().map(move |one| (place.heading, one)))
 }
 
 /// What a capture range depends on.
@@ -287,37 +262,30 @@ pub fn merge(object: &mut Value, more: Value) {
 
 /// The figures of a design as JSON: a number, or an object with its bounds.
 pub fn quantities(design: &Assessment) -> Value {
-    let mut all = Map::new();
-    for quantity in Quantity::ALL {
-        let estimate = quantity.of(design);
-        let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
-        let value = finite(estimate.map(|e| e.value));
-        let [low, high] = [estimate.and_then(|e| e.low), estimate.and_then(|e| e.high)].map(finite);
-        let entry = match quantity.bounds() {
-            Bounds::None => json!(value),
-            Bounds::Certified => json!({"value": value, "lower": low, "upper": high}),
-            Bounds::Interval => json!({"value": value, "low": low, "high": high}),
+    let entry = |quantity: &Quantity| {
+        let [value, low, high] = finite(quantity, design);
+        let entry = match quantity.bounds {
+            Some([below, above]) => json!({"value": value, below: low, above: high}),
+            None => json!(value),
         };
-        all.insert(quantity.column(""), entry);
-    }
-    Value::Object(all)
+        (quantity.name(""), entry)
+    };
+    QUANTITIES.iter().map(entry).collect()
 }
 
-/// Names of a bound below and one above.
-fn parts(bounds: Bounds) -> &'static [&'static str] {
-    match bounds {
-        Bounds::None => &[],
-        Bounds::Certified => &["_lower", "_upper"],
-        Bounds::Interval => &["_low", "_high"],
-    }
+/// A figure and its bounds, `None` for what is not known or not finite.
+fn finite(quantity: &Quantity, design: &Assessment) -> [Option<f64>; 3] {
+    let estimate = quantity.of(design);
+    estimate.map_or([None; 3], |estimate| estimate.finite())
 }
 
 /// Columns of a table of assessments.
 pub fn columns() -> Vec<String> {
     let mut columns = Vec::new();
-    for quantity in Quantity::ALL {
-        columns.push(quantity.column(""));
-        columns.extend(parts(quantity.bounds()).iter().map(|p| quantity.column(p)));
+    for quantity in QUANTITIES {
+        columns.push(quantity.name(""));
+        let bounds = quantity.bounds.into_iter().flatten();
+        columns.extend(bounds.map(|bound| quantity.name(&format!("_{bound}"))));
     }
     columns.extend(["caged", "target_energy_J", "seed", "sha256"].map(str::to_owned));
     columns.extend(CHECKED.map(str::to_owned));
@@ -326,18 +294,12 @@ pub fn columns() -> Vec<String> {
 
 /// The cells of [`columns`]; empty where there is nothing to say, or no way at all.
 pub fn cells(design: &Assessment) -> Vec<String> {
-    let finite = |value: Option<f64>| {
-        let value = value.filter(|v| v.is_finite());
-        value.map(number).unwrap_or_default()
-    };
     let mut cells = Vec::new();
-    for quantity in Quantity::ALL {
-        let estimate = quantity.of(design);
-        cells.push(finite(estimate.map(|e| e.value)));
-        if quantity.bounds() != Bounds::None {
-            cells.push(finite(estimate.and_then(|e| e.low)));
-            cells.push(finite(estimate.and_then(|e| e.high)));
-        }
+    for quantity in QUANTITIES {
+        let [value, bounds @ ..] = finite(quantity, design);
+        let bounds = quantity.bounds.map(|_| bounds);
+        let numbers = once(value).chain(bounds.into_iter().flatten());
+        cells.extend(numbers.map(|value| value.map(number).unwrap_or_default()));
     }
     let caged = design.bond.as_ref().is_some_and(|b| b.way_out.bounds.caged);
     cells.extend([

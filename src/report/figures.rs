@@ -1,17 +1,14 @@
 //! Figures of designs for people: numbers with their bounds, or the word for why there is none.
 
 use super::summary::percent;
+use crate::comparison::quantity::{Measure, Reading};
 use crate::comparison::{Assessment, Estimate, Quantity};
-use crate::landscape::Proportion;
-use crate::units::{si, si_range};
+use crate::units::{prefix_of, si, si_range};
 
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// Why a bond has no capture range, in short.
-pub const NOT_HEAD_ON: &str = "not head-on";
-
-/// And at length.
+/// Why a bond is [not head-on](crate::comparison::quantity::NOT_HEAD_ON), at length.
 pub const WHY_NOT_HEAD_ON: &str = "brought straight up to the target face, the tile comes to rest \
     outside the bond: there is no way past the shape, or no play along it, as between square teeth";
 
@@ -21,51 +18,31 @@ pub fn misses_head_on(design: &Assessment) -> bool {
     bond.is_some_and(|bond| bond.capture_range.is_none())
 }
 
-/// Why a figure is not known.
-fn missing(quantity: Quantity, design: &Assessment) -> &'static str {
-    match quantity {
-        Quantity::BondDepth => "does not hold",
-        Quantity::TrapDepth => "no traps",
-        Quantity::TrapEscape if design.trap_kinds == 0 => "no traps",
-        Quantity::TrapEscape => "no way found",
-        Quantity::Captured => "not counted",
-        _ if design.bond.is_none() => "no bond",
-        Quantity::Selectivity => "no traps",
-        Quantity::Unbinding | Quantity::Binding => "no way found",
-        _ => NOT_HEAD_ON,
-    }
+/// Figures for people, with their bounds: `-18.2 to 18.1` for two; where one is missing, why.
+pub fn cell(quantities: &[&Quantity], design: &Assessment) -> String {
+    let texts: Result<Vec<String>, &str> = quantities
+        .iter()
+        .map(|quantity| (quantity.read)(design).map(|reading| text(quantity.measure, &reading)))
+        .collect();
+    texts.map_or_else(str::to_owned, |texts| texts.join(" to "))
 }
 
-/// A figure for people, with its bounds; where there is none, why.
-pub fn cell(quantity: Quantity, design: &Assessment) -> String {
-    let Some(estimate) = quantity.of(design) else {
-        return missing(quantity, design).to_owned();
-    };
+fn text(measure: Measure, reading: &Reading) -> String {
+    let estimate = reading.estimate();
     let value = estimate.value;
-    match (quantity, quantity.unit()) {
-        (Quantity::Captured, _) => percent(&Proportion::new(design.captured, design.far_starts)),
-        (Quantity::TrapKinds, _) => format!("{value}"),
-        (_, "J") => energy(&estimate),
-        (_, "m") => at_least(quantity, design, &format!("{:.1}", 1e3 * value)),
-        (_, "rad") => at_least(quantity, design, &format!("{:.1}", value.to_degrees())),
-        _ => format!("{value:.3}"),
-    }
-}
-
-/// A capture range, marked where it reaches the limit of what was looked at.
-fn at_least(quantity: Quantity, design: &Assessment, text: &str) -> String {
-    let range = design.bond.as_ref().and_then(|bond| bond.capture_range);
-    let at_limit = range.is_some_and(|range| match quantity {
-        Quantity::OffsetLow => range.offset[0] <= -range.limits[0],
-        Quantity::OffsetHigh => range.offset[1] >= range.limits[0],
-        Quantity::Gap => range.gap >= range.limits[1],
-        Quantity::TiltLow => range.tilt[0] <= -range.limits[2],
-        _ => range.tilt[1] >= range.limits[2],
-    });
-    match (at_limit, quantity) {
-        (false, _) => text.to_owned(),
-        (true, Quantity::OffsetLow | Quantity::TiltLow) => format!("\u{2264} {text}"),
-        (true, _) => format!("\u{2265} {text}"),
+    let text = match (measure, reading) {
+        (_, Reading::Share(share)) => percent(share),
+        (Measure::Energy, _) => energy(&estimate),
+        (Measure::Length, _) => format!("{:.1}", 1e3 * value),
+        (Measure::Angle, _) => format!("{:.1}", value.to_degrees()),
+        (Measure::Share, _) => format!("{:.1} %", 100.0 * value),
+        (Measure::Ratio, _) => format!("{value:.3}"),
+        (Measure::Count, _) => format!("{value}"),
+    };
+    match reading {
+        Reading::AtLimit(value) if *value < 0.0 => format!("\u{2264} {text}"),
+        Reading::AtLimit(_) => format!("\u{2265} {text}"),
+        _ => text,
     }
 }
 
@@ -84,11 +61,50 @@ fn energy(estimate: &Estimate) -> String {
     }
 }
 
-/// `-18.2 to 18.1`.
-pub fn to_either_side(design: &Assessment, quantities: [Quantity; 2]) -> String {
-    let sides = quantities.map(|quantity| cell(quantity, design));
-    match quantities.map(|quantity| quantity.of(design)) {
-        [Some(_), Some(_)] => sides.join(" to "),
-        _ => sides[0].clone(),
+/// The heading of cells, with the unit where the cells do not have it: `gap (mm)`.
+pub fn heading(text: &str, measure: Measure) -> String {
+    match measure {
+        Measure::Length | Measure::Angle => Shown::new(measure, 1.0).named(text),
+        _ => text.to_owned(),
+    }
+}
+
+/// How pictures show the numbers of a measure.
+pub struct Shown {
+    /// What they are multiples of (SI).
+    pub unit: f64,
+    /// The name of that unit; empty where there is none.
+    name: String,
+    /// What they are numbers of.
+    what: &'static str,
+}
+
+impl Shown {
+    /// For numbers up to `most`.
+    pub fn new(measure: Measure, most: f64) -> Self {
+        let prefixed = prefix_of(0.999 * most);
+        let (unit, prefix, symbol, what) = match measure {
+            Measure::Energy => (prefixed.0, prefixed.1, "J", "energy"),
+            Measure::Length => (1e-3, "m", "m", "length"),
+            Measure::Angle => (1f64.to_radians(), "", "°", "angle"),
+            Measure::Share => (0.01, "", "%", "far starts"),
+            Measure::Ratio => (1.0, "", "", "ratio"),
+            Measure::Count => (1.0, "", "", "number"),
+        };
+        let name = format!("{prefix}{symbol}");
+        Self { unit, name, what }
+    }
+
+    /// A text with the unit: `depth (mJ)`.
+    pub fn named(&self, text: &str) -> String {
+        match &self.name[..] {
+            "" => text.to_owned(),
+            name => format!("{text} ({name})"),
+        }
+    }
+
+    /// The name of an axis: `energy (mJ)`.
+    pub fn axis(&self) -> String {
+        self.named(self.what)
     }
 }

@@ -3,24 +3,24 @@
 use serde::Serialize;
 
 use super::finite;
+use crate::comparison::quantity::{Measure, Place, QUANTITIES, placed};
 use crate::comparison::{Assessment, Quantity};
 use crate::report::figures::cell;
 use crate::report::plots::curve_data::{Content, contents};
-use crate::report::plots::curves::panels;
 use crate::report::sweep::Sweep;
 
 /// What a page needs to draw curves and maps.
 #[derive(Clone, Debug, Serialize)]
 pub struct Charts {
-    points: Vec<Point>,
-    panels: Vec<Panel>,
-    curves: Vec<Curves>,
-    maps: Vec<Map>,
+    points: Vec<ChartPoint>,
+    panels: Vec<ChartPanel>,
+    curves: Vec<ChartCurves>,
+    maps: Vec<ChartMap>,
 }
 
 /// A point of the sweep.
 #[derive(Clone, Debug, Serialize)]
-struct Point {
+struct ChartPoint {
     /// What is said of it under the pointer.
     told: String,
     /// Of each figure the value and its bounds (SI), a value of null where there is no way at all;
@@ -29,7 +29,7 @@ struct Point {
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct Panel {
+struct ChartPanel {
     heading: &'static str,
     /// SI unit, or `%` for a share.
     unit: &'static str,
@@ -38,22 +38,22 @@ struct Panel {
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct Curves {
+struct ChartCurves {
     title: String,
     /// The axis' name with its unit.
     axis: String,
-    series: Vec<Series>,
+    series: Vec<ChartSeries>,
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct Series {
+struct ChartSeries {
     name: String,
     /// Place on the axis, and number of the point.
     points: Vec<(f64, usize)>,
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct Map {
+struct ChartMap {
     title: String,
     axes: [String; 2],
     x: Vec<f64>,
@@ -64,21 +64,22 @@ struct Map {
 
 impl Charts {
     pub fn new(sweep: &Sweep) -> Self {
+        let panels = placed(|quantity| quantity.panel).into_iter();
         let mut charts = Self {
             points: (0..sweep.points.len()).map(|k| point(sweep, k)).collect(),
-            panels: panels().map(|(heading, of)| panel(heading, of)).collect(),
+            panels: panels.map(|(place, shown)| panel(place, &shown)).collect(),
             curves: Vec::new(),
             maps: Vec::new(),
         };
         for (_, content) in contents(sweep) {
             match content {
-                Content::Curves(variable, group) => charts.curves.push(Curves {
+                Content::Curves(variable, group) => charts.curves.push(ChartCurves {
                     title: group.title,
                     axis: variable.shown().1,
                     series: group
                         .series
                         .into_iter()
-                        .map(|series| Series {
+                        .map(|series| ChartSeries {
                             name: series.name,
                             points: series.points.iter().map(|p| (tidy(p.x), p.index)).collect(),
                         })
@@ -89,7 +90,7 @@ impl Charts {
                         let factor = variable.shown().0;
                         variable.values.iter().map(|v| tidy(factor * v)).collect()
                     });
-                    charts.maps.push(Map {
+                    charts.maps.push(ChartMap {
                         title: map.title,
                         axes: [map.x.shown().1, map.y.shown().1],
                         x,
@@ -108,51 +109,42 @@ fn tidy(value: f64) -> f64 {
     super::rounded(value, 9)
 }
 
-fn panel(heading: &'static str, of: &[Quantity]) -> Panel {
-    Panel {
-        heading,
-        unit: match of {
-            [Quantity::Captured] => "%",
-            _ => of[0].unit(),
+fn panel(place: Place, shown: &[&Quantity]) -> ChartPanel {
+    let measure = shown[0].measure;
+    let shows = |known: &Quantity| shown.iter().any(|quantity| quantity.key == known.key);
+    ChartPanel {
+        heading: place.heading,
+        unit: match measure {
+            Measure::Share => "%",
+            _ => measure.unit(),
         },
-        figures: of
-            .iter()
-            .filter_map(|q| Quantity::ALL.iter().position(|known| known == q))
+        figures: (0..QUANTITIES.len())
+            .filter(|&k| shows(&QUANTITIES[k]))
             .collect(),
     }
 }
 
-fn point(sweep: &Sweep, index: usize) -> Point {
+fn point(sweep: &Sweep, index: usize) -> ChartPoint {
     let called = sweep.called(&sweep.points[index]);
     match sweep.assessment(index) {
-        Some(assessment) => Point {
+        Some(assessment) => ChartPoint {
             told: format!("{called}: {}", told(assessment)),
-            figures: Quantity::ALL.map(|q| figure(q, assessment)).to_vec(),
+            figures: QUANTITIES.iter().map(|q| figure(q, assessment)).collect(),
         },
-        None => Point {
+        None => ChartPoint {
             told: format!("{called}: {}", sweep.reason(index).unwrap_or_default()),
             figures: Vec::new(),
         },
     }
 }
 
-fn figure(quantity: Quantity, assessment: &Assessment) -> Option<[Option<f64>; 3]> {
-    let estimate = quantity.of(assessment)?;
-    let number = |value: Option<f64>| value.and_then(|value| finite(value, 6));
-    Some([
-        number(Some(estimate.value)),
-        number(estimate.low),
-        number(estimate.high),
-    ])
+fn figure(quantity: &Quantity, assessment: &Assessment) -> Option<[Option<f64>; 3]> {
+    let numbers = quantity.of(assessment)?.finite();
+    Some(numbers.map(|number| number.and_then(|value| finite(value, 6))))
 }
 
 fn told(assessment: &Assessment) -> String {
-    [
-        Quantity::BondDepth,
-        Quantity::TrapDepth,
-        Quantity::Unbinding,
-        Quantity::Captured,
-    ]
-    .map(|quantity| format!("{} {}", quantity.label(), cell(quantity, assessment)))
-    .join(", ")
+    let told = QUANTITIES.iter().filter(|quantity| quantity.told);
+    let told = told.map(|one| format!("{} {}", one.label, cell(&[one], assessment)));
+    told.collect::<Vec<_>>().join(", ")
 }

@@ -4,9 +4,11 @@ use serde_json::{Value, json};
 
 use super::charts::Charts;
 use super::{Column, Fact, Illustration, Page, Table};
+use crate::comparison::quantity::QUANTITIES;
+use crate::comparison::ranking::ranked;
 use crate::comparison::{Assessment, Quantity};
 use crate::report::comparison::Comparison;
-use crate::report::figures::cell;
+use crate::report::figures::{cell, heading};
 use crate::report::sweep::{Sweep, counts};
 
 /// What ranks above every number: a barrier that nothing crosses.
@@ -15,20 +17,12 @@ const BEYOND: f64 = 1e300;
 impl Page {
     /// The page of designs side by side; `ranking` is the picture, as SVG.
     pub fn of_comparison(comparison: &Comparison, ranking: String) -> Self {
-        let by = comparison.by.label();
-        let best = [
-            comparison.by,
-            Quantity::BondDepth,
-            Quantity::Unbinding,
-            Quantity::Captured,
-        ];
+        let by = comparison.by.label;
         let mut facts: Vec<Fact> = Vec::new();
-        for quantity in best {
-            let name = match quantity {
-                Quantity::BondDepth => "deepest bond".to_owned(),
-                Quantity::Captured => "most captured".to_owned(),
-                other => format!("highest {}", other.label()),
-            };
+        let best = QUANTITIES.iter().filter(|quantity| quantity.most.is_some());
+        for quantity in std::iter::once(comparison.by).chain(best) {
+            let highest = || format!("highest {}", quantity.label);
+            let name = quantity.most.map_or_else(highest, str::to_owned);
             if facts.iter().all(|fact| fact.name != name) {
                 facts.extend(first(comparison, quantity, name));
             }
@@ -107,7 +101,7 @@ impl Page {
                 row.extend(point.values.iter().map(|value| json!(value)));
                 match sweep.assessment(point.index) {
                     Some(design) => row.extend(figures(design)),
-                    None => row.extend(Quantity::ALL.map(|_| Value::Null)),
+                    None => row.extend(QUANTITIES.iter().map(|_| Value::Null)),
                 }
                 row.push(json!(sweep.reason(point.index)));
                 row
@@ -144,34 +138,28 @@ impl Page {
 }
 
 /// The design with the largest value of a figure.
-fn first(comparison: &Comparison, quantity: Quantity, name: String) -> Option<Fact> {
-    let order = crate::comparison::ranking::ranked(&comparison.designs, quantity);
+fn first(comparison: &Comparison, quantity: &Quantity, name: String) -> Option<Fact> {
+    let order = ranked(&comparison.designs, quantity);
     let design = &comparison.designs[*order.first()?];
     quantity.of(design)?;
     Some(Fact {
         name,
         value: comparison.name(design),
-        note: cell(quantity, design),
+        note: cell(&[quantity], design),
     })
 }
 
 fn figure_columns() -> impl Iterator<Item = Column> {
-    Quantity::ALL.into_iter().map(|quantity| {
-        let unit = match quantity.unit() {
-            "m" => " (mm)",
-            "rad" => " (°)",
-            _ => "",
-        };
-        Column::new(&format!("{}{unit}", quantity.label()), "")
-    })
+    QUANTITIES
+        .iter()
+        .map(|quantity| Column::new(&heading(quantity.label, quantity.measure), ""))
 }
 
 /// The figures of a design, each as what it sorts by and what is shown.
-fn figures(design: &Assessment) -> [Value; 13] {
-    Quantity::ALL.map(|quantity| {
-        let value = quantity
-            .of(design)
-            .map(|estimate| estimate.value.min(BEYOND));
-        json!([value, cell(quantity, design)])
+fn figures(design: &Assessment) -> impl Iterator<Item = Value> {
+    QUANTITIES.iter().map(|quantity| {
+        let estimate = quantity.of(design);
+        let value = estimate.map(|estimate| estimate.value.min(BEYOND));
+        json!([value, cell(&[quantity], design)])
     })
 }

@@ -31,6 +31,7 @@ pub struct Variable {
     /// Which of the plan's axes.
     axis: usize,
     key: String,
+    /// From the lowest, two at least.
     pub values: Vec<f64>,
 }
 
@@ -54,12 +55,7 @@ impl Variable {
     /// The axis, a little longer than the numbers.
     pub fn axis(&self) -> Axis {
         let (factor, name) = self.shown();
-        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = self
-            .values
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = (self.values[0], self.values[self.values.len() - 1]);
         let room = 0.03 * (high - low);
         Axis::linear(factor * (low - room)..factor * (high + room), 6, name)
     }
@@ -69,12 +65,12 @@ impl Variable {
 #[derive(Clone, Debug)]
 pub struct Series<'a> {
     pub name: String,
-    pub points: Vec<Sample<'a>>,
+    pub points: Vec<CurvePoint<'a>>,
 }
 
 /// A point of a curve.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample<'a> {
+pub struct CurvePoint<'a> {
     /// The varied number, as the axis shows it.
     pub x: f64,
     /// Place of the point in the sweep.
@@ -182,7 +178,7 @@ fn curves_of<'a>(
         };
         let points = points.iter().map(|point| {
             let value = point.values[number.axis].number().unwrap_or(f64::NAN);
-            Sample {
+            CurvePoint {
                 x: number.shown().0 * value,
                 index: point.index,
                 result: sweep.assessment(point.index),

@@ -10,8 +10,9 @@ use super::ranking::disc;
 use super::style::{
     Axis, BLUE, Chart, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title, units,
 };
+use crate::comparison::quantity::{Measure, placed};
 use crate::comparison::{Estimate, Quantity};
-use crate::units::prefix_of;
+use crate::report::figures::Shown;
 
 const WIDTH: f64 = 1200.0;
 /// The title and the key of the series (pixels).
@@ -35,53 +36,10 @@ const COLOURS: [RGBColor; 7] = [
 pub const MOST_SERIES: usize = COLOURS.len();
 
 /// What a panel shows: figures of the same kind, as one curve or, to either side of zero, two.
-struct Panel {
+struct CurvePanel<'a> {
     heading: &'static str,
-    quantities: &'static [Quantity],
-}
-
-const PANELS: [Panel; 9] = [
-    Panel {
-        heading: "bond: depth",
-        quantities: &[Quantity::BondDepth],
-    },
-    Panel {
-        heading: "deepest trap: depth",
-        quantities: &[Quantity::TrapDepth],
-    },
-    Panel {
-        heading: "selectivity",
-        quantities: &[Quantity::Selectivity],
-    },
-    Panel {
-        heading: "unbinding barrier",
-        quantities: &[Quantity::Unbinding],
-    },
-    Panel {
-        heading: "escape from the deepest trap",
-        quantities: &[Quantity::TrapEscape],
-    },
-    Panel {
-        heading: "binding barrier",
-        quantities: &[Quantity::Binding],
-    },
-    Panel {
-        heading: "captured far starts",
-        quantities: &[Quantity::Captured],
-    },
-    Panel {
-        heading: "capture range: offset to either side",
-        quantities: &[Quantity::OffsetLow, Quantity::OffsetHigh],
-    },
-    Panel {
-        heading: "capture range: tilt to either side",
-        quantities: &[Quantity::TiltLow, Quantity::TiltHigh],
-    },
-];
-
-/// The headings of the panels, and the figures on each.
-pub fn panels() -> impl Iterator<Item = (&'static str, &'static [Quantity])> {
-    PANELS.iter().map(|panel| (panel.heading, panel.quantities))
+    quantities: Vec<&'static Quantity>,
+    group: &'a Group<'a>,
 }
 
 /// A panel a figure, a curve a series.
@@ -89,7 +47,8 @@ pub fn panels() -> impl Iterator<Item = (&'static str, &'static [Quantity])> {
 /// # Errors
 /// See [`PictureError`].
 pub fn draw(group: &Group, variable: &Variable) -> Result<Picture, PictureError> {
-    let rows = PANELS.len().div_ceil(COLUMNS);
+    let panels = placed(|quantity| quantity.panel);
+    let rows = panels.len().div_ceil(COLUMNS);
     let height = HEAD + PANEL_HEIGHT * rows as f64 + 8.0;
     Picture::draw((WIDTH as u32, height as u32), |root, _| {
         title(root, &group.title)?;
@@ -97,8 +56,13 @@ pub fn draw(group: &Group, variable: &Variable) -> Result<Picture, PictureError>
         let (_, body) = root.split_vertically(units(HEAD));
         let (body, _) = body.split_vertically(units(PANEL_HEIGHT * rows as f64));
         let areas = body.split_evenly((rows, COLUMNS));
-        for (area, panel) in areas.iter().zip(&PANELS) {
-            panel.draw(area, root, group, variable)?;
+        for (area, (place, quantities)) in areas.iter().zip(panels) {
+            let panel = CurvePanel {
+                heading: place.heading,
+                quantities,
+                group,
+            };
+            panel.draw(area, root, variable)?;
         }
         Ok(())
     })
@@ -112,12 +76,8 @@ fn key(root: &Area, group: &Group) -> Result<(), PictureError> {
     for (series, colour) in group.series.iter().zip(COLOURS) {
         if group.series.len() > 1 {
             polyline(root, &[(x, y), (x + 24.0, y)], colour, 2.4)?;
-            font.write(
-                root,
-                &series.name,
-                (x + 31.0, y),
-                (HPos::Left, VPos::Center),
-            )?;
+            let at = (x + 31.0, y);
+            font.write(root, &series.name, at, (HPos::Left, VPos::Center))?;
             x += 31.0 + 1.08 * font.width(&series.name) + 22.0;
         }
     }
@@ -130,63 +90,58 @@ fn key(root: &Area, group: &Group) -> Result<(), PictureError> {
     font.write(root, &note, at, (HPos::Right, VPos::Top))
 }
 
-impl Panel {
+impl CurvePanel<'_> {
     fn draw<'a>(
         &self,
         area: &Area<'a>,
         root: &Area<'a>,
-        group: &Group,
         variable: &Variable,
     ) -> Result<(), PictureError> {
-        let (low, high) = self.range(group);
-        let (unit, name) = self.unit(low, high);
-        let scale = match self.decades(group) {
-            Some(range) => Scale::Decades(range),
-            None => Scale::Linear { unit },
-        };
+        let (low, high) = self.range();
+        let shown = Shown::new(self.measure(), low.abs().max(high.abs()));
+        let (unit, name) = (shown.unit, shown.axis());
         let x = variable.axis();
-        let y = match scale {
-            Scale::Linear { unit } => Axis::linear(low / unit..high / unit, 5, name),
-            Scale::Decades([low, high]) => Axis::decades(low..high, name),
-        };
-        let (low, high) = match scale {
-            Scale::Linear { .. } => (low, high),
-            Scale::Decades(range) => range.map(|power| 10f64.powf(power)).into(),
+        let (scale, y, [low, high]) = match self.decades() {
+            Some(powers @ [low, high]) => {
+                let y = Axis::decades(low..high, name);
+                (
+                    Scale::Decades(powers),
+                    y,
+                    powers.map(|power| 10f64.powf(power)),
+                )
+            }
+            None => {
+                let y = Axis::linear(low / unit..high / unit, 5, name);
+                (Scale::Linear { unit }, y, [low, high])
+            }
         };
         let chart = chart(area, MARGIN, &x, &y, true)?;
         let at = |x: f64, y: f64| pixel(&chart, x, scale.at(y));
         let (left, top) = at(x.range.start, high);
         let (right, bottom) = at(x.range.end, low);
-        Text::new(LABEL).bold().write(
-            root,
-            self.heading,
-            (left, top - 8.0),
-            (HPos::Left, VPos::Bottom),
-        )?;
+        caption(root, self.heading, (left, top - 8.0))?;
         if low < 0.0 {
             let zero = at(0.0, 0.0).1;
             polyline(root, &[(left, zero), (right, zero)], INK, 1.2)?;
         }
         let mut any = false;
-        for (number, (series, colour)) in group.series.iter().zip(COLOURS).enumerate() {
-            for quantity in self.quantities {
+        for (number, (series, colour)) in self.group.series.iter().zip(COLOURS).enumerate() {
+            for quantity in &self.quantities {
                 let curve = Curve {
                     root,
                     chart: &chart,
                     scale,
                     top,
                     colour,
-                    width: width(number, group.series.len()),
+                    width: width(number, self.group.series.len()),
                 };
-                any |= curve.draw(series, *quantity)?;
+                any |= curve.draw(series, quantity)?;
             }
             for point in &series.points {
                 if point.result.is_none() {
-                    let at = (
-                        pixel(&chart, point.x, y.range.start).0,
-                        bottom - 7.0 - 9.0 * number as f64,
-                    );
-                    cross(root, at, colour)?;
+                    let x = pixel(&chart, point.x, y.range.start).0;
+                    let y = bottom - 7.0 - 9.0 * number as f64;
+                    cross(root, (x, y), 3.5, colour)?;
                 }
             }
         }
@@ -198,63 +153,47 @@ impl Panel {
         Ok(())
     }
 
+    fn measure(&self) -> Measure {
+        self.quantities[0].measure
+    }
+
+    /// All that is drawn.
+    fn estimates(&self) -> impl Iterator<Item = Estimate> {
+        let points = self.group.series.iter().flat_map(|series| &series.points);
+        let results = points.filter_map(|point| point.result);
+        results.flat_map(|result| self.quantities.iter().filter_map(|q| q.of(result)))
+    }
+
     /// From zero, or from below it, to a little above the highest value.
-    fn range(&self, group: &Group) -> (f64, f64) {
-        let mut range = (0.0_f64, 0.0_f64);
-        for series in &group.series {
-            for point in &series.points {
-                let estimates = self.quantities.iter();
-                let estimates = estimates.filter_map(|q| q.of(point.result?));
-                for value in estimates.flat_map(|e| [Some(e.value), e.low, e.high]) {
-                    let value = value.filter(|v| v.is_finite()).unwrap_or(0.0);
-                    range = (range.0.min(value), range.1.max(value));
-                }
-            }
-        }
-        if self.quantities == [Quantity::Captured] {
+    fn range(&self) -> (f64, f64) {
+        if self.measure() == Measure::Share {
             return (0.0, 1.0);
         }
-        let span = range.1 - range.0;
+        let values = self.estimates().flat_map(|e| e.finite()).flatten();
+        let (low, high) = extent(values);
+        let span = high - low;
         if span <= 0.0 {
-            return (
-                0.0,
-                if self.quantities[0].unit() == "J" {
-                    2e-3
-                } else {
-                    1.0
-                },
-            );
+            let energy = self.measure() == Measure::Energy;
+            return (0.0, if energy { 2e-3 } else { 1.0 });
         }
-        let below = if range.0 < 0.0 { 0.08 * span } else { 0.0 };
-        (range.0 - below, range.1 + 0.08 * span)
+        let below = if low < 0.0 { 0.08 * span } else { 0.0 };
+        (low - below, high + 0.08 * span)
     }
 
     /// The range of a ratio that spans more than two powers of ten, as decimal logarithms.
-    fn decades(&self, group: &Group) -> Option<[f64; 2]> {
-        if self.quantities != [Quantity::Selectivity] {
-            return None;
-        }
-        let points = group.series.iter().flat_map(|series| &series.points);
-        let (low, high) = points
-            .filter_map(|point| Some(Quantity::Selectivity.of(point.result?)?.value.log10()))
-            .filter(|power| power.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(low, high), power| {
-                (low.min(power), high.max(power))
-            });
-        (high - low > 2.0).then_some([low - 0.1, high + 0.1])
+    fn decades(&self) -> Option<[f64; 2]> {
+        let powers = self.estimates().map(|e| e.value.log10());
+        let (low, high) = extent(powers.filter(|power| power.is_finite()));
+        let wide = self.measure() == Measure::Ratio && high - low > 2.0;
+        wide.then_some([low - 0.1, high + 0.1])
     }
+}
 
-    /// What the axis' numbers are multiplied by to be SI, and its name.
-    fn unit(&self, low: f64, high: f64) -> (f64, String) {
-        let (prefixed, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
-        match (self.quantities[0], self.quantities[0].unit()) {
-            (Quantity::Captured, _) => (0.01, "far starts (%)".into()),
-            (_, "J") => (prefixed, format!("energy ({prefix}J)")),
-            (_, "m") => (1e-3, "length (mm)".into()),
-            (_, "rad") => (1f64.to_radians(), "angle (°)".into()),
-            _ => (1.0, "ratio".into()),
-        }
-    }
+/// The least and the greatest of some numbers and zero.
+fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((0.0, 0.0), |(low, high), value| {
+        (f64::min(low, value), f64::max(high, value))
+    })
 }
 
 /// How values stand along a panel's axis.
@@ -292,7 +231,7 @@ impl Curve<'_, '_, '_> {
     }
 
     /// Whether there was anything to draw.
-    fn draw(&self, series: &Series, quantity: Quantity) -> Result<bool, PictureError> {
+    fn draw(&self, series: &Series, quantity: &Quantity) -> Result<bool, PictureError> {
         let known: Vec<(f64, Option<Estimate>)> = series
             .points
             .iter()
@@ -351,8 +290,19 @@ fn width(number: usize, count: usize) -> f64 {
     1.6 + 2.4 * (count - 1 - number) as f64 / count as f64
 }
 
-fn cross(root: &Area, (x, y): Pixel, colour: RGBColor) -> Result<(), PictureError> {
-    let r = 3.5;
+/// Writes what a panel shows; `at` is the lower left corner (pixels).
+pub(super) fn caption(root: &Area, text: &str, at: Pixel) -> Result<(), PictureError> {
+    let font = Text::new(LABEL).bold();
+    font.write(root, text, at, (HPos::Left, VPos::Bottom))
+}
+
+/// A cross of half the width `r` (pixels).
+pub(super) fn cross(
+    root: &Area,
+    (x, y): Pixel,
+    r: f64,
+    colour: RGBColor,
+) -> Result<(), PictureError> {
     polyline(root, &[(x - r, y - r), (x + r, y + r)], colour, 1.6)?;
     polyline(root, &[(x - r, y + r), (x + r, y - r)], colour, 1.6)
 }

@@ -4,15 +4,17 @@
 use plotters::prelude::{Color, RGBColor, WHITE};
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::curves::caption;
 use super::marks::{Pixel, polygon, polyline};
 use super::picture::{Area, Picture, PictureError};
 use super::style::{
     Axis, BLUE, Chart, GREEN, GRID, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title,
     units,
 };
+use crate::comparison::quantity::{Measure, Place, placed};
 use crate::comparison::{Assessment, Quantity};
 use crate::report::comparison::Comparison;
-use crate::units::prefix_of;
+use crate::report::figures::Shown;
 
 const WIDTH: f64 = 1120.0;
 /// Above the panels: the title and their headings with keys (pixels).
@@ -21,20 +23,26 @@ const HEAD: f64 = 104.0;
 const ROW: f64 = 44.0;
 /// Below the panels: axes (pixels).
 const FOOT: f64 = 66.0;
-/// Left and right of the three plots (pixels).
-const DEPTHS: (f64, f64) = (230.0, 540.0);
-const BARRIERS: (f64, f64) = (580.0, 860.0);
-const CAPTURES: (f64, f64) = (900.0, 1090.0);
+/// Left and right of the plots (pixels), their headings, and how far beyond the greatest value their
+/// axes go.
+const PLOTS: [((f64, f64), &str, f64); 3] = [
+    ((230.0, 540.0), "depth", 1.22),
+    ((580.0, 860.0), "barrier, certified bounds", 1.06),
+    ((900.0, 1090.0), "captured, 95 % interval", 1.0),
+];
+const COLOURS: [RGBColor; 3] = [BLUE, GREEN, VERMILLION];
 
 /// What a panel shows of each design.
-struct Panel {
+struct RankingPanel {
     place: (f64, f64),
     heading: &'static str,
-    axis: String,
-    /// What the axis' numbers are multiplied by to be SI.
-    unit: f64,
+    /// How numbers are shown.
+    shown: Shown,
+    /// Greatest number on the axis.
     end: f64,
-    shown: Vec<(Quantity, RGBColor)>,
+    entries: Vec<(Place, &'static Quantity)>,
+    /// Ratios, whose numbers stand beside the bars.
+    ratios: Vec<&'static Quantity>,
 }
 
 /// One row a design in the order of the ranking.
@@ -45,10 +53,9 @@ pub fn draw(comparison: &Comparison) -> Result<Picture, PictureError> {
     let rows = comparison.designs.len();
     let height = HEAD + ROW * rows as f64 + FOOT;
     Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        let text = format!("{rows} designs ranked by {}", comparison.by.label());
+        let text = format!("{rows} designs ranked by {}", comparison.by.label);
         title(root, &text)?;
-        let panels = panels(comparison);
-        for (number, panel) in panels.iter().enumerate() {
+        for (number, panel) in panels(comparison).iter().enumerate() {
             panel.draw(root, comparison, number)?;
         }
         for (row, design) in comparison.designs.iter().enumerate() {
@@ -58,51 +65,48 @@ pub fn draw(comparison: &Comparison) -> Result<Picture, PictureError> {
     })
 }
 
-fn panels(comparison: &Comparison) -> [Panel; 3] {
-    let most = |quantities: &[Quantity]| {
-        let values = comparison.designs.iter().flat_map(|design| {
-            let estimates = quantities.iter().filter_map(|q| q.of(design));
-            estimates.flat_map(|e| [Some(e.value), e.low, e.high])
-        });
-        values
+fn panels(comparison: &Comparison) -> Vec<RankingPanel> {
+    let places = placed(|quantity| quantity.ranking).into_iter();
+    let all = places.flat_map(|(place, of)| of.into_iter().map(move |one| (place, one)));
+    let all: Vec<_> = all.collect();
+    let rows = all.chunk_by(|(a, _), (b, _)| a.row == b.row);
+    let panels = PLOTS.iter().zip(rows);
+    panels
+        .map(|(plot, all)| panel(comparison, plot, all))
+        .collect()
+}
+
+fn panel(
+    comparison: &Comparison,
+    &(place, heading, room): &((f64, f64), &'static str, f64),
+    all: &[(Place, &'static Quantity)],
+) -> RankingPanel {
+    let (ratios, entries): (Vec<_>, Vec<_>) = all
+        .iter()
+        .partition(|(_, one)| one.measure == Measure::Ratio);
+    let estimates = |design| entries.iter().filter_map(move |(_, one)| one.of(design));
+    let estimates = comparison.designs.iter().flat_map(estimates);
+    let measure = entries[0].1.measure;
+    let most = match measure {
+        Measure::Share => 1.0,
+        _ => estimates
+            .flat_map(|e| e.finite())
             .flatten()
-            .filter(|v| v.is_finite())
-            .fold(f64::MIN_POSITIVE, f64::max)
+            .fold(f64::MIN_POSITIVE, f64::max),
     };
-    let energies = |place, heading, shown: Vec<(Quantity, RGBColor)>, room: f64| {
-        let quantities: Vec<Quantity> = shown.iter().map(|(q, _)| *q).collect();
-        let most = most(&quantities);
-        let (unit, prefix) = prefix_of(0.999 * most);
-        Panel {
-            place,
-            heading,
-            axis: format!("energy ({prefix}J)"),
-            unit,
-            end: room * most / unit,
-            shown,
-        }
-    };
-    let depths = vec![
-        (Quantity::BondDepth, BLUE),
-        (Quantity::TrapDepth, VERMILLION),
-    ];
-    let barriers = vec![
-        (Quantity::Unbinding, BLUE),
-        (Quantity::Binding, GREEN),
-        (Quantity::TrapEscape, VERMILLION),
-    ];
-    [
-        energies(DEPTHS, "depth", depths, 1.22),
-        energies(BARRIERS, "barrier, certified bounds", barriers, 1.06),
-        Panel {
-            place: CAPTURES,
-            heading: "captured, 95 % interval",
-            axis: "far starts (%)".to_owned(),
-            unit: 0.01,
-            end: 100.0,
-            shown: vec![(Quantity::Captured, BLUE)],
-        },
-    ]
+    let shown = Shown::new(measure, most);
+    RankingPanel {
+        place,
+        heading,
+        end: room * most / shown.unit,
+        shown,
+        entries,
+        ratios: ratios.into_iter().map(|(_, one)| one).collect(),
+    }
+}
+
+fn colour(place: &Place) -> RGBColor {
+    COLOURS[usize::from(place.column) % COLOURS.len()]
 }
 
 /// The middle of a design's row (pixels).
@@ -111,7 +115,7 @@ fn middle(row: usize) -> f64 {
 }
 
 fn name(root: &Area, design: &Assessment, y: f64) -> Result<(), PictureError> {
-    let right = DEPTHS.0 - 14.0;
+    let right = PLOTS[0].0.0 - 14.0;
     let mut font = Text::new(LABEL);
     let width = font.width(&design.name);
     if width > right - 10.0 {
@@ -120,7 +124,7 @@ fn name(root: &Area, design: &Assessment, y: f64) -> Result<(), PictureError> {
     font.write(root, &design.name, (right, y), (HPos::Right, VPos::Center))
 }
 
-impl Panel {
+impl RankingPanel {
     fn draw(
         &self,
         root: &Area,
@@ -136,7 +140,7 @@ impl Panel {
             .split_vertically(units(bottom + FOOT))
             .0;
         let area = area.split_horizontally(units(left - 20.0)).1;
-        let x = Axis::linear(0.0..self.end, 5, self.axis.clone());
+        let x = Axis::linear(0.0..self.end, 5, self.shown.axis());
         let y = Axis {
             range: 0.0..rows as f64,
             ticks: Vec::new(),
@@ -161,38 +165,27 @@ impl Panel {
     /// The heading with a key for each colour.
     fn heading(&self, root: &Area) -> Result<(), PictureError> {
         let left = self.place.0;
-        let heading = Text::new(LABEL).bold();
-        heading.write(
-            root,
-            self.heading,
-            (left, HEAD - 34.0),
-            (HPos::Left, VPos::Bottom),
-        )?;
-        if self.shown.len() < 2 {
+        caption(root, self.heading, (left, HEAD - 34.0))?;
+        if self.entries.len() < 2 {
             return Ok(());
         }
         let mut x = left;
-        for (quantity, colour) in &self.shown {
-            let label = match quantity {
-                Quantity::Unbinding => "unbinding",
-                Quantity::Binding => "binding",
-                Quantity::TrapEscape => "escape from trap",
-                other => other.label(),
-            };
+        for (place, _) in &self.entries {
+            let name = place.heading;
             let y = HEAD - 16.0;
-            block(root, [x, y - 5.0, x + 10.0, y + 5.0], *colour)?;
+            block(root, [x, y - 5.0, x + 10.0, y + 5.0], colour(place))?;
             let font = Text::new(SMALL);
-            font.write(root, label, (x + 15.0, y), (HPos::Left, VPos::Center))?;
-            x += 15.0 + 1.08 * font.width(label) + 14.0;
+            font.write(root, name, (x + 15.0, y), (HPos::Left, VPos::Center))?;
+            x += 15.0 + 1.08 * font.width(name) + 14.0;
         }
         Ok(())
     }
 
     fn at(&self, chart: &Chart, value: f64) -> f64 {
-        pixel(chart, (value / self.unit).clamp(0.0, self.end), 0.0).0
+        pixel(chart, (value / self.shown.unit).clamp(0.0, self.end), 0.0).0
     }
 
-    /// Bars from zero, one below the other, with the selectivity beside them.
+    /// Bars from zero, one below the other, with the ratios beside them.
     fn bars(
         &self,
         root: &Area,
@@ -201,21 +194,23 @@ impl Panel {
         y: f64,
     ) -> Result<(), PictureError> {
         let mut end = self.place.0;
-        for (k, (quantity, colour)) in self.shown.iter().enumerate() {
+        for (k, (place, quantity)) in self.entries.iter().enumerate() {
             let Some(estimate) = quantity.of(design) else {
                 continue;
             };
             let x = self.at(chart, estimate.value);
             let top = y - 14.0 + 15.0 * k as f64;
-            block(root, [self.place.0, top, x, top + 13.0], *colour)?;
+            block(root, [self.place.0, top, x, top + 13.0], colour(place))?;
             end = end.max(x);
         }
-        let text = match Quantity::Selectivity.of(design) {
-            Some(selectivity) => format!("\u{d7} {:.2}", selectivity.value),
-            None if design.bond.is_none() => "no bond".to_owned(),
-            None => "no traps".to_owned(),
-        };
-        Text::new(SMALL).write(root, &text, (end + 7.0, y), (HPos::Left, VPos::Center))
+        for ratio in &self.ratios {
+            let text = match (ratio.read)(design) {
+                Ok(ratio) => format!("\u{d7} {:.2}", ratio.estimate().value),
+                Err(why) => why.to_owned(),
+            };
+            Text::new(SMALL).write(root, &text, (end + 7.0, y), (HPos::Left, VPos::Center))?;
+        }
+        Ok(())
     }
 
     /// Points with their bounds, one below the other.
@@ -226,14 +221,14 @@ impl Panel {
         design: &Assessment,
         y: f64,
     ) -> Result<(), PictureError> {
-        let count = self.shown.len() as f64;
-        for (k, (quantity, colour)) in self.shown.iter().enumerate() {
+        let count = self.entries.len() as f64;
+        for (k, (place, quantity)) in self.entries.iter().enumerate() {
             let y = y + 12.0 * (k as f64 - (count - 1.0) / 2.0);
             let Some(estimate) = quantity.of(design) else {
                 continue;
             };
             if estimate.value.is_infinite() {
-                let font = Text::new(SMALL).colour(*colour);
+                let font = Text::new(SMALL).colour(colour(place));
                 let at = (self.place.1 - 4.0, y);
                 font.write(root, "no way", at, (HPos::Right, VPos::Center))?;
                 continue;
@@ -241,18 +236,16 @@ impl Panel {
             if let (Some(low), Some(high)) = (estimate.low, estimate.high) {
                 let (low, high) = (self.at(chart, low), self.at(chart, high));
                 let band = [low - 1.0, y - 5.5, high + 1.0, y + 5.5];
-                polygon(root, &corners(band), colour.mix(0.45), None)?;
+                polygon(root, &corners(band), colour(place).mix(0.45), None)?;
             }
-            disc(root, (self.at(chart, estimate.value), y), *colour)?;
+            disc(root, (self.at(chart, estimate.value), y), colour(place))?;
         }
-        if Quantity::Captured.of(design).is_none() && count == 1.0 {
+        if let [(_, quantity)] = &self.entries[..]
+            && let Err(why) = (quantity.read)(design)
+        {
             let font = Text::new(SMALL).colour(SOFT);
-            font.write(
-                root,
-                "not counted",
-                (self.place.0 + 6.0, y),
-                (HPos::Left, VPos::Center),
-            )?;
+            let at = (self.place.0 + 6.0, y);
+            font.write(root, why, at, (HPos::Left, VPos::Center))?;
         }
         Ok(())
     }
@@ -262,7 +255,8 @@ fn corners([left, top, right, bottom]: [f64; 4]) -> [Pixel; 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
-fn block(root: &Area, place: [f64; 4], colour: RGBColor) -> Result<(), PictureError> {
+/// A filled rectangle: left, top, right, bottom (pixels).
+pub(super) fn block(root: &Area, place: [f64; 4], colour: RGBColor) -> Result<(), PictureError> {
     polygon(root, &corners(place), colour, None)
 }
 
