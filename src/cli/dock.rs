@@ -214,7 +214,7 @@ impl Dock {
         };
         take(4, &DockingRun::is_bound);
         for trap in 0..4 {
-            take(1, &|run| run.end == End::Misbound { trap: Some(trap) });
+            take(1, &|run| run.end == End::Trapped { trap: Some(trap) });
         }
         take(2, &|run| run.end == End::Free);
         if chosen.is_empty() {

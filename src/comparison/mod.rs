@@ -218,7 +218,7 @@ impl Assessment {
     pub fn new(design: &Design, analysis: &Analysis) -> Self {
         let inventory = &analysis.inventory;
         let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);
-        let bound = inventory.first(StateKind::Bound);
+        let bound = inventory.first(StateKind::Bond);
         Self {
             name: design.name.clone(),
             sha256: design.sha256.clone(),
@@ -228,7 +228,7 @@ impl Assessment {
             target_energy: analysis.bound.1,
             bond: bound.map(|state| bond(analysis, state)),
             trap_kinds: inventory.kinds().filter(|kind| !kind.is_bond()).count(),
-            deepest_trap: inventory.first(StateKind::Misbound).map(|state| Trap {
+            deepest_trap: inventory.first(StateKind::Trap).map(|state| Trap {
                 pose: state.configuration.to_array(),
                 energy: state.energy,
                 escape: Way::new(analysis.escape(state.id).as_ref()),
@@ -237,7 +237,7 @@ impl Assessment {
             captured: inventory
                 .states
                 .iter()
-                .filter(|state| state.kind == StateKind::Bound)
+                .filter(|state| state.kind == StateKind::Bond)
                 .map(captured)
                 .sum(),
             uncaptured: analysis.uncaptured.count,

@@ -12,9 +12,9 @@ pub(super) const SAME_ENERGY: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateKind {
     /// The two target faces coincide.
-    Bound,
+    Bond,
     /// Any other minimum: a trap.
-    Misbound,
+    Trap,
 }
 
 /// A proportion found by sampling, with its 95 % Wilson interval.

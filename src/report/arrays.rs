@@ -53,7 +53,8 @@ pub fn files(design: &Design, analysis: &Analysis) -> Files {
     let shape = [1, 2].map(|k| front.volume.axes[k].len());
     add("front_landing_m", grid(&shape, &or_nan(&front.landing)));
     let roadmap = Roadmap::build(&analysis.problem, &analysis.roadmap, &mut |_| {});
-    let states = StateRow::all(design, analysis);
+    let names = analysis.inventory.names();
+    let states = StateRow::all(design, analysis, &names);
     let escapes = states.iter().filter_map(|row| row.escape.as_ref());
     let barriers: Vec<&Barrier> = escapes.chain(&analysis.inventory.barriers).collect();
     add(

@@ -46,6 +46,8 @@ pub enum Cell {
 pub struct StateRow<'a> {
     pub state: &'a State,
     at: &'a Configuration,
+    /// What people call it.
+    name: &'a str,
     /// How many states there are in its class.
     copies: usize,
     /// Names of the faces in contact: of the fixed tile, of the moving tile.
@@ -57,12 +59,18 @@ pub struct StateRow<'a> {
 }
 
 impl<'a> StateRow<'a> {
-    pub fn new(design: &Design, analysis: &'a Analysis, state: &'a State) -> Self {
+    pub fn new(
+        design: &Design,
+        analysis: &'a Analysis,
+        names: &'a [String],
+        state: &'a State,
+    ) -> Self {
         let same = |other: &&State| other.class == state.class;
         let states = &analysis.inventory.states;
         Self {
             state,
             at: &state.configuration,
+            name: &names[state.id],
             copies: states.iter().filter(same).count(),
             faces: face_names(design, state),
             capture: state.capture,
@@ -71,7 +79,7 @@ impl<'a> StateRow<'a> {
     }
 
     fn is_bound(&self) -> bool {
-        self.state.kind == StateKind::Bound
+        self.state.kind == StateKind::Bond
     }
 
     /// What there is to say of the way out.
@@ -86,10 +94,10 @@ impl<'a> StateRow<'a> {
     }
 
     /// The rows of all states.
-    pub fn all(design: &Design, analysis: &'a Analysis) -> Vec<Self> {
+    pub fn all(design: &Design, analysis: &'a Analysis, names: &'a [String]) -> Vec<Self> {
         let states = analysis.inventory.states.iter();
         states
-            .map(|state| Self::new(design, analysis, state))
+            .map(|state| Self::new(design, analysis, names, state))
             .collect()
     }
 }
@@ -142,8 +150,11 @@ fn shown<Row>(output: Output, mut columns: Vec<Column<Row>>) -> Vec<Column<Row>>
 fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
     let c = Column::<StateRow>::new;
     vec![
-        c([ 1,  1,  1,  1], "id", "", "state", |s| value(s.state.id)),
-        c([ 2,  0,  2,  2], "kind", "", "kind", |s| value(kind(s.state.kind))),
+        c([ 1,  1,  1,  0], "id", "", "id", |s| value(s.state.id)),
+        // What people call it: letters by depth.
+        c([19,  0, 13,  1], "name", "", "state", |s| value(s.name)),
+        c([ 2,  0,  2,  0], "kind", "", "kind", |s| value(kind(s.state.kind))),
+        c([ 0,  0,  0,  2], "kind", "", "kind", |s| value(if s.is_bound() { "bond" } else { "trap" })),
         // The kind as a number.
         c([ 0,  3,  0,  0], "bound", "", "bound", |s| value(u8::from(s.is_bound()))),
         // Lowest id among the states that symmetries of the tiles map onto this one.

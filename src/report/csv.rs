@@ -24,7 +24,7 @@ const ENERGY_TOLERANCE: f64 = 1e-3;
 pub fn states(design: &Design, analysis: &Analysis) -> String {
     of_columns(
         &columns::states(Output::Csv),
-        StateRow::all(design, analysis),
+        StateRow::all(design, analysis, &analysis.inventory.names()),
     )
 }
 

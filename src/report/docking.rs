@@ -66,7 +66,7 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
             },
         },
         "bound": proportion(&docking.bound),
-        "misbound": proportion(&docking.misbound),
+        "misbound": proportion(&docking.trapped),
         "free": proportion(&docking.free),
         "traps": traps,
         "time_to_bind_s": times(docking),
@@ -167,7 +167,7 @@ pub fn runs_csv(docking: &Docking) -> String {
         } = run.start;
         let (end, trap, since) = match run.end {
             End::Bound { since } => ("bound", None, Some(since)),
-            End::Misbound { trap } => ("misbound", trap, None),
+            End::Trapped { trap } => ("misbound", trap, None),
             End::Free => ("free", None, None),
         };
         let mut row = vec![run.index.to_string()];
@@ -223,8 +223,8 @@ pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &Dock
         si(docking.settings.duration, "s", 2),
         docking.settings.seed
     );
-    text += &format!("  bound    {}\n", share(&docking.bound));
-    text += &format!("  misbound {}\n", share(&docking.misbound));
+    text += &format!("  bond  {}\n", share(&docking.bound));
+    text += &format!("  traps {}\n", share(&docking.trapped));
     // Cannot fail: the experiment had a rule.
     let rule = MatchRule::new(problem, docking.settings.threshold).ok();
     for trap in docking.traps.iter().take(4) {
@@ -244,7 +244,7 @@ pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &Dock
             }
         );
     }
-    text += &format!("  free     {}\n", share(&docking.free));
+    text += &format!("  free  {}\n", share(&docking.free));
     if let Some([least, middle, most]) = times(docking) {
         text +=
             &format!("  bound after {least:.2} s to {most:.2} s, half of them by {middle:.2} s\n");

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::landscape::{Kind, Place, Proportion, State, StateKind};
+use crate::landscape::{Inventory, Kind, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
 use crate::report::json::face_names;
@@ -35,7 +35,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
         write_rest(&mut text, &traps[LISTED..]);
     }
     write_bond(&mut text, analysis, bond);
-    write_deepest(&mut text, bond, &traps);
+    write_deepest(&mut text, &analysis.inventory, bond, &traps);
     write_dipole_error(&mut text, analysis);
     if let Some(why) = analysis.uncertified {
         let _ = writeln!(text, "barriers are not certified: {why}");
@@ -61,7 +61,7 @@ fn write_dipole_error(text: &mut String, analysis: &Analysis) {
             text,
             "dipoles are off by up to {}: at {}, where blocks have {} (--model cuboid)",
             si(error, "J", DIGITS),
-            state_name(state),
+            analysis.inventory.name_of(Place::State(state.id)),
             si(blocks, "J", DIGITS),
         );
     }
@@ -81,7 +81,7 @@ fn write_captures(
     let [inner, outer] = analysis.ring;
     let _ = writeln!(
         text,
-        "{}: of {of} far starts {} end bound, {} in traps, {} nowhere\n\
+        "{}: of {of} far starts {} end in the bond, {} in traps, {} in neither\n\
          (overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)",
         design.name,
         percent(&Proportion::new(bound, of)),
@@ -100,7 +100,7 @@ const HEADER: [&str; 6] = [
 ];
 
 fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
-    let name = state_name(class.first());
+    let name = analysis.inventory.name_of(Place::State(class.first().id));
     let energy = class.first().energy;
     let Analysis {
         problem, inventory, ..
@@ -118,10 +118,7 @@ fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
         match escape {
             _ if is_caged => "caged".to_owned(),
             Some(way) if way.has_way() => {
-                let to = match way.to {
-                    Place::Free => "free".to_owned(),
-                    Place::State(id) => state_name(&inventory.states[id]),
-                };
+                let to = inventory.name_of(way.to);
                 format!("{} to {to}", si(way.forward(), "J", DIGITS))
             }
             _ => "none found".to_owned(),
@@ -137,13 +134,6 @@ fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
             faces(design, class)
         ),
     ]
-}
-
-fn state_name(state: &State) -> String {
-    match state.kind {
-        StateKind::Bound => "bound".to_owned(),
-        StateKind::Misbound => format!("trap {}", state.id),
-    }
 }
 
 /// Rows of equal length with their columns aligned.
@@ -207,17 +197,18 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Kind>) {
     };
 }
 
-fn write_deepest(text: &mut String, bond: Option<&Kind>, traps: &[Kind]) {
+fn write_deepest(text: &mut String, inventory: &Inventory, bond: Option<&Kind>, traps: &[Kind]) {
     let deepest = traps
         .iter()
         .min_by(|a, b| a.first().energy.total_cmp(&b.first().energy));
+    let name = |kind: &Kind| inventory.name_of(Place::State(kind.first().id));
     let _ = match (deepest, bond) {
         (None, _) => writeln!(text, "no traps"),
-        (Some(deepest), None) => writeln!(text, "deepest: {}", state_name(deepest.first())),
+        (Some(deepest), None) => writeln!(text, "deepest: {}", name(deepest)),
         (Some(deepest), Some(bond)) => writeln!(
             text,
             "deepest: {}; selectivity {:.3} (energy of the bond over that of the deepest trap)",
-            state_name(deepest.first()),
+            name(deepest),
             bond.first().energy / deepest.first().energy,
         ),
     };

@@ -150,7 +150,7 @@ pub enum End {
     },
     /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
     /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
-    Misbound {
+    Trapped {
         /// The trap's number among [`Docking::traps`]; `None` where slow motion leads to none.
         trap: Option<usize>,
     },
@@ -206,7 +206,7 @@ pub struct Docking {
     /// How many ended matched.
     pub bound: Proportion,
     /// How many ended caught, unmatched.
-    pub misbound: Proportion,
+    pub trapped: Proportion,
     /// How many ended otherwise.
     pub free: Proportion,
     /// Traps, that with most trajectories first.
@@ -331,7 +331,7 @@ impl<'a> Experiment<'a> {
             None if run.last.in_contact_range && caught => {
                 trap = minimum_below(self.problem, &run.last.motion.configuration)
                     .map(|q| (q, self.problem.energy(&q)));
-                End::Misbound { trap: None }
+                End::Trapped { trap: None }
             }
             None => End::Free,
         };
@@ -361,14 +361,14 @@ impl<'a> Experiment<'a> {
                     places.len() - 1
                 });
                 places[number].2 += 1;
-                run.end = End::Misbound { trap: Some(number) };
+                run.end = End::Trapped { trap: Some(number) };
             }
             runs.push(run);
         }
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by_key(|&k| std::cmp::Reverse(places[k].2));
         for run in &mut runs {
-            if let End::Misbound { trap: Some(number) } = &mut run.end {
+            if let End::Trapped { trap: Some(number) } = &mut run.end {
                 *number = order.iter().position(|k| k == number).unwrap_or(*number);
             }
         }
@@ -379,7 +379,7 @@ impl<'a> Experiment<'a> {
             settings: self.settings.clone(),
             threshold: self.rule.threshold,
             bound: count(&|end| matches!(end, End::Bound { .. })),
-            misbound: count(&|end| matches!(end, End::Misbound { .. })),
+            trapped: count(&|end| matches!(end, End::Trapped { .. })),
             free: count(&|end| matches!(end, End::Free)),
             traps: order
                 .iter()

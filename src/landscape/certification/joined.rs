@@ -114,7 +114,7 @@ mod tests {
     fn state(id: usize) -> State {
         State {
             id,
-            kind: StateKind::Misbound,
+            kind: StateKind::Trap,
             configuration: at(id as f64),
             energy: -1.0,
             class: id,

@@ -54,8 +54,8 @@ impl Claims {
             let first = inventory.first(kind).map(|state| Place::State(state.id));
             first == Some(barrier.from)
         };
-        let is_out_of_the_bond = is_from(StateKind::Bound) && barrier.to == Place::Free;
-        self == Self::All || is_out_of_the_bond || is_from(StateKind::Misbound)
+        let is_out_of_the_bond = is_from(StateKind::Bond) && barrier.to == Place::Free;
+        self == Self::All || is_out_of_the_bond || is_from(StateKind::Trap)
     }
 }
 

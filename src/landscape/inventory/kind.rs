@@ -1,6 +1,40 @@
 //! Kinds of states: what symmetries map onto each other, taken together.
 
-use crate::landscape::results::{Proportion, State, StateKind};
+use ordered_float::OrderedFloat;
+
+use crate::landscape::results::{Proportion, SAME_ENERGY, State, StateKind};
+
+/// What people call the kinds of states, in the order in which they are given: `A` is the bond, then
+/// come the traps from the deepest on, `B`, `C`, ... `Z`, `AA`, ... Kinds as deep as each other (the
+/// mirror twins of a slid bond, say) share a letter: `B`, `B'`, `B''`.
+pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
+    let mut names = vec![String::new(); kinds.len()];
+    let mut traps: Vec<usize> = (0..kinds.len()).filter(|&k| !kinds[k].is_bond()).collect();
+    let energy = |k: usize| kinds[k].first().energy;
+    traps.sort_by_key(|&k| OrderedFloat(energy(k)));
+    let as_deep = |&a: &usize, &b: &usize| energy(b) - energy(a) <= SAME_ENERGY * energy(a).abs();
+    for (twins, rank) in traps.chunk_by(as_deep).zip(1..) {
+        // Among them the order of the states counts, not what rounding makes of their energies.
+        let mut twins = twins.to_vec();
+        twins.sort_unstable();
+        for (primes, k) in twins.into_iter().enumerate() {
+            names[k] = letters(rank) + &"'".repeat(primes);
+        }
+    }
+    for bond in (0..kinds.len()).filter(|&k| kinds[k].is_bond()) {
+        names[bond] = letters(0);
+    }
+    names
+}
+
+/// `A` to `Z`, `AA`, `AB` and so on.
+fn letters(rank: usize) -> String {
+    let last = char::from(b'A' + (rank % 26) as u8);
+    match rank / 26 {
+        0 => last.to_string(),
+        before => letters(before - 1) + &last.to_string(),
+    }
+}
 
 /// States that the symmetries of the two tiles map onto each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +51,7 @@ impl<'a> Kind<'a> {
 
     /// Whether it is the wanted bond.
     pub fn is_bond(&self) -> bool {
-        self.first().kind == StateKind::Bound
+        self.first().kind == StateKind::Bond
     }
 
     /// How many states it has.

@@ -57,6 +57,31 @@ impl Inventory {
         kinds.map(|states| Kind { states })
     }
 
+    /// What people call the states: `A` for the bond, `B` for the deepest trap and so on, mirror
+    /// twins `B` and `B'`; copies of the first state of a kind have a number: `B.2`.
+    pub fn names(&self) -> Vec<String> {
+        let kinds: Vec<Kind> = self.kinds().collect();
+        let of_kind = |(kind, name): (&Kind, String)| {
+            let copies = 2..=kind.copies();
+            let copies: Vec<String> = copies.map(|copy| format!("{name}.{copy}")).collect();
+            [vec![name], copies].concat()
+        };
+        let names = kind::names(&kinds);
+        kinds.iter().zip(names).flat_map(of_kind).collect()
+    }
+
+    /// What people call a place: `bond A`, `trap B.2`, `free`.
+    pub fn name_of(&self, place: Place) -> String {
+        let Place::State(id) = place else {
+            return "free".to_owned();
+        };
+        let kind = match self.states[id].kind {
+            StateKind::Bond => "bond",
+            StateKind::Trap => "trap",
+        };
+        format!("{kind} {}", self.names()[id])
+    }
+
     /// The first state that is the bond, or the deepest trap.
     pub fn first(&self, kind: StateKind) -> Option<&State> {
         self.states.iter().find(|state| state.kind == kind)
@@ -190,6 +215,21 @@ mod tests {
     use crate::configuration::ConfigurationSpace;
     use crate::potential::DipolePotential;
 
+    fn state(kind: StateKind, energy: f64) -> State {
+        State {
+            id: 0,
+            kind,
+            configuration: Configuration::new(0.0, 0.0, 0.0),
+            energy,
+            class: 0,
+            faces: Vec::new(),
+            attracting: 0,
+            repelling: 0,
+            block_energy: None,
+            capture: None,
+        }
+    }
+
     /// A barrier between places with these energies, over a saddle of its own.
     fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
         let start = Configuration::new(0.0, 0.0, 0.0);
@@ -203,6 +243,39 @@ mod tests {
     }
 
     #[test]
+    fn letters_go_by_depth_and_twins_share_one() {
+        let state = |id: usize, class: usize, kind: StateKind, energy: f64| State {
+            id,
+            class,
+            ..state(kind, energy)
+        };
+        let [bond, trap] = [StateKind::Bond, StateKind::Trap];
+        let states = vec![
+            state(0, 0, bond, -2.0),
+            state(1, 0, bond, -2.0),
+            // Deeper than the bond, as with a wrong partner.
+            state(2, 2, trap, -3.0),
+            state(3, 3, trap, -1.0),
+            state(4, 3, trap, -1.0),
+            state(5, 5, trap, -1.0 + 1e-9),
+            state(6, 6, trap, -0.5),
+        ];
+        let mut inventory = Inventory {
+            states,
+            ..Inventory::default()
+        };
+        let names = ["A", "A.2", "B", "C", "C.2", "C'", "D"];
+        assert_eq!(inventory.names(), names);
+        assert_eq!(inventory.name_of(Place::State(5)), "trap C'");
+        assert_eq!(inventory.name_of(Place::Free), "free");
+        // Without a bond no state is called A; after Z comes AA.
+        let traps = (0..27).map(|id| state(id, id, trap, id as f64 - 40.0));
+        inventory.states = traps.collect();
+        assert_eq!(inventory.names()[0], "B");
+        assert_eq!(inventory.names()[25..], ["AA", "AB"]);
+    }
+
+    #[test]
     fn an_escape_is_the_lowest_known_way_down() {
         let space = ConfigurationSpace {
             half_size: [10.0, 10.0],
@@ -211,22 +284,10 @@ mod tests {
         };
         let energy = DipolePotential::new(&[], &[]);
         let problem = Problem::without_contact(space, Box::new(energy));
-        let state = State {
-            id: 0,
-            kind: StateKind::Bound,
-            configuration: Configuration::new(0.0, 0.0, 0.0),
-            energy: -1.0,
-            class: 0,
-            faces: Vec::new(),
-            attracting: 0,
-            repelling: 0,
-            block_energy: None,
-            capture: None,
-        };
         let to_lower = barrier(Some((1, -2.0)), 3.0);
         let to_higher = barrier(Some((2, -0.5)), 1.0);
         let mut inventory = Inventory {
-            states: vec![state],
+            states: vec![state(StateKind::Bond, -1.0)],
             barriers: vec![barrier(None, 5.0), to_lower.clone(), to_higher],
             ..Inventory::default()
         };

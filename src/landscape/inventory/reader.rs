@@ -157,9 +157,9 @@ impl Reader<'_> {
         State {
             id,
             kind: if is_bound {
-                StateKind::Bound
+                StateKind::Bond
             } else {
-                StateKind::Misbound
+                StateKind::Trap
             },
             configuration,
             energy: self.energy(found),
@@ -257,7 +257,7 @@ impl Reader<'_> {
     ) -> Vec<Alternative> {
         let trap = states
             .iter()
-            .find(|s| s.kind == StateKind::Misbound)
+            .find(|s| s.kind == StateKind::Trap)
             .map(|s| s.id);
         let mut ends: Vec<(Place, usize)> = bound_state
             .into_iter()

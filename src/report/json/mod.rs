@@ -49,7 +49,7 @@ impl Report {
                 "energy_J": positive_zero(analysis.bound.1),
                 "state": analysis.inventory.bound_state,
             },
-            "states": entries(&states(Output::Json), StateRow::all(design, analysis)),
+            "states": entries(&states(Output::Json), StateRow::all(design, analysis, &analysis.inventory.names())),
             // Share of the far starts that ended in no state; inner and outer radius of the ring
             // from which they are drawn.
             "free": {"capture": proportion(analysis.uncaptured), "ring_m": analysis.ring},

@@ -9,8 +9,8 @@ use crate::tile::Tile;
 /// What a kind of state is called.
 pub fn kind(kind: StateKind) -> &'static str {
     match kind {
-        StateKind::Bound => "bound",
-        StateKind::Misbound => "misbound",
+        StateKind::Bond => "bound",
+        StateKind::Trap => "misbound",
     }
 }
 

@@ -58,8 +58,8 @@ fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<Sta
     let is_bond = |q: &Configuration| rule.as_ref().is_ok_and(|rule| rule.holds(q));
     let traps = docking.traps.iter().take(LISTED);
     let traps = traps.filter(|trap| !is_bond(&trap.configuration));
-    let traps = traps.map(|trap| (StateKind::Misbound, trap.configuration, trap.energy));
-    let all = std::iter::once((StateKind::Bound, bound, problem.energy(&bound))).chain(traps);
+    let traps = traps.map(|trap| (StateKind::Trap, trap.configuration, trap.energy));
+    let all = std::iter::once((StateKind::Bond, bound, problem.energy(&bound))).chain(traps);
     all.enumerate()
         .map(|(id, (kind, configuration, energy))| State {
             id,
@@ -80,7 +80,7 @@ fn name(docking: &Docking, run: &DockingRun) -> String {
     let end = match run.end {
         End::Bound { since } => format!("bound after {since:.2} s"),
         End::Free => "free".to_owned(),
-        End::Misbound { trap } => trap.and_then(|trap| docking.traps.get(trap)).map_or_else(
+        End::Trapped { trap } => trap.and_then(|trap| docking.traps.get(trap)).map_or_else(
             || "caught".to_owned(),
             |trap| format!("caught above {}", si(trap.energy, "J", 3)),
         ),
@@ -104,7 +104,7 @@ fn percent(share: &Proportion) -> (String, String) {
 fn facts(docking: &Docking) -> Vec<Fact> {
     let shares = [
         ("bound", &docking.bound),
-        ("caught elsewhere", &docking.misbound),
+        ("caught elsewhere", &docking.trapped),
         ("free", &docking.free),
     ];
     let mut facts: Vec<Fact> = shares

@@ -14,6 +14,7 @@ use crate::design::Design;
 use crate::landscape::approach::Approach;
 use crate::landscape::map::evenly;
 use crate::landscape::volume::{InFront, Volume, around};
+use crate::landscape::{Place, State};
 use crate::potential::{DipolePotential, Potential};
 use crate::report::json::kind;
 use crate::report::plots::Scene;
@@ -83,6 +84,7 @@ struct TargetFaces {
 #[derive(Clone, Debug, Serialize)]
 struct DrawnState {
     id: usize,
+    name: String,
     kind: &'static str,
     pose: [f64; 3],
     energy: f64,
@@ -117,7 +119,11 @@ impl Landscape {
                 .iter()
                 .map(|distance| distance.map(|d| fixed(d, 5)))
                 .collect(),
-            states: scene.states().iter().map(DrawnState::new).collect(),
+            states: scene
+                .states()
+                .iter()
+                .map(|state| DrawnState::new(scene, state))
+                .collect(),
             pathways,
             tree: if scene.barriers().next().is_none() {
                 Vec::new()
@@ -215,9 +221,10 @@ impl TargetFaces {
 }
 
 impl DrawnState {
-    fn new(state: &crate::landscape::State) -> Self {
+    fn new(scene: &Scene, state: &State) -> Self {
         Self {
             id: state.id,
+            name: scene.name_of(Place::State(state.id)),
             kind: kind(state.kind),
             pose: pose(&state.configuration),
             energy: rounded(state.energy, 7),

@@ -53,7 +53,7 @@ impl Played {
 /// as there is room for.
 pub fn played(scene: &Scene) -> Vec<Played> {
     let docking = scene.docking().map(|pathway| Played {
-        name: "docking: free to bound".to_owned(),
+        name: "docking: free to bond A".to_owned(),
         timed: false,
         ends: [None, scene.inventory.bound_state],
         bounds: None,

@@ -9,7 +9,6 @@ use crate::design::Design;
 use crate::landscape::{Kind, Place};
 use crate::pipeline::Analysis;
 use crate::report::columns::{self, Cell, Output, StateRow};
-use crate::report::json::place_name;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
 use crate::units::{si, si_range};
@@ -22,8 +21,13 @@ fn energy(value: f64) -> String {
 }
 
 /// A kind of states through the first of them, with the share of the far starts that end in any.
-fn row<'a>(design: &Design, analysis: &'a Analysis, kind: &Kind<'a>) -> StateRow<'a> {
-    let mut row = StateRow::new(design, analysis, kind.first());
+fn row<'a>(
+    design: &Design,
+    analysis: &'a Analysis,
+    names: &'a [String],
+    kind: &Kind<'a>,
+) -> StateRow<'a> {
+    let mut row = StateRow::new(design, analysis, names, kind.first());
     row.capture = Some(kind.captured());
     row
 }
@@ -35,10 +39,10 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         value,
         note,
     };
-    let kinds = scene.kinds();
+    let (kinds, names) = (scene.kinds(), scene.inventory.names());
     let first = |is_bond| {
         let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
-        Some(row(design, analysis, kind))
+        Some(row(design, analysis, &names, kind))
     };
     let mut facts = Vec::new();
     let magnets = format!("magnets as {}s", design.interaction.model.name());
@@ -71,7 +75,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             let certified = certified.map_or_else(String::new, |(lower, upper)| {
                 format!("; certified {}", minus(&si_range(lower, upper, "J", 4)))
             });
-            let to = place_name(barrier.to);
+            let to = scene.name_of(barrier.to);
             (energy(barrier.forward()), format!("to {to}{certified}"))
         }
         _ => ("not known".to_owned(), "no way out was found".to_owned()),
@@ -82,8 +86,8 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         None => facts.push(fact("traps", "none".to_owned(), String::new())),
         Some(trap) => {
             let note = format!(
-                "state {}; {:.2} of the bond",
-                trap.state.id,
+                "{}; {:.2} of the bond",
+                names[trap.state.id],
                 trap.state.energy / bond.state.energy
             );
             facts.push(fact("deepest trap", energy(trap.state.energy), note));
@@ -96,8 +100,8 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
 
 /// The classes of states.
 pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
-    let kinds = scene.kinds();
-    let rows = kinds.iter().map(|kind| row(design, analysis, kind));
+    let (kinds, names) = (scene.kinds(), scene.inventory.names());
+    let rows = kinds.iter().map(|kind| row(design, analysis, &names, kind));
     Table {
         title: "States".to_owned(),
         note: "One row for the states that symmetry maps onto each other: the one nearest to the \
@@ -105,7 +109,7 @@ pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
                Attracting, repelling: magnet pairs close together. A click shows the pose."
             .to_owned(),
         states: kinds.iter().map(|kind| kind.first().id).collect(),
-        ..of_columns(&columns::states(Output::Page), rows, place_name)
+        ..of_columns(&columns::states(Output::Page), rows, |at| scene.name_of(at))
     }
 }
 

@@ -51,5 +51,5 @@ function drawPose() {
   }
   drawTiles(canvas, state.pose, extent([state.pose]), 0.9);
   element("pose-readout").textContent =
-    `${state.kind} ${state.id}: U = ${energyText(state.energy)}; ${poseText(state.pose)}`;
+    `${state.name}: U = ${energyText(state.energy)}; ${poseText(state.pose)}`;
 }

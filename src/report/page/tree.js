@@ -34,10 +34,10 @@ function buildTree(choose) {
   const leaf = (node) => {
     const at = x(next++ + 0.5), foot = y(node.energy);
     const state = world.states.find((s) => s.id === node.state);
-    const name = state ? `${state.kind === "bound" ? "bound " : ""}${state.id}` : "free";
+    const name = state ? state.name : "free";
     const lines = [name, energyText(node.energy, 3), ...(node.copies > 1 ? [`\u00d7${node.copies}`] : [])];
     const group = svg("g", { class: "leaf", tabindex: 0, role: "button", "data-state": node.state ?? "free",
-      "aria-label": `Show ${state ? state.kind : ""} ${name}, ${energyText(node.energy, 3)}` });
+      "aria-label": `Show ${name}, ${energyText(node.energy, 3)}` });
     group.append(svg("rect", { x: at - 32, y: foot - 14, width: 64, height: 28 + 16 * lines.length, rx: 5, class: "hit" }));
     const fill = !state ? "var(--page)" : state.kind === "bound" ? "#f0e442" : "#cc79a7";
     group.append(svg("circle", { cx: at, cy: foot, r: state?.kind === "bound" ? 8 : 6, stroke: "var(--ink)", fill }));

@@ -13,7 +13,7 @@ use super::picture::{Area, Picture, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
-use crate::landscape::{Kind, Place, State, StateKind};
+use crate::landscape::{Kind, Place, State};
 
 const SIZE: (u32, u32) = (1000, 700);
 /// Classes shown.
@@ -103,6 +103,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
         let mut drawing = Drawing {
             root,
             scale,
+            scene,
             kinds,
             at: &at,
             labels: Labels::new(frame),
@@ -122,7 +123,7 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             }
         }
         drawing.merge_labels()?;
-        let mut key = "each line a kind of state: its number, its energy, \u{d7} the copies of it \
+        let mut key = "each line a kind of state: its letter, its energy, \u{d7} the copies of it \
             that symmetry makes"
             .to_owned();
         if scene.barriers().any(|b| b.bounds.both().is_some()) {
@@ -158,6 +159,7 @@ fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
 struct Drawing<'a, 'b> {
     root: &'a Area<'b>,
     scale: &'a EnergyScale,
+    scene: &'a Scene<'a>,
     kinds: &'a [Kind<'a>],
     at: &'a dyn Fn(f64, f64) -> Pixel,
     labels: Labels,
@@ -219,10 +221,7 @@ impl Drawing<'_, '_> {
             None => (Mark::Free, vec!["free".to_owned(), "0 J".to_owned()]),
             Some(kind) => {
                 let first = kind.first();
-                let name = match first.kind {
-                    StateKind::Bound => format!("bound {}", first.id),
-                    StateKind::Misbound => first.id.to_string(),
-                };
+                let name = self.scene.name_of(Place::State(first.id));
                 let mut lines = vec![name, self.scale.label(energy, 3)];
                 if kind.copies() > 1 {
                     lines.push(format!("\u{d7}{}", kind.copies()));

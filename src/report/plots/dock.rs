@@ -236,7 +236,7 @@ pub fn trajectories(
         }
         let mut entries = vec![
             (Key::Colour(GREEN), "path, ends bound"),
-            (Key::Colour(INK), "path, ends misbound"),
+            (Key::Colour(INK), "path, ends in a trap"),
             (Key::Colour(FAINT), "path, ends free"),
         ];
         entries.extend(POLE_KEYS);
@@ -251,7 +251,7 @@ const FAINT: RGBColor = RGBColor(150, 150, 150);
 fn look(end: &End) -> (RGBColor, f64) {
     match end {
         End::Bound { .. } => (GREEN, 2.4),
-        End::Misbound { .. } => (INK, 1.4),
+        End::Trapped { .. } => (INK, 1.4),
         End::Free => (FAINT, 1.0),
     }
 }

@@ -280,7 +280,7 @@ fn states(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), Pi
     let mut drawn: Vec<Pixel> = Vec::new();
     // Bound states last, on top.
     let mut states: Vec<_> = scene.states().iter().collect();
-    states.sort_by_key(|state| state.kind == StateKind::Bound);
+    states.sort_by_key(|state| state.kind == StateKind::Bond);
     for state in states {
         let at = view.pixel(state.configuration.position());
         let repeated = drawn.iter().any(|p| (p.0 - at.0).hypot(p.1 - at.1) < 1.0);
@@ -311,7 +311,7 @@ fn name_states(
         let state = kind.first();
         let place = state.configuration.position();
         let energy = scale.label(state.energy, 3);
-        let text = format!("{}: {energy}", state.id);
+        let text = format!("{}: {energy}", scene.letters(kind));
         let (enlarged, at) = (target.pixel(place), whole.pixel(place));
         if inside(target_frame, enlarged) {
             column.push((enlarged, text));

@@ -164,8 +164,8 @@ pub enum Key {
 }
 
 pub const STATE_KEYS: [(Key, &str); 2] = [
-    (Key::Mark(Mark::Bound), "bound state"),
-    (Key::Mark(Mark::Misbound), "misbound state"),
+    (Key::Mark(Mark::Bond), "bond"),
+    (Key::Mark(Mark::Trap), "trap"),
 ];
 pub const POLE_KEYS: [(Key, &str); 2] = [
     (Key::Colour(VERMILLION), "north pole"),

@@ -87,8 +87,8 @@ pub fn outline(
 /// What a marker stands for; each has a shape and a colour of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    Bound,
-    Misbound,
+    Bond,
+    Trap,
     Free,
     Saddle,
 }
@@ -96,8 +96,8 @@ pub enum Mark {
 impl From<StateKind> for Mark {
     fn from(kind: StateKind) -> Self {
         match kind {
-            StateKind::Bound => Self::Bound,
-            StateKind::Misbound => Self::Misbound,
+            StateKind::Bond => Self::Bond,
+            StateKind::Trap => Self::Trap,
         }
     }
 }
@@ -118,8 +118,8 @@ pub fn marker(root: &Area, mark: Mark, (x, y): Pixel, radius: f64) -> Result<(),
     };
     let edge = Some((INK, 1.2));
     match mark {
-        Mark::Bound => polygon(root, &corners(&turn(10), &[1.35, 0.6]), YELLOW, edge),
-        Mark::Misbound => polygon(root, &corners(&turn(20), &[0.85]), WHITE, edge),
+        Mark::Bond => polygon(root, &corners(&turn(10), &[1.35, 0.6]), YELLOW, edge),
+        Mark::Trap => polygon(root, &corners(&turn(20), &[0.85]), WHITE, edge),
         Mark::Free => {
             let square = [(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]
                 .map(|(a, b)| (x + a * radius, y + b * radius));

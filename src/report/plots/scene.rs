@@ -2,7 +2,7 @@
 
 use super::marks::Mark;
 use crate::design::Design;
-use crate::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, StateKind, pathway};
+use crate::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
 use crate::potential::Interaction;
 use crate::problem::Problem;
 use crate::tile::Pair;
@@ -92,20 +92,17 @@ impl<'a> Scene<'a> {
     pub fn mark_of(&self, place: Place) -> Mark {
         match place {
             Place::Free => Mark::Free,
-            Place::State(id) => self
-                .state(id)
-                .map_or(Mark::Misbound, |state| state.kind.into()),
+            Place::State(id) => self.state(id).map_or(Mark::Trap, |state| state.kind.into()),
         }
     }
 
     /// What a place is called on a picture.
     pub fn name_of(&self, place: Place) -> String {
-        match place {
-            Place::Free => "free".into(),
-            Place::State(id) => match self.state(id).map(|state| state.kind) {
-                Some(StateKind::Bound) => format!("bound {id}"),
-                _ => format!("misbound {id}"),
-            },
-        }
+        self.inventory.name_of(place)
+    }
+
+    /// The letters of a kind of states.
+    pub fn letters(&self, kind: &Kind) -> String {
+        self.inventory.names()[kind.first().id].clone()
     }
 }

@@ -72,9 +72,9 @@ impl Pair {
                     self.inventory.states.push(State {
                         id: self.inventory.states.len(),
                         kind: if bound {
-                            StateKind::Bound
+                            StateKind::Bond
                         } else {
-                            StateKind::Misbound
+                            StateKind::Trap
                         },
                         configuration: q,
                         energy: self.problem.energy(&q),
