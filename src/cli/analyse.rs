@@ -114,7 +114,7 @@ impl Analyse {
         let folder = self.out.display().to_string();
         let summary = || summary::summary(&design, &analysis, &folder);
         self.print.results(&report, summary)?;
-        fail_if_contradicted(analysis.contradicted().map(BarrierCheck::told))
+        fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
     }
 
     fn settings(&self) -> Settings {

@@ -43,11 +43,11 @@ impl Failure {
 pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure> {
     let mut contradictions = Vec::new();
     for (name, one) in assessments {
-        for told in &one.overestimates {
-            eprintln!("note: {name}: {told}");
+        for description in &one.overestimates {
+            eprintln!("note: {name}: {description}");
         }
-        let told = one.contradictions.iter();
-        contradictions.extend(told.map(|told| format!("{name}: {told}")));
+        let descriptions = one.contradictions.iter();
+        contradictions.extend(descriptions.map(|description| format!("{name}: {description}")));
     }
     fail_if_contradicted(contradictions.into_iter())
 }

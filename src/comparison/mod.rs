@@ -242,8 +242,14 @@ impl Assessment {
                 .sum(),
             uncaptured: analysis.uncaptured.count,
             barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
-            contradictions: analysis.contradicted().map(BarrierCheck::told).collect(),
-            overestimates: analysis.overestimated().map(BarrierCheck::told).collect(),
+            contradictions: analysis
+                .contradicted()
+                .map(BarrierCheck::describe)
+                .collect(),
+            overestimates: analysis
+                .overestimated()
+                .map(BarrierCheck::describe)
+                .collect(),
         }
     }
 }

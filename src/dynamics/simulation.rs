@@ -103,7 +103,7 @@ impl<'a> Simulation<'a> {
     /// The snapshot of a motion at time 0.
     pub fn snapshot(&self, motion: &Motion) -> Snapshot {
         let mut trajectory = Trajectory::new(self, motion);
-        trajectory.look();
+        trajectory.sense_contact();
         trajectory.snapshot()
     }
 

@@ -72,7 +72,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     }
 
     /// Measures the clearance and decides between flight and contact.
-    pub(super) fn look(&mut self) {
+    pub(super) fn sense_contact(&mut self) {
         let range = self.simulation.settings.contact_range;
         let clearance = self.simulation.clearance(&self.phase);
         self.touching = clearance <= range;
@@ -86,7 +86,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         rng: &mut ChaCha8Rng,
         watch: &mut dyn FnMut(&Snapshot) -> bool,
     ) -> Stop {
-        self.look();
+        self.sense_contact();
         let shaken = self.simulation.settings.shaking;
         let mut stop = None;
         while stop.is_none() && self.time < duration {
@@ -139,7 +139,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             self.time = if h == left { until } else { self.time + h };
             self.free_steps += 1;
             if self.room <= 0.5 * settings.contact_range {
-                self.look();
+                self.sense_contact();
             } else {
                 self.potential = self.forces.conservative(&self.phase.place, self.time).0;
             }

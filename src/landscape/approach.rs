@@ -101,6 +101,7 @@ impl<'a> Approach<'a> {
 }
 
 impl ApproachSlices {
+    /// Samples both slices of the energy in front of the target face.
     pub fn new(problem: &Problem, approach: &Approach, settings: &SliceSettings) -> Self {
         let tilts = evenly(-settings.tilt, settings.tilt, settings.samples);
         let gaps = evenly(0.0, settings.gap, settings.samples);

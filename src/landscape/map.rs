@@ -15,12 +15,16 @@ use crate::problem::Problem;
 /// the grid point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<T> {
+    /// Abscissas (m, or rad where the grid says so), ascending.
     pub x: Vec<f64>,
+    /// Ordinates (m), ascending.
     pub y: Vec<f64>,
+    /// One value a grid point.
     pub values: Vec<Option<T>>,
 }
 
 impl<T> Grid<T> {
+    /// The value at a grid point.
     pub fn value(&self, column: usize, row: usize) -> Option<&T> {
         self.values[row * self.x.len() + column].as_ref()
     }
@@ -29,7 +33,9 @@ impl<T> Grid<T> {
 /// A free configuration and its energy U (J).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
+    /// Where the tiles do not overlap.
     pub configuration: Configuration,
+    /// U there (J).
     pub energy: f64,
 }
 
@@ -63,13 +69,14 @@ impl Window {
 /// The lowest energy over theta at each (x, y) of a window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyMap {
+    /// What the map shows.
     pub window: Window,
     /// The sample of lowest energy at each grid point.
     pub lowest: Grid<Sample>,
     /// How far (m) each grid point lies from the border of the blocked region towards the nearest
     /// of its neighbours across it, negative on the blocked side; plus or minus the grid's spacing
     /// where all of them are alike.
-    pub room: Vec<f64>,
+    pub border_distance: Vec<f64>,
 }
 
 impl EnergyMap {
@@ -96,7 +103,7 @@ impl EnergyMap {
             found,
         };
         field.find_narrow_ranges();
-        let room = field.room();
+        let border_distance = field.border_distance();
         let values = field.found.iter().map(|found| found.map(|f| f.sample));
         let values = values.collect();
         Self {
@@ -106,7 +113,7 @@ impl EnergyMap {
                 y: field.y,
                 values,
             },
-            room,
+            border_distance,
         }
     }
 }
@@ -186,8 +193,8 @@ impl Field<'_> {
         }
     }
 
-    /// See [`EnergyMap::room`].
-    fn room(&self) -> Vec<f64> {
+    /// See [`EnergyMap::border_distance`].
+    fn border_distance(&self) -> Vec<f64> {
         let spacing = self.x[1] - self.x[0];
         (0..self.found.len())
             .into_par_iter()
@@ -197,11 +204,12 @@ impl Field<'_> {
                     .beside(index, false)
                     .filter(|&i| self.found[i].is_some() != free);
                 if free {
-                    let rooms = across.map(|blocked| spacing * self.free_share(index, blocked));
-                    rooms.fold(spacing, f64::min)
+                    let distances = across.map(|blocked| spacing * self.free_share(index, blocked));
+                    distances.fold(spacing, f64::min)
                 } else {
-                    let rooms = across.map(|free| spacing * (self.free_share(free, index) - 1.0));
-                    rooms.fold(-spacing, f64::max)
+                    let distances =
+                        across.map(|free| spacing * (self.free_share(free, index) - 1.0));
+                    distances.fold(-spacing, f64::max)
                 }
             })
             .collect()

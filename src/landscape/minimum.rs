@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use nalgebra::Vector3;
 
-use super::slide::{self, Point, step_downhill};
+use super::constrained::{self, Point, step_downhill};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -122,7 +122,7 @@ fn lower_neighbour(problem: &Problem, point: &Point) -> Option<Point> {
         let mut draw = || rng.random_range(-1.0..1.0);
         let direction = Vector3::new(draw(), draw(), draw() / problem.space.rho);
         let aim = point.q.moved(direction * distance);
-        let Some(q) = slide::settle(problem, &aim, 4.0 * distance) else {
+        let Some(q) = constrained::settle(problem, &aim, 4.0 * distance) else {
             continue;
         };
         let energy = problem.energy(&q);

@@ -11,7 +11,7 @@ use petgraph::unionfind::UnionFind;
 use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
-use super::slide::Point;
+use super::constrained::Point;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
@@ -65,7 +65,7 @@ pub enum Cost {
     /// Mechanical work against the energy (J).
     Work,
     /// -ln of the transition probabilities.
-    Improbability,
+    Probability,
     /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
     /// exceed `highest` (J).
     Below {
@@ -336,7 +336,7 @@ impl Network {
         let direction = usize::from(link.from as usize != from);
         match cost {
             Cost::Work => link.costs.work[direction],
-            Cost::Improbability => link.costs.improbability[direction],
+            Cost::Probability => link.costs.minus_ln_probability[direction],
             Cost::Below { per_metre, .. } => {
                 link.costs.work[direction] + per_metre * link.costs.length
             }

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
+use super::constrained;
 use super::network::{Cost, Network, Route, Way};
 use super::results::{Pathway, PathwayPoint};
-use super::slide;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
 use crate::roadmap::profile::Profile;
@@ -132,7 +132,7 @@ fn refine(
     let length = problem.space.distance(&a.0, &b.0);
     if length > SHORTEST_STEP {
         let straight = a.0.interpolate(&b.0, 0.5);
-        let settled = slide::settle(problem, &straight, length).filter(|middle| {
+        let settled = constrained::settle(problem, &straight, length).filter(|middle| {
             let halves = [&a.0, &b.0].map(|end| problem.space.distance(end, middle));
             halves.iter().all(|half| *half <= LONGEST_HALF * length)
         });

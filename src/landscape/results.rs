@@ -20,9 +20,13 @@ pub enum StateKind {
 /// A proportion found by sampling, with its 95 % Wilson interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proportion {
+    /// How many were counted.
     pub count: usize,
+    /// Of how many.
     pub of: usize,
+    /// Lower end of the interval, 0 to 1.
     pub low: f64,
+    /// Upper end of the interval, 0 to 1.
     pub high: f64,
 }
 
@@ -52,6 +56,7 @@ impl Proportion {
         }
     }
 
+    /// `count / of`; 0 of none.
     pub fn share(&self) -> f64 {
         if self.of == 0 {
             0.0
@@ -64,8 +69,11 @@ impl Proportion {
 /// A local minimum of the energy over the free configurations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
+    /// Its place in the list of states.
     pub id: usize,
+    /// The wanted bond, or a trap.
     pub kind: StateKind,
+    /// Where the minimum is.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,
@@ -76,6 +84,7 @@ pub struct State {
     pub faces: Vec<(usize, usize)>,
     /// Magnet pairs within 1.5 pitches (or magnet lengths) of each other that attract, and repel.
     pub attracting: usize,
+    /// The pairs among them that repel.
     pub repelling: usize,
     /// Energy (J) of uniformly magnetised blocks in this configuration, where `energy` is that of
     /// point dipoles.
@@ -94,6 +103,7 @@ impl State {
 /// One end of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Place {
+    /// A state by its id.
     State(usize),
     /// Any configuration with the tiles far apart.
     Free,
@@ -104,6 +114,7 @@ pub enum Place {
 pub struct PathwayPoint {
     /// Length along the pathway in the metric of the configuration space (m).
     pub s: f64,
+    /// Where the moving tile is.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,
@@ -176,7 +187,9 @@ impl SaddleBounds {
 /// The barrier between two places: the least possible highest energy of a free path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Barrier {
+    /// Where it starts.
     pub from: Place,
+    /// Where it ends.
     pub to: Place,
     /// Highest energy on the best pathway found (J): an upper bound of the minimax energy.
     /// Infinite where no pathway is known.
@@ -185,8 +198,9 @@ pub struct Barrier {
     pub saddle: Configuration,
     /// What is proved of the saddle's energy.
     pub bounds: SaddleBounds,
-    /// Energies (J) of the two ends; 0 for `Free`.
+    /// Energy (J) of the start; 0 for `Free`.
     pub from_energy: f64,
+    /// Energy (J) of the end; 0 for `Free`.
     pub to_energy: f64,
     /// Lowest and highest saddle energy (J) over repeated runs with other seeds.
     pub spread: Option<(f64, f64)>,
@@ -254,11 +268,15 @@ pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
 /// A pathway by another cost than the highest energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alternative {
+    /// Where it starts.
     pub from: Place,
+    /// Where it ends.
     pub to: Place,
+    /// What it is the cheapest by.
     pub by: PathwayCost,
     /// The cost: J of work, or -ln of the probability.
     pub cost: f64,
+    /// From end to end.
     pub pathway: Pathway,
 }
 

@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
-use super::slide::{self, Point, length};
+use super::constrained::{self, Point, length};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
 use crate::problem::Problem;
@@ -83,7 +83,7 @@ pub fn transition_state(
 /// Whether contact, as it really is at a point, holds the force there. Newton's method may have
 /// kept a contact closed from which the tile can slip off round a corner.
 fn is_at_rest(problem: &Problem, point: &Point) -> bool {
-    slide::unbalanced(problem, point) <= UNBALANCED
+    constrained::unbalanced(problem, point) <= UNBALANCED
 }
 
 fn search(
@@ -164,7 +164,7 @@ impl<'a> Surface<'a> {
     /// The contacts that the energy presses on at a point.
     fn pressing(problem: &'a Problem, point: &Point) -> Self {
         let metric = problem.mass_metric(point.q.theta);
-        let mut touching = slide::constraints(problem, &point.q, CLOSED);
+        let mut touching = constrained::constraints(problem, &point.q, CLOSED);
         for constraint in &mut touching {
             constraint.gap = 0.0;
         }
@@ -253,7 +253,7 @@ impl<'a> Surface<'a> {
 
     /// The configuration near `q` at which all closed contacts are closed.
     fn retract(&self, q: &Configuration) -> Option<Configuration> {
-        slide::close(self.problem, &self.closed, q)
+        constrained::close(self.problem, &self.closed, q)
     }
 
     /// Goes along a step on the surface, up to the first contact that closes on the way.
@@ -266,8 +266,8 @@ impl<'a> Surface<'a> {
         let mut closing = None;
         for _ in 0..20 {
             let next = self.retract(&q.moved(step * fraction))?;
-            let margin = slide::reach(self.problem, step) + 1e-6;
-            let worst = slide::constraints(self.problem, &next, margin)
+            let margin = constrained::reach(self.problem, step) + 1e-6;
+            let worst = constrained::constraints(self.problem, &next, margin)
                 .into_iter()
                 .filter(|c| !self.closed.contains(&c.touch))
                 .min_by_key(|c| OrderedFloat(c.gap))

@@ -58,9 +58,13 @@ impl Analysis {
 /// How much was done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
+    /// Milestones of the roadmap.
     pub milestones: usize,
+    /// Its free motions.
     pub edges: usize,
+    /// Transition states found, copies counted one by one.
     pub transition_states: usize,
+    /// Energies computed, with their gradients or without.
     pub energy_evaluations: u64,
     /// Cells of the certificate.
     pub cells: usize,
@@ -69,8 +73,10 @@ pub struct Counts {
 /// A stage of the main job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
+    /// What the observer was told.
     pub name: &'static str,
     /// Wall time (s).
     pub wall_s: f64,
+    /// Energies computed meanwhile.
     pub energy_evaluations: u64,
 }

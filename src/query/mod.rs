@@ -21,7 +21,9 @@ const CELLS_BEFORE_ROADMAP: usize = 100_000;
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
+    /// Where the way starts.
     pub from: Configuration,
+    /// Where it ends.
     pub to: End,
     /// Settings of the roadmap from which the way is found.
     pub settings: Settings,
@@ -48,12 +50,15 @@ pub enum QueryError {
         "the tiles overlap by {:.4} mm at the pose {},{},{}: choose a pose whose clearance is not \
          negative (`tilebind energy` prints it)", -1e3 * .1, .0.x, .0.y, .0.theta
     )]
+    /// The tiles overlap at an end, with this clearance (m).
     Overlap(Configuration, f64),
     #[error(
         "the pose {},{},{} lies off the table, which reaches to x = +-{} m and y = +-{} m",
         .0.x, .0.y, .0.theta, .1[0], .1[1]
     )]
+    /// An end lies off the table of this half size (m).
     OffTheTable(Configuration, [f64; 2]),
+    /// Neither a way nor a proof that there is none was found.
     #[error("no way was found, and none disproved: try more milestones")]
     NoWay,
 }

@@ -153,8 +153,12 @@ fn edges(roadmap: &Roadmap) -> Vec<Field> {
         real("length_m", |costs| costs.length),
         real("work_forwards_J", |costs| costs.work[0]),
         real("work_backwards_J", |costs| costs.work[1]),
-        real("improbability_forwards", |c| c.improbability[0]),
-        real("improbability_backwards", |c| c.improbability[1]),
+        real("minus_ln_probability_forwards", |c| {
+            c.minus_ln_probability[0]
+        }),
+        real("minus_ln_probability_backwards", |c| {
+            c.minus_ln_probability[1]
+        }),
     ]
 }
 

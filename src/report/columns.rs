@@ -13,9 +13,13 @@ use crate::pipeline::Analysis;
 /// What shows columns.
 #[derive(Clone, Copy, Debug)]
 pub enum Output {
+    /// `states.csv` and `barriers.csv`.
     Csv,
+    /// Structured arrays for NumPy.
     Npy,
+    /// `report.json`.
     Json,
+    /// The page's tables.
     Page,
 }
 
@@ -29,6 +33,7 @@ pub struct Column<Row> {
     /// Its place in each [`Output`], 0 where it is not shown. Readers of files may count columns:
     /// what has a place keeps it, and what is new comes last.
     places: [u8; 4],
+    /// Its entry of a row.
     pub get: fn(&Row) -> Cell,
 }
 
@@ -39,11 +44,13 @@ pub enum Cell {
     Value(Value),
     /// A quantity; NaN where it is not known, infinite for a barrier without a way.
     Real(f64),
+    /// A state or `free`, which outputs name as they do.
     Place(Place),
 }
 
 /// A state, and what is said of it elsewhere.
 pub struct StateRow<'a> {
+    /// The state itself.
     pub state: &'a State,
     at: &'a Configuration,
     /// What people call it.
@@ -59,6 +66,7 @@ pub struct StateRow<'a> {
 }
 
 impl<'a> StateRow<'a> {
+    /// The row of a state, `names` being those of all states.
     pub fn new(
         design: &Design,
         analysis: &'a Analysis,

@@ -26,7 +26,9 @@ const CHECKED: [&str; 3] = [
 pub struct Comparison {
     /// Best first.
     pub designs: Vec<Assessment>,
+    /// What designs are ranked by.
     pub by: &'static Quantity,
+    /// How they were assessed.
     pub settings: AssessmentSettings,
 }
 

@@ -141,7 +141,7 @@ pub fn summary(analysis: &Analysis) -> String {
         sides.len(),
     );
     for check in analysis.contradicted().chain(analysis.overestimated()) {
-        let _ = writeln!(text, "{}", check.told());
+        let _ = writeln!(text, "{}", check.describe());
     }
     text
 }

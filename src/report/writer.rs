@@ -25,8 +25,15 @@ pub const PAGE: &str = "report.html";
 /// Why results could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
+    /// The file system refused.
     #[error("cannot write {}: {source}", path.display())]
-    File { path: PathBuf, source: io::Error },
+    File {
+        /// The file, or the folder that it was to be in.
+        path: PathBuf,
+        /// What the file system says.
+        source: io::Error,
+    },
+    /// A picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
 }
@@ -34,6 +41,7 @@ pub enum WriteError {
 /// How much is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
+    /// Everything.
     Full,
     /// Without the pathways of copies, the page and the files for TopSearch, and pictures as SVG
     /// only: for results that are kept.

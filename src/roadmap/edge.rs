@@ -19,7 +19,7 @@ pub struct EdgeCosts {
     /// Mechanical work against the energy, forwards and backwards (J).
     pub work: [f64; 2],
     /// -ln of the transition probability, forwards and backwards.
-    pub improbability: [f64; 2],
+    pub minus_ln_probability: [f64; 2],
 }
 
 /// A free motion between two milestones.
@@ -90,7 +90,7 @@ pub fn costs(problem: &Problem, [a, b]: [&Milestone; 2], settings: &EdgeSettings
         peak_at: peak.t,
         length,
         work: [work.0, work.1],
-        improbability: improbabilities(profile.energies(steps(length, settings)), settings),
+        minus_ln_probability: improbabilities(profile.energies(steps(length, settings)), settings),
     }
 }
 
@@ -132,7 +132,7 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
         peak_at: along[highest] / length.max(f64::MIN_POSITIVE),
         length,
         work,
-        improbability: improbabilities(evenly, settings),
+        minus_ln_probability: improbabilities(evenly, settings),
     }
 }
 

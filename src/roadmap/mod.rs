@@ -50,9 +50,11 @@ pub struct Roadmap {
 /// All that decides a roadmap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoadmapSettings {
+    /// How milestones are drawn.
     pub milestones: MilestoneSettings,
     /// Nearest neighbours to which each milestone is joined.
     pub neighbours: usize,
+    /// How motions are judged.
     pub edges: EdgeSettings,
 }
 

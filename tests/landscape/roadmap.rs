@@ -54,9 +54,9 @@ fn the_costs_of_a_motion_over_a_saddle_are_those_of_its_definition() {
     let back = costs(&problem, b, a);
     assert!((back.peak - there.peak).abs() < 2e-7);
     assert!((back.work[0] - there.work[1]).abs() < 1e-9);
-    assert!((back.improbability[0] - there.improbability[1]).abs() < 1e-2);
+    assert!((back.minus_ln_probability[0] - there.minus_ln_probability[1]).abs() < 1e-2);
     // Twice the climb over kT, about: every step counts the difference of two.
-    assert!((there.improbability[0] - there.improbability[1]).abs() > end / 1e-4);
+    assert!((there.minus_ln_probability[0] - there.minus_ln_probability[1]).abs() > end / 1e-4);
 }
 
 #[test]

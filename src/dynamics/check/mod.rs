@@ -168,7 +168,7 @@ impl BarrierCheck {
     }
 
     /// What refutes the barrier, told loudly where it is a proof that is contradicted.
-    pub fn told(&self) -> String {
+    pub fn describe(&self) -> String {
         let name = |place| match place {
             Place::State(id) => format!("state {id}"),
             Place::Free => "free".to_owned(),

@@ -76,7 +76,7 @@ fn a_barrier_said_to_be_higher_than_it_is_does_not_stand() {
         assert!(checks[0].is_kicked_over(), "{checks:?}");
         assert_eq!(checks[0].is_contradicted(), certified);
         assert_eq!(checks[0].is_overestimated(), !certified);
-        let loud = checks[0].told().starts_with("CONTRADICTION");
+        let loud = checks[0].describe().starts_with("CONTRADICTION");
         assert_eq!(loud, certified);
         assert!(checks[0].below.example.is_some());
     }

@@ -285,7 +285,7 @@ impl Reader<'_> {
         let network = &self.survey.network;
         let cost = match by {
             PathwayCost::Work => Cost::Work,
-            PathwayCost::Probability => Cost::Improbability,
+            PathwayCost::Probability => Cost::Probability,
         };
         let (_, cost, route) = network.cheapest(from.1, &HashSet::from([to.1]), cost)?;
         let depth = self.energy(0).abs();

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::{Survey, SurveySettings};
 use crate::configuration::Configuration;
+use crate::landscape::constrained;
 use crate::landscape::network::Merge;
-use crate::landscape::slide;
 use crate::problem::Problem;
 use crate::roadmap::{Milestone, edge};
 
@@ -133,7 +133,7 @@ fn added_milestones(problem: &Problem, place: &Place, settings: &SurveySettings)
             let mut draw = || rng.random_range(-1.0..1.0);
             let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
             let aim = place.centre.moved(step);
-            let q = slide::settle(problem, &aim, place.radius)?;
+            let q = constrained::settle(problem, &aim, place.radius)?;
             let milestone = Milestone::new(problem, q);
             (milestone.energy < place.highest).then_some(milestone)
         })

@@ -23,9 +23,9 @@ use rayon::prelude::*;
 
 use nalgebra::Vector3;
 
+use super::constrained::{self, Point};
 use super::minimum::{Descent, Outcome, descend};
 use super::network::{Merge, Network, Way};
-use super::slide::{self, Point};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
@@ -317,7 +317,7 @@ impl Survey {
 fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Descent> {
     let unstable = saddle.modes.first()?.1;
     let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
-    let start = slide::settle(problem, &aim, OFF_SADDLE)?;
+    let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
     let descent = descend(problem, &start);
     (descent.way[0].energy <= saddle.point.energy).then_some(descent)
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::{Survey, SurveySettings};
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::landscape::slide;
+use crate::landscape::constrained;
 use crate::problem::Problem;
 use crate::roadmap::{Milestone, edge};
 
@@ -44,7 +44,7 @@ impl Survey {
 /// Away from each closed contact, and from all of them together.
 fn directions(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     let mut normals: Vec<Vector2<f64>> = Vec::new();
-    for constraint in slide::constraints(problem, q, CLOSED) {
+    for constraint in constrained::constraints(problem, q, CLOSED) {
         let normal = constraint.gradient.xy().normalize();
         let is_same = |known: &Vector2<f64>| (known - normal).norm() < 1e-6;
         if !normals.iter().any(is_same) {

@@ -63,6 +63,7 @@ struct ChartMap {
 }
 
 impl Charts {
+    /// The charts of a finished sweep.
     pub fn new(sweep: &Sweep) -> Self {
         let panels = placed(|quantity| quantity.panel).into_iter();
         let mut charts = Self {

@@ -64,7 +64,9 @@ impl Variable {
 /// One curve: what came of each point over the varied number.
 #[derive(Clone, Debug)]
 pub struct Series<'a> {
+    /// What the legend calls it.
     pub name: String,
+    /// Its points, in the order of the varied number.
     pub points: Vec<CurvePoint<'a>>,
 }
 
@@ -82,7 +84,9 @@ pub struct CurvePoint<'a> {
 /// The content of a picture of curves.
 #[derive(Clone, Debug)]
 pub struct Group<'a> {
+    /// What the page calls it.
     pub title: String,
+    /// A curve each.
     pub series: Vec<Series<'a>>,
     /// Series that found no place.
     pub left_out: usize,
@@ -91,8 +95,11 @@ pub struct Group<'a> {
 /// The content of a picture of maps.
 #[derive(Clone, Debug)]
 pub struct Map {
+    /// What the page calls it.
     pub title: String,
+    /// What varies to the right.
     pub x: Variable,
+    /// What varies upwards.
     pub y: Variable,
     /// Places of the points in the sweep, row by row from the lowest; `None` where there is no such
     /// point.
@@ -102,7 +109,9 @@ pub struct Map {
 /// What a picture shows.
 #[derive(Clone, Debug)]
 pub enum Content<'a> {
+    /// Over one varied number.
     Curves(Variable, Group<'a>),
+    /// Over two.
     Map(Map),
 }
 

@@ -226,10 +226,10 @@ impl Plot<'_> {
         let size = [right - left, bottom - top].map(|side| (IMAGE * side).round() as usize);
         let interpolated = Interpolated::new(&self.map.lowest, scale);
         range.bitmap((size[0], size[1]), |u, v| {
-            let room = interpolated
+            let border_distance = interpolated
                 .corners(u, v)
-                .map(|(i, w)| w * self.map.room[i]);
-            if room.iter().sum::<f64>() < 0.0 {
+                .map(|(i, w)| w * self.map.border_distance[i]);
+            if border_distance.iter().sum::<f64>() < 0.0 {
                 return None;
             }
             interpolated.position(u, v).map(|(position, _)| position)

@@ -12,8 +12,11 @@ use crate::tile::Pair;
 pub struct Scene<'a> {
     /// Name of the design.
     pub name: &'a str,
+    /// What acts between the tiles.
     pub interaction: &'a Interaction,
+    /// Their energy and contact.
     pub problem: &'a Problem,
+    /// The tiles themselves.
     pub pair: &'a Pair,
     /// States and barriers; empty before an analysis.
     pub inventory: &'a Inventory,
@@ -40,10 +43,12 @@ impl<'a> Scene<'a> {
             .map(|half| half.min(1.2 * space.free_distance))
     }
 
+    /// All states.
     pub fn states(&self) -> &'a [State] {
         &self.inventory.states
     }
 
+    /// The state with an id.
     pub fn state(&self, id: usize) -> Option<&'a State> {
         self.states().iter().find(|state| state.id == id)
     }

@@ -199,7 +199,7 @@ fn tables_pictures_and_the_summary() {
     let summary = stdout(&output);
     for said in [
         "far starts",
-        "end bound",
+        "end in the bond",
         "in traps",
         "-65.47 mJ",
         "trap",

@@ -88,10 +88,10 @@ fn the_map_is_blocked_where_every_orientation_overlaps() {
     for (index, value) in map.lowest.values.iter().enumerate() {
         let distance = map.lowest.x[index % 41].hypot(map.lowest.y[index / 41]);
         if distance < side - 1e-9 {
-            assert!(value.is_none() && map.room[index] < 0.0);
+            assert!(value.is_none() && map.border_distance[index] < 0.0);
         }
         if distance > side * 2f64.sqrt() {
-            assert!(value.is_some() && map.room[index] > 0.0);
+            assert!(value.is_some() && map.border_distance[index] > 0.0);
         }
     }
 }
