@@ -90,6 +90,12 @@ impl<'a> StateRow<'a> {
         self.state.kind == StateKind::Bond
     }
 
+    fn is_caged(&self) -> bool {
+        self.escape
+            .as_ref()
+            .is_some_and(|escape| escape.bounds.caged)
+    }
+
     /// What there is to say of the way out.
     fn out(&self, get: fn(&Barrier) -> Cell) -> Cell {
         self.escape.as_ref().map_or(value(Value::Null), get)
@@ -175,7 +181,10 @@ fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
         c([ 8,  7,  4,  4], "energy", "J", "energy", |s| real(s.state.energy)),
         // To the nearest lower state or to free.
         c([ 9,  0,  0,  5], "escape", "J", "way out", |s| s.out(|b| real(b.forward()))),
-        c([10,  0,  0,  6], "escape_to", "", "leads to", |s| s.out(|b| Cell::Place(b.to))),
+        c([10,  0,  0,  0], "escape_to", "", "leads to", |s| s.out(goal)),
+        c([ 0,  0,  0,  6], "escape_to", "", "leads to", |s| s.out(goal_or_why)),
+        // Proved that there is no way out at all.
+        c([20,  0,  0,  0], "caged", "", "caged", |s| value(s.is_caged())),
         c([ 0,  9,  0,  0], "escape_saddle_energy", "J", "saddle", |s| s.out(|b| real(b.saddle_energy))),
         c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(whole(b)))),
         c([11, 10,  0,  7], "capture_share", "%", "captured", |s| real(s.capture.map(|c| c.share()))),
@@ -204,7 +213,8 @@ fn barrier_columns() -> Vec<Column<Barrier>> {
         c([ 4,  4,  5,  4], "lower", "J", "at least", |b| real(b.bounds.lower)),
         c([ 5,  5,  6,  5], "upper", "J", "at most", |b| real(b.bounds.upper)),
         // Proved that there is no way at all; the saddle energy is then infinite.
-        c([ 0,  0,  7,  0], "caged", "", "caged", |b| value(b.bounds.caged)),
+        c([14,  0,  7,  0], "caged", "", "caged", |b| value(b.bounds.caged)),
+        c([ 0,  0,  0,  8], "caged", "", "no way", |b| value(why_no_way(b))),
         c([ 6,  0,  8,  6], "forward", "J", "forward", |b| real(b.forward())),
         c([ 7,  0,  9,  7], "reverse", "J", "reverse", |b| real(b.reverse())),
         // Lowest and highest saddle energy over repeated runs; null for a single run.
@@ -223,6 +233,25 @@ fn barrier_columns() -> Vec<Column<Barrier>> {
 /// A barrier as an object.
 fn whole(barrier: &Barrier) -> Value {
     entry(&barriers(Output::Json), barrier)
+}
+
+/// Where it leads to, if a way over it is known.
+fn goal(barrier: &Barrier) -> Cell {
+    passable(barrier).map_or(value(Value::Null), |barrier| Cell::Place(barrier.to))
+}
+
+/// The same, or the word for why there is no way.
+fn goal_or_why(barrier: &Barrier) -> Cell {
+    why_no_way(barrier).map_or_else(|| goal(barrier), value)
+}
+
+/// Why a barrier has no way over it, if it has none.
+pub fn why_no_way(barrier: &Barrier) -> Option<&'static str> {
+    match barrier.has_way() {
+        _ if barrier.bounds.caged => Some("caged, proved"),
+        true => None,
+        false => Some("none found"),
+    }
 }
 
 /// Where its saddle is.

@@ -116,7 +116,7 @@ fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
         percent(&class.captured()),
         si(energy, "J", DIGITS),
         match escape {
-            _ if is_caged => "caged".to_owned(),
+            _ if is_caged => "caged, proved".to_owned(),
             Some(way) if way.has_way() => {
                 let to = inventory.name_of(way.to);
                 format!("{} to {to}", si(way.forward(), "J", DIGITS))

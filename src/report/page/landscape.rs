@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::packed::Packed;
 use super::pathways::Played;
-use super::tree::{Node, nodes};
+use super::tree::{DrawnTree, trees};
 use super::{fixed, rounded};
 use crate::configuration::Configuration;
 use crate::design::Design;
@@ -49,7 +49,7 @@ pub struct Landscape {
     landing: Vec<Option<f64>>,
     states: Vec<DrawnState>,
     pathways: Vec<Played>,
-    tree: Vec<Node>,
+    tree: Vec<DrawnTree>,
 }
 
 /// A tile to draw.
@@ -128,7 +128,7 @@ impl Landscape {
             tree: if scene.barriers().next().is_none() {
                 Vec::new()
             } else {
-                nodes(scene, &scale)
+                trees(scene, &scale)
             },
         }
     }

@@ -67,9 +67,6 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         ));
     }
     let way_out = |row: &StateRow| match &row.escape {
-        Some(barrier) if barrier.bounds.caged => {
-            ("caged".to_owned(), "proved: no way out".to_owned())
-        }
         Some(barrier) if barrier.has_way() => {
             let certified = barrier.bounds.above(barrier.from_energy).both();
             let certified = certified.map_or_else(String::new, |(lower, upper)| {
@@ -78,7 +75,11 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             let to = scene.name_of(barrier.to);
             (energy(barrier.forward()), format!("to {to}{certified}"))
         }
-        _ => ("not known".to_owned(), "no way out was found".to_owned()),
+        other => {
+            let why = other.as_ref().and_then(columns::why_no_way);
+            let why = why.unwrap_or("none found").to_owned();
+            (why, "no way out".to_owned())
+        }
     };
     let (height, note) = way_out(&bond);
     facts.push(fact("barrier out of the bond", height, note));

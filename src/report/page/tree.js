@@ -11,8 +11,8 @@ const leavesOf = (node) => node.children ? node.children.reduce((sum, child) => 
 const energiesOf = (node) => [node.energy, ...(node.bounds ?? []), ...(node.children ?? []).flatMap(energiesOf)];
 
 function buildTree(choose) {
-  const count = world.tree.reduce((sum, node) => sum + leavesOf(node), 0);
-  const positions = [0, ...world.tree.flatMap(energiesOf)].map(positionOf);
+  const count = world.tree.reduce((sum, { root }) => sum + leavesOf(root), 0);
+  const positions = [0, ...world.tree.flatMap(({ root }) => energiesOf(root))].map(positionOf);
   const [low, high] = [Math.min(...positions), Math.max(...positions)];
   const span = Math.max(high - low, 0.2);
   const width = Math.max(560, 70 + 66 * count), height = 430;
@@ -71,10 +71,10 @@ function buildTree(choose) {
     labels.push(svg("text", { x: middle + 9, y: level - 5, class: "soft" }, energyText(node.energy, 3)));
     return middle;
   };
-  for (const node of world.tree) {
-    const at = draw(node);
-    limb(at, y(node.energy), at, 6);
-    if (world.tree.length > 1) add("text", { x: at + 6, y: 14, class: "soft" }, "no way found");
+  for (const { root, apart } of world.tree) {
+    const at = draw(root);
+    limb(at, y(root.energy), at, 6);
+    if (apart) add("text", { x: at + 6, y: 14, class: "soft" }, apart);
   }
   picture.append(...labels, ...leaves);
   element("tree").replaceChildren(picture);

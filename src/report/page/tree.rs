@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::rounded;
 use crate::landscape::Kind;
-use crate::report::plots::disconnectivity::merge_tree;
+use crate::report::plots::disconnectivity::{merge_tree, why_apart};
 use crate::report::plots::merge_tree::Tree;
 use crate::report::plots::scale::EnergyScale;
 use crate::report::plots::scene::Scene;
@@ -30,12 +30,23 @@ pub enum Node {
     },
 }
 
-/// The merge trees of the lowest classes of states.
-pub fn nodes(scene: &Scene, scale: &EnergyScale) -> Vec<Node> {
+/// A merge tree, and why no way leads from it to `free` where that is so.
+#[derive(Clone, Debug, Serialize)]
+pub struct DrawnTree {
+    root: Node,
+    apart: Option<&'static str>,
+}
+
+/// The merge trees of the lowest kinds of states.
+pub fn trees(scene: &Scene, scale: &EnergyScale) -> Vec<DrawnTree> {
     let kinds = scene.kinds();
     let kinds = &kinds[..kinds.len().min(MOST)];
     let trees = merge_tree(scene, kinds, scale);
-    trees.iter().map(|tree| node(tree, kinds)).collect()
+    let drawn = |tree| DrawnTree {
+        root: node(tree, kinds),
+        apart: why_apart(scene, tree),
+    };
+    trees.iter().map(drawn).collect()
 }
 
 fn node(tree: &Tree, kinds: &[Kind]) -> Node {

@@ -45,6 +45,21 @@ pub fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tre
     merge(leaves, joins.collect(), scale)
 }
 
+/// Why no way leads from a tree to `free`; `None` for the tree that holds `free`.
+pub fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
+    let mut kinds = scene.inventory.kinds();
+    let is_caged = |kind: Kind| {
+        let first = kind.first();
+        let escape = scene.inventory.escape_of_kind(scene.problem, first.id);
+        tree.holds(Some(first.class)) && escape.is_some_and(|way| way.bounds.caged)
+    };
+    match tree.holds(None) {
+        true => None,
+        false if kinds.any(is_caged) => Some("caged, proved"),
+        false => Some("no way found"),
+    }
+}
+
 /// The graph of the lowest classes of states; `None` where there is no state.
 pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
     let all = scene.kinds();
@@ -116,10 +131,10 @@ pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, Pictu
             let top = tree.energy();
             let end = (at(x, top).0, frame[1]);
             polyline(root, &[at(x, top), end], INK, 1.8)?;
-            if trees.len() > 1 && !tree.holds(None) {
+            if let Some(why) = why_apart(scene, tree) {
                 let beside = (end.0 + 6.0, end.1 + 8.0);
                 let font = Text::new(SMALL).colour(SOFT);
-                font.write(root, "no way found", beside, (HPos::Left, VPos::Center))?;
+                font.write(root, why, beside, (HPos::Left, VPos::Center))?;
             }
         }
         drawing.merge_labels()?;

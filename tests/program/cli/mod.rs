@@ -4,6 +4,7 @@ mod analyse;
 mod barrier;
 mod calibrate;
 mod completions;
+mod consistency;
 mod dynamics;
 mod energy;
 mod mistakes;
