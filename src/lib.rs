@@ -10,36 +10,42 @@
 //! # What flows where
 //!
 //! ```text
-//! design file -> tiles -> potential -> roadmap -> landscape (states, barriers, pathways) -> report
-//!                              \-> dynamics (a check from outside the roadmap) --------------^
+//! design file -> problem (tiles, potential, contact) -> roadmap -> landscape (states, barriers, proofs)
+//!                              \-> dynamics (a check from outside the roadmap)          |
+//!                                                                          report <----/
 //! ```
 //!
-//! | module | what it holds |
+//! Imports point one way: a floor uses those below it, and siblings leave each other alone.
+//!
+//! | floor, from the ground up | what it holds |
 //! |---|---|
-//! | [`design`] | the design file: keys, defaults, checks with line and column |
-//! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries |
-//! | [`configuration`], [`cell`] | (x, y, theta), its space and metric; boxes of configurations |
-//! | [`contact`] | overlap, clearance, free motions, the constraints of touching |
-//! | [`potential`] | U(x, y, theta) of point dipoles and of blocks, gradients, bounds |
-//! | [`problem`] | the three above, put together |
+//! | [`units`], [`configuration`], [`cell`], [`observer`] | SI prefixes; (x, y, theta), its space and metric; boxes of configurations; who is told of progress |
+//! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; two tiles and how they are meant to bind |
+//! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the one place where an energy is chosen |
+//! | [`problem`] | the three above, put together once, with the symmetries of the pair |
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
-//! | [`landscape`] | minima, transition states, barriers, pathways, captures, certificates |
-//! | [`calibration`] | shields fitted to measurements |
-//! | [`dynamics`] | tiles that really move: docking runs |
-//! | [`pipeline`] | the main job in one page; [`certification`] and [`query`] beside it |
+//! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
+//! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
-//! | [`report`] | JSON, CSV, the summary, pictures |
+//! | [`report`] | JSON, CSV, NPY, the summary, pictures, pages |
+//!
+//! The words are the same everywhere: the wanted meeting of the tiles is the *bond*, every other
+//! held one a *trap*, far apart is *free*. What else may act between tiles than magnets, and which
+//! files that takes, is told in [`potential::interaction`].
 //!
 //! # The library in ten lines
 //!
 //! ```no_run
-//! use tilebind::{analysis::Settings, design::Design, pipeline, units::si};
+//! use tilebind::{Design, Settings, observer::Silent, pipeline, units::si};
 //! let design = Design::load("shapes/paper-tile.toml".as_ref())?;
-//! let analysis = pipeline::analyse(&design, &Settings::default(), &pipeline::Silent);
+//! let analysis = pipeline::analyse(&design, &Settings::default(), &Silent);
 //! println!("bond {}", si(analysis.bound.1, "J", 4));
-//! for (state, escape) in analysis.states.iter().zip(&analysis.escapes) {
-//!     let escape = escape.as_ref().map(|barrier| si(barrier.forward(), "J", 4));
-//!     println!("{:?} {}: {escape:?}", state.kind, si(state.energy, "J", 4));
+//! for kind in analysis.inventory.kinds() {
+//!     let state = kind.first();
+//!     let escape = analysis.escape(state.id).map(|barrier| si(barrier.forward(), "J", 4));
+//!     println!("{:?} x{} {}: {escape:?}", state.kind, kind.copies(), si(state.energy, "J", 4));
 //! }
 //! # Ok::<(), tilebind::design::DesignError>(())
 //! ```

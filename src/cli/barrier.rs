@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
-use serde::Serialize;
+use serde_json::{Value, json};
 use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
@@ -65,33 +65,6 @@ pub struct Barrier {
     quiet: bool,
 }
 
-/// A barrier as in report.json, its ends given by their poses.
-#[derive(Serialize)]
-#[allow(non_snake_case)]
-struct Entry {
-    from: [f64; 3],
-    to: EndEntry,
-    /// Null where there is no way.
-    saddle_energy_J: f64,
-    saddle_pose: Option<[f64; 3]>,
-    lower_J: Option<f64>,
-    upper_J: Option<f64>,
-    forward_J: f64,
-    reverse_J: f64,
-    /// Why the bounds are null, where they are.
-    uncertified: Option<String>,
-    /// Proved that there is no way.
-    caged: bool,
-    pathway: Option<PathBuf>,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum EndEntry {
-    Pose([f64; 3]),
-    Place(&'static str),
-}
-
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
@@ -127,26 +100,17 @@ impl Barrier {
         }
     }
 
-    fn entry(&self, answer: &Answer) -> Entry {
-        let barrier = &answer.barrier;
-        Entry {
-            from: self.from.to_array(),
-            to: match self.to {
-                End::At(pose) => EndEntry::Pose(pose.to_array()),
-                End::Free => EndEntry::Place("free"),
-            },
-            saddle_energy_J: json::positive_zero(barrier.saddle_energy),
-            saddle_pose: barrier
-                .has_way()
-                .then(|| barrier.saddle.to_array().map(json::positive_zero)),
-            lower_J: barrier.bounds.lower,
-            upper_J: barrier.bounds.upper,
-            forward_J: json::positive_zero(barrier.forward()),
-            reverse_J: json::positive_zero(barrier.reverse()),
-            uncertified: answer.uncertified.map(|why| why.to_string()),
-            caged: barrier.bounds.caged,
-            pathway: self.pathway.clone(),
+    /// The barrier as in report.json, its ends given by their poses.
+    fn entry(&self, answer: &Answer) -> Value {
+        let mut entry = json::barrier(&answer.barrier);
+        entry["from"] = json!(self.from.to_array());
+        if let End::At(pose) = self.to {
+            entry["to"] = json!(pose.to_array());
         }
+        // Why the bounds are null, where they are.
+        entry["uncertified"] = json!(answer.uncertified.map(|why| why.to_string()));
+        entry["pathway"] = json!(self.pathway);
+        entry
     }
 }
 

@@ -16,7 +16,7 @@
 //! 4. `tile/mod.rs`: what a face carries beside its magnets;
 //! 5. `problem/symmetry.rs`: which turns of a tile onto itself keep it;
 //! 6. `landscape/meeting.rs`: what is reported of faces that meet;
-//! 7. `report/settings.rs`: how the model is named in results;
+//! 7. `report/json/mod.rs`: how the model is named in results;
 //!
 //! and its keys in the design reader. Roadmap, landscape, certificates, dynamics and pictures stay
 //! as they are.

@@ -32,7 +32,7 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
-mod interaction;
+pub mod interaction;
 mod lever;
 pub mod motion;
 pub mod shielding;

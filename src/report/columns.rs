@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 
-use super::json::{entry, face_names, kind, pathway_file, pose, proportion};
+use super::json::{barrier, face_names, kind, pathway_file, pose, proportion};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
@@ -186,7 +186,7 @@ fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
         // Proved that there is no way out at all.
         c([20,  0,  0,  0], "caged", "", "caged", |s| value(s.is_caged())),
         c([ 0,  9,  0,  0], "escape_saddle_energy", "J", "saddle", |s| s.out(|b| real(b.saddle_energy))),
-        c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(whole(b)))),
+        c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(barrier(b)))),
         c([11, 10,  0,  7], "capture_share", "%", "captured", |s| real(s.capture.map(|c| c.share()))),
         c([12,  0,  0,  0], "capture_low", "%", "at least", |s| real(s.capture.map(|c| c.low))),
         c([13,  0,  0,  0], "capture_high", "%", "at most", |s| real(s.capture.map(|c| c.high))),
@@ -228,11 +228,6 @@ fn barrier_columns() -> Vec<Column<Barrier>> {
         c([ 0,  0,  4,  0], "saddle_pose", "", "saddle", |b| value(passable(b).map(saddle))),
         c([13,  0, 11,  0], "pathway", "", "pathway", |b| value(passable(b).map(pathway_file))),
     ]
-}
-
-/// A barrier as an object.
-fn whole(barrier: &Barrier) -> Value {
-    entry(&barriers(Output::Json), barrier)
 }
 
 /// Where it leads to, if a way over it is known.

@@ -19,7 +19,7 @@ use super::columns::{Cell, Column, Output, StateRow, barriers, states};
 use super::dynamics;
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::landscape::{Alternative, PathwayCost, Proportion};
+use crate::landscape::{Alternative, Barrier, PathwayCost, Proportion};
 use crate::pipeline::Analysis;
 
 /// The content of `report.json`.
@@ -87,6 +87,11 @@ impl Report {
     pub fn to_text(&self) -> String {
         text(&self.0)
     }
+}
+
+/// A barrier as an entry of `report.json`.
+pub fn barrier(barrier: &Barrier) -> Value {
+    entry(&barriers(Output::Json), barrier)
 }
 
 /// Which design was analysed; the checksum is of the design file's bytes.

@@ -8,7 +8,7 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Snapshot;
 use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
-use crate::landscape::{Inventory, Proportion, State, StateKind};
+use crate::landscape::{Inventory, State, StateKind};
 use crate::problem::Problem;
 use crate::report::plots::Scene;
 use crate::units::si;
@@ -88,33 +88,14 @@ fn name(docking: &Docking, run: &DockingRun) -> String {
     format!("trajectory {}: {end}", run.index)
 }
 
-fn percent(share: &Proportion) -> (String, String) {
-    (
-        format!("{:.1} %", 100.0 * share.share()),
-        format!(
-            "{} of {}; 95 %: {:.1} to {:.1} %",
-            share.count,
-            share.of,
-            100.0 * share.low,
-            100.0 * share.high
-        ),
-    )
-}
-
 fn facts(docking: &Docking) -> Vec<Fact> {
     let shares = [
-        ("bound", &docking.bound),
-        ("caught elsewhere", &docking.trapped),
+        ("bond", &docking.bound),
+        ("traps", &docking.trapped),
         ("free", &docking.free),
     ];
-    let mut facts: Vec<Fact> = shares
-        .into_iter()
-        .map(|(name, share)| {
-            let (value, note) = percent(share);
-            let name = name.to_owned();
-            Fact { name, value, note }
-        })
-        .collect();
+    let of_share = |(name, share)| Fact::of_share(name, share);
+    let mut facts: Vec<Fact> = shares.map(of_share).into();
     let rate = OnRate::new(docking);
     facts.push(Fact {
         name: "on-rate".to_owned(),

@@ -25,6 +25,7 @@ pub use landscape::Landscape;
 
 use super::plots::Scene;
 use crate::design::Design;
+use crate::landscape::Proportion;
 use crate::pipeline::Analysis;
 
 const MARKUP: &str = include_str!("page.html");
@@ -72,6 +73,21 @@ pub struct Fact {
     pub value: String,
     /// What to know of it, in small letters; may be empty.
     pub note: String,
+}
+
+impl Fact {
+    /// A sampled share with its 95 % interval.
+    fn of_share(name: &str, share: &Proportion) -> Self {
+        let [low, high] = [share.low, share.high].map(|end| 100.0 * end);
+        Self {
+            name: name.to_owned(),
+            value: format!("{:.1} %", 100.0 * share.share()),
+            note: format!(
+                "{} of {}; 95 %: {low:.1} to {high:.1} %",
+                share.count, share.of
+            ),
+        }
+    }
 }
 
 /// A picture, as an SVG document.

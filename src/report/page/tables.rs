@@ -54,17 +54,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
     };
     facts.push(fact("bond", energy(bond.state.energy), magnets));
     if let Some(share) = bond.capture.filter(|share| share.of > 0) {
-        facts.push(fact(
-            "far starts that bind",
-            format!("{:.1} %", 100.0 * share.share()),
-            format!(
-                "{} of {}; 95 %: {:.1} to {:.1} %",
-                share.count,
-                share.of,
-                100.0 * share.low,
-                100.0 * share.high
-            ),
-        ));
+        facts.push(Fact::of_share("far starts that bind", &share));
     }
     let way_out = |row: &StateRow| match &row.escape {
         Some(barrier) if barrier.has_way() => {
