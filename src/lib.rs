@@ -46,6 +46,7 @@
 
 pub mod calibration;
 pub mod cell;
+mod checksum;
 pub mod comparison;
 pub mod configuration;
 pub mod contact;

@@ -6,9 +6,12 @@ mod calibrate;
 mod completions;
 mod dynamics;
 mod energy;
+mod kept;
 mod mistakes;
 mod shields;
 mod starting;
+#[cfg(unix)]
+mod terminal;
 
 use std::process::Output;
 
