@@ -52,6 +52,7 @@
 
 pub mod calibration;
 pub mod cell;
+mod checksum;
 pub mod comparison;
 pub mod configuration;
 pub mod contact;

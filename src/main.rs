@@ -1,6 +1,9 @@
 //! The command line: what is asked for goes to the library, what comes back to files and the
 //! terminal.
 
+// They panic where the terminal is gone.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 mod cli;
 
 use std::process::ExitCode;
@@ -41,7 +44,11 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(answer) => return cli::answer(&answer),
+    };
+    let outcome = match arguments.command {
         Command::Analyse(command) => command.run(),
         Command::Energy(command) => command.run(),
         Command::Barrier(command) => command.run(),

@@ -8,12 +8,12 @@ use tilebind::Settings;
 use tilebind::dynamics::check::BarrierCheck;
 use tilebind::observer::Observer;
 use tilebind::pipeline;
+use tilebind::report::summary;
 use tilebind::report::writer::{self, Extent, WriteError};
-use tilebind::report::{arrays, summary};
 
 use super::failure::fail_if_contradicted;
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt};
+use super::{Failure, input, interrupt, tell};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -90,7 +90,7 @@ impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
         let design = self.design.load()?;
-        input::check_folder(&self.out)?;
+        self.check_out()?;
         self.work.use_threads()?;
         interrupt::prepare()?;
 
@@ -102,19 +102,36 @@ impl Analyse {
         } else {
             Extent::Full
         };
-        let mut files =
-            writer::files(&design, &analysis, extent, start).map_err(WriteError::from)?;
-        if self.arrays {
-            files.extend(arrays::files(&design, &analysis));
-        }
-        interrupt::without(|| writer::write(&self.out, &files))?;
+        let files = writer::files(&design, &analysis, extent, self.arrays, start)
+            .map_err(WriteError::from)?;
+        let kept = interrupt::without(|| writer::write(&self.out, &files))?;
         progress.finish();
+        for path in kept {
+            tell(format!(
+                "note: a file that tilebind did not write was in the way; it is now {}",
+                path.display()
+            ));
+        }
 
         let report = String::from_utf8_lossy(&files[writer::REPORT]);
         let folder = self.out.display().to_string();
         let summary = || summary::summary(&design, &analysis, &folder);
         self.print.results(&report, summary)?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
+    }
+
+    /// Refuses a folder that the results cannot go to, or that belongs to another program.
+    fn check_out(&self) -> Result<(), Failure> {
+        for folder in writer::FOLDERS {
+            input::check_folder(&self.out.join(folder))?;
+        }
+        if writer::has_foreign_report(&self.out) {
+            return Err(Failure::Usage(format!(
+                "{} is not a report of tilebind\n  help: name another folder",
+                self.out.join(writer::REPORT).display()
+            )));
+        }
+        Ok(())
     }
 
     fn settings(&self) -> Settings {

@@ -68,6 +68,9 @@ pub struct Barrier {
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
+        if let Some(file) = &self.pathway {
+            input::check_file(file)?;
+        }
         self.work.use_threads()?;
         interrupt::prepare()?;
         let progress = Progress::new(self.quiet);

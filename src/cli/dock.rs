@@ -114,6 +114,9 @@ impl Dock {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
         let problem = design.problem();
+        if let Some(folder) = &self.out {
+            input::check_folder(folder)?;
+        }
         self.work.use_threads()?;
         interrupt::prepare()?;
         let settings = self.settings();

@@ -7,6 +7,10 @@ use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
 use tilebind::report::writer::WriteError;
 
+use super::tell;
+
+/// Exit status where the command line or a design file is wrong.
+pub const WRONG: u8 = 2;
 /// Exit status of a command that was interrupted (`EX_TEMPFAIL` of sysexits.h).
 pub const INTERRUPTED: u8 = 75;
 
@@ -26,11 +30,11 @@ impl Failure {
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Usage(message) => {
-                eprintln!("error: {message}");
-                ExitCode::from(2)
+                tell(format!("error: {message}"));
+                ExitCode::from(WRONG)
             }
             Self::Run(message) => {
-                eprintln!("error: {message}");
+                tell(format!("error: {message}"));
                 ExitCode::from(1)
             }
             Self::OutputClosed => ExitCode::SUCCESS,
@@ -44,7 +48,7 @@ pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure
     let mut contradictions = Vec::new();
     for (name, one) in assessments {
         for description in &one.overestimates {
-            eprintln!("note: {name}: {description}");
+            tell(format!("note: {name}: {description}"));
         }
         let descriptions = one.contradictions.iter();
         contradictions.extend(descriptions.map(|description| format!("{name}: {description}")));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::design::STARTER;
 
-use super::{Failure, print};
+use super::{Failure, print, tell};
 
 /// Write a design to start from, with remarks
 #[derive(Args)]
@@ -39,8 +39,13 @@ impl Init {
                 )),
                 _ => Failure::Run(format!("cannot write {name}: {error}")),
             })?;
-        file.write_all(STARTER.as_bytes())?;
-        eprintln!("wrote {name}; next: tilebind analyse {name} --out results");
+        if let Err(error) = file.write_all(STARTER.as_bytes()) {
+            let _ = std::fs::remove_file(&self.file);
+            return Err(Failure::Run(format!("cannot write {name}: {error}")));
+        }
+        tell(format!(
+            "wrote {name}; next: tilebind analyse {name} --out results"
+        ));
         Ok(())
     }
 }

@@ -1,18 +1,20 @@
 //! What users type: designs, poses, numbers with limits.
 
+use std::fs;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
-use super::Failure;
 use super::word::Word;
+use super::{Failure, tell};
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
     let design = Design::load(path)?;
     for warning in &design.warnings {
-        eprintln!("warning: {warning}");
+        tell(format!("warning: {warning}"));
     }
     Ok(design)
 }
@@ -86,17 +88,56 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
 }
 
-/// Refuses a folder that cannot be one, before any work is done.
+/// Refuses a folder that results cannot be written to, before any work is done. Nothing is left in
+/// it, and it is not made.
 pub fn check_folder(folder: &Path) -> Result<(), Failure> {
-    let existing = folder.ancestors().find(|path| path.exists());
-    match existing {
-        Some(path) if !path.is_dir() => Err(Failure::Usage(format!(
-            "--out {}: {} is a file; name a folder",
-            folder.display(),
-            path.display(),
-        ))),
-        _ => Ok(()),
+    let refused = |error: io::Error| {
+        let folder = folder.display();
+        Failure::Run(format!("cannot write to the folder {folder}: {error}"))
+    };
+    for path in folder.ancestors().map(or_here) {
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => return try_to_write(path).map_err(refused),
+            Ok(_) => {
+                let (folder, file) = (folder.display(), path.display());
+                return Err(Failure::Usage(format!(
+                    "cannot write to the folder {folder}: {file} is a file; name a folder"
+                )));
+            }
+            Err(error) => match error.kind() {
+                // A link that leads nowhere is there all the same.
+                ErrorKind::NotFound if path.symlink_metadata().is_err() => {}
+                ErrorKind::NotADirectory => {}
+                _ => return Err(refused(error)),
+            },
+        }
     }
+    Ok(())
+}
+
+/// Refuses a file that cannot be written or replaced, before any work is done.
+pub fn check_file(file: &Path) -> Result<(), Failure> {
+    if file.exists() && !file.is_file() {
+        let file = file.display();
+        return Err(Failure::Usage(format!("{file} is not a regular file")));
+    }
+    check_folder(or_here(file.parent().unwrap_or(file)))
+}
+
+/// The empty path is the folder that one is in.
+fn or_here(path: &Path) -> &Path {
+    match path.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => path,
+    }
+}
+
+/// Makes a file in a folder and removes it.
+fn try_to_write(folder: &Path) -> io::Result<()> {
+    let file = folder.join(format!(".tilebind.{}.partial", std::process::id()));
+    let written = fs::write(&file, "tilebind");
+    let removed = fs::remove_file(&file);
+    written.and(removed)
 }
 
 #[cfg(test)]

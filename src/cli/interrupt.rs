@@ -1,9 +1,14 @@
 //! Ctrl-C and SIGTERM: the command ends with status 75, results whole or not there at all.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, mpsc};
+use std::thread;
+use std::time::Duration;
 
-use super::Failure;
 use super::failure::INTERRUPTED;
+use super::{Failure, tell};
+
+/// How long the last message may take.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Held while files take their places; an interruption waits for it.
 static WRITING: Mutex<()> = Mutex::new(());
@@ -21,10 +26,21 @@ pub fn prepare_resumable() -> Result<(), Failure> {
 fn end_with(message: &'static str) -> Result<(), Failure> {
     ctrlc::set_handler(move || {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
-        eprintln!("{message}");
+        tell_soon(message);
         std::process::exit(INTERRUPTED.into());
     })
     .map_err(|error| Failure::Run(format!("cannot prepare for interruptions: {error}")))
+}
+
+/// Tells the user, but does not wait for ever: a pipe that is full and that nobody reads takes
+/// nothing.
+fn tell_soon(message: &'static str) {
+    let (told, waits) = mpsc::channel();
+    let _ = thread::Builder::new().spawn(move || {
+        tell(message);
+        let _ = told.send(());
+    });
+    let _ = waits.recv_timeout(PATIENCE);
 }
 
 /// Does something that must not be interrupted.

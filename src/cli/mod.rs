@@ -21,8 +21,27 @@ mod sweep_progress;
 mod word;
 
 pub use failure::Failure;
+use failure::WRONG;
 
+use std::fmt::Display;
 use std::io::Write;
+use std::process::ExitCode;
+
+/// Prints what clap answers in place of a command: help, the version, or what is wrong.
+pub fn answer(answer: &clap::Error) -> ExitCode {
+    let printed = answer.print();
+    match (answer.use_stderr(), printed) {
+        (true, _) => ExitCode::from(WRONG),
+        (false, Ok(())) => ExitCode::SUCCESS,
+        (false, Err(error)) => Failure::from(error).report(),
+    }
+}
+
+/// Tells the user something on standard error. Where it cannot be written nobody reads it; that
+/// neither stops the work nor changes how it ends.
+fn tell(message: impl Display) {
+    let _ = std::io::stderr().write_all(format!("{message}\n").as_bytes());
+}
 
 /// Writes to standard output.
 fn print(text: &str) -> Result<(), Failure> {

@@ -100,11 +100,13 @@ impl Sweep {
         }
         if let Some(file) = &self.merge {
             let (plan, folder) = self.read(file)?;
+            check_folders(&folder)?;
             interrupt::prepare_resumable()?;
             return self.merge(&plan, &folder);
         }
         if let Some(file) = &self.run {
             let (plan, folder) = self.read(file)?;
+            check_folders(&folder)?;
             interrupt::prepare_resumable()?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
@@ -122,7 +124,8 @@ impl Sweep {
         .map_err(usage)?;
         let file = self.plan_file()?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
-        input::check_folder(&folder)?;
+        input::check_file(&file)?;
+        check_folders(&folder)?;
         interrupt::prepare_resumable()?;
         let text = plan.to_text();
         interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
@@ -247,6 +250,13 @@ impl Sweep {
             ))),
         }
     }
+}
+
+/// Refuses folders that neither points nor tables and pictures can be written to.
+fn check_folders(folder: &Path) -> Result<(), Failure> {
+    ["points", "pictures"]
+        .into_iter()
+        .try_for_each(|inner| input::check_folder(&folder.join(inner)))
 }
 
 fn folder_of(file: &Path) -> PathBuf {

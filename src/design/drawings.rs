@@ -6,9 +6,9 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use super::error::DesignError;
+use crate::checksum::sha256;
 
 /// Largest drawing (bytes).
 const LARGEST: u64 = 16 << 20;
@@ -84,10 +84,4 @@ impl<'a> Drawings<'a> {
         let used = self.used.into_inner().into_values().collect();
         (used, self.skipped.into_inner())
     }
-}
-
-/// SHA-256 of a text, in hexadecimal.
-pub(super) fn sha256(text: &str) -> String {
-    let digest = Sha256::digest(text.as_bytes());
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }

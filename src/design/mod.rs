@@ -60,6 +60,7 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 
+use crate::checksum::sha256;
 use crate::configuration::ConfigurationSpace;
 use crate::potential::Interaction;
 use crate::potential::shielding::{ShieldRule, Shields};
@@ -202,7 +203,7 @@ impl Design {
                 .string("name")?
                 .map_or_else(|| stem(file), str::to_owned),
             description: root.string("description")?.unwrap_or_default().to_owned(),
-            sha256: drawings::sha256(text),
+            sha256: sha256(text),
             table,
             pair: Arc::new(Pair {
                 bound: target.configuration(&fixed, &moving)?,

@@ -21,6 +21,7 @@ pub mod comparison;
 pub mod csv;
 pub mod docking;
 pub mod dynamics;
+mod earlier;
 pub mod figures;
 pub mod json;
 pub mod page;

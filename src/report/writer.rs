@@ -1,10 +1,11 @@
 //! The files of an analysis: whole or not there at all.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use super::earlier::{Earlier, content};
 use super::json::Report;
 use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
@@ -18,6 +19,9 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// The file that is written last: where it is, the others are too.
 pub const REPORT: &str = "report.json";
+
+/// The folders of an analysis within that of its results.
+pub const FOLDERS: [&str; 4] = ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER];
 
 /// The page for a browser.
 pub const PAGE: &str = "report.html";
@@ -48,7 +52,8 @@ pub enum Extent {
     Compact,
 }
 
-/// All files of an analysis begun at `start`: report, tables, pathways, pictures and page.
+/// All files of an analysis begun at `start`: report, tables, pathways, pictures, page, and arrays
+/// if they are asked for.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
@@ -56,14 +61,19 @@ pub fn files(
     design: &Design,
     analysis: &Analysis,
     extent: Extent,
+    with_arrays: bool,
     start: Instant,
 ) -> Result<Files, PictureError> {
     let mut files = tables(design, analysis, extent);
     files.extend(pictures(design, analysis, extent)?);
+    if with_arrays {
+        files.extend(arrays::files(design, analysis));
+    }
     let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
     if extent == Extent::Compact {
         report = report.without_copies();
     }
+    report = report.listing(&files);
     files.insert(REPORT.to_owned(), report.to_text().into_bytes());
     Ok(files)
 }
@@ -119,22 +129,42 @@ fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<File
 }
 
 /// Writes files into a folder, which is made if need be. Each is written under a temporary name;
-/// only when all are there do they take their places, the report last. Pathways, pictures and arrays
-/// that an earlier analysis left in the folder are taken away.
+/// only when all are there do they take their places, the report last. What an earlier analysis
+/// wrote, and nobody changed since, is replaced or taken away. All else stays: what is in the way
+/// of a new file goes under another name, and these names are returned.
 ///
 /// # Errors
 /// Where the file system refuses; then no file has been changed unless it refused a renaming.
-pub fn write(folder: &Path, files: &Files) -> Result<(), WriteError> {
-    let stale = stale(folder, files);
+pub fn write(folder: &Path, files: &Files) -> Result<Vec<PathBuf>, WriteError> {
     let mut staged = Staged::default();
     for (name, content) in files {
         staged.add(&folder.join(name), content)?;
     }
+    let earlier = Earlier::read(folder);
+    let mut own: BTreeSet<&str> = earlier
+        .iter()
+        .flat_map(|earlier| earlier.unchanged(folder))
+        .collect();
+    own.extend(earlier.is_some().then_some(REPORT));
+    let kept = files
+        .iter()
+        .filter(|(name, _)| !own.contains(name.as_str()))
+        .map(|(name, new)| (folder.join(name), new))
+        .filter(|(path, new)| in_the_way(path) && content(path).as_ref() != Some(*new))
+        .map(|(path, _)| set_aside(path))
+        .collect::<Result<_, _>>()?;
     let _ = std::fs::remove_file(folder.join(REPORT));
-    for path in stale {
+    let stale = own.iter().filter(|name| !files.contains_key(**name));
+    let stale: Vec<PathBuf> = stale.map(|name| folder.join(name)).collect();
+    for path in &stale {
         let _ = std::fs::remove_file(path);
     }
-    staged.settle()
+    staged.settle()?;
+    // Of a folder that is not empty this takes nothing away.
+    for emptied in stale.iter().filter_map(|path| path.parent()) {
+        let _ = std::fs::remove_dir(emptied);
+    }
+    Ok(kept)
 }
 
 /// Writes a file, whole or not at all.
@@ -157,48 +187,45 @@ pub fn write_each<N: AsRef<Path>>(folder: &Path, files: &[(N, Vec<u8>)]) -> Resu
         .try_for_each(|(name, content)| write_file(&folder.join(name), content))
 }
 
-/// Files of an earlier analysis that this one does not write anew.
-fn stale(folder: &Path, files: &Files) -> Vec<PathBuf> {
-    if !folder.join(REPORT).is_file() {
-        return Vec::new();
-    }
-    let of_an_analysis = |part: &str, name: &str| match part {
-        "pathways" => name.ends_with(".csv"),
-        arrays::FOLDER => name.ends_with(".npy"),
-        topsearch::FOLDER => topsearch::NAMES.contains(&name),
-        _ => name.ends_with(".svg") || name.ends_with(".png"),
-    };
-    let single = [PAGE, dynamics::TABLE]
-        .into_iter()
-        .filter(|name| !files.contains_key(*name))
-        .map(|name| folder.join(name))
-        .filter(|path| path.is_file());
-    ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER]
-        .into_iter()
-        .flat_map(|part| {
-            let entries = std::fs::read_dir(folder.join(part)).into_iter().flatten();
-            entries
-                .flatten()
-                .filter(move |entry| {
-                    let name = entry.file_name().to_string_lossy().into_owned();
-                    of_an_analysis(part, &name) && !files.contains_key(&format!("{part}/{name}"))
-                })
-                .map(|entry| entry.path())
-        })
-        .chain(single)
-        .collect()
+/// Whether a folder holds a report that is not of tilebind.
+pub fn has_foreign_report(folder: &Path) -> bool {
+    in_the_way(&folder.join(REPORT)) && Earlier::read(folder).is_none()
 }
 
-/// Files under temporary names; those not settled are removed when this goes.
+/// Whether there is something by this name, be it a link that leads nowhere.
+fn in_the_way(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
+}
+
+/// Renames a file so that its name is free, and tells the new one.
+fn set_aside(path: PathBuf) -> Result<PathBuf, WriteError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let kept = (1..)
+        .map(|k| path.with_file_name(format!("{name}.kept-{k}")))
+        .find(|kept| !in_the_way(kept))
+        .unwrap_or_default();
+    match std::fs::rename(&path, &kept) {
+        Ok(()) => Ok(kept),
+        Err(source) => Err(WriteError::File { path, source }),
+    }
+}
+
+/// Files under temporary names; those not settled are removed when this goes, with the folders that
+/// were made for them.
 #[derive(Default)]
 struct Staged {
     /// Temporary and final path.
     waiting: Vec<(PathBuf, PathBuf)>,
+    /// Folders that were not there, outer ones first.
+    made: Vec<PathBuf>,
 }
 
 impl Staged {
     fn add(&mut self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
         let folder = path.parent().unwrap_or(Path::new(""));
+        let missing = folder.ancestors().take_while(|folder| !folder.exists());
+        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        self.made.extend(missing.into_iter().rev());
         std::fs::create_dir_all(folder).map_err(|source| WriteError::File {
             path: folder.to_owned(),
             source,
@@ -229,6 +256,10 @@ impl Drop for Staged {
     fn drop(&mut self) {
         for (temporary, _) in &self.waiting {
             let _ = std::fs::remove_file(temporary);
+        }
+        // Of a folder that is not empty this takes nothing away.
+        for folder in self.made.iter().rev() {
+            let _ = std::fs::remove_dir(folder);
         }
     }
 }

@@ -17,6 +17,8 @@ pub use names::{alternative_file, face_names, kind, pathway_file, place_name};
 
 use super::columns::{Cell, Column, Output, StateRow, barriers, states};
 use super::dynamics;
+use super::writer::Files;
+use crate::checksum::sha256;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Alternative, Barrier, PathwayCost, Proportion};
@@ -80,6 +82,16 @@ impl Report {
                 *pathway = Value::Null;
             }
         }
+        self
+    }
+
+    /// Lists the files beside the report with the SHA-256 of their bytes: only what is listed and
+    /// unchanged may a later analysis replace or take away.
+    pub fn listing(mut self, files: &Files) -> Self {
+        let sums = files
+            .iter()
+            .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
+        self.0["files"] = Value::Object(sums.collect());
         self
     }
 

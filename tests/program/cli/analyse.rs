@@ -240,20 +240,6 @@ fn json_goes_to_standard_output_and_quiet_says_nothing() {
     assert_eq!(stdout(&json), written);
 }
 
-#[test]
-fn results_replace_those_of_an_earlier_analysis_and_nothing_else() {
-    let folder = tempfile::tempdir().unwrap();
-    analyse(folder.path(), &["--quiet"]);
-    let stale = folder.path().join("pathways/999-0.csv");
-    std::fs::write(&stale, "left over").unwrap();
-    let notes = folder.path().join("notes.txt");
-    std::fs::write(&notes, "mine").unwrap();
-    analyse(folder.path(), &["--quiet"]);
-    assert!(!stale.exists() && notes.exists());
-    let mut names = contents(folder.path()).into_keys();
-    assert!(!names.any(|name| name.contains("partial")));
-}
-
 #[cfg(unix)]
 #[test]
 fn an_interrupted_analysis_leaves_nothing() {

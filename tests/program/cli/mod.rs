@@ -7,9 +7,12 @@ mod completions;
 mod consistency;
 mod dynamics;
 mod energy;
+mod kept;
 mod mistakes;
 mod shields;
 mod starting;
+#[cfg(unix)]
+mod terminal;
 
 use std::process::Output;
 
