@@ -1,7 +1,11 @@
 //! Magnets and shields, by principle and against independent numbers; tiles as design files say.
 
+mod block_limits;
 mod blocks;
 mod bounds;
+mod calibration;
+mod configuration;
+mod contact;
 mod design_files;
 #[path = "../shared/designs.rs"]
 mod designs;
@@ -9,4 +13,8 @@ mod dipole_kernel;
 mod dipoles;
 mod dynamics;
 mod fixtures;
+mod shield_factor;
 mod shielding;
+mod strength;
+mod tiles;
+mod units;
