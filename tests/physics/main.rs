@@ -1,4 +1,5 @@
-//! Magnets and shields, by principle and against independent numbers; tiles as design files say.
+//! Tiles, their contact, magnets and shields and the way they move, by principle and against
+//! independent numbers; tiles as design files say.
 
 mod block_limits;
 mod blocks;

@@ -49,8 +49,7 @@ fn verdicts_agree_with_fine_sampling() {
         if !contact.is_free(&a) || !contact.is_free(&b) {
             continue;
         }
-        let sampled =
-            (0..=2000).all(|i| contact.is_free(&a.interpolate(&b, i as f64 / 2000.0)));
+        let sampled = (0..=2000).all(|i| contact.is_free(&a.interpolate(&b, i as f64 / 2000.0)));
         let verdict = contact.motion_is_free(&a, &b);
         // Sampling can miss a graze; a free verdict it must never contradict.
         assert!(!verdict || sampled);

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use tilebind::tile::profile::{
-    CHORD_ERROR, Polyline, Profile, ProfileError, Waveform, complement,
-};
+use tilebind::tile::profile::{CHORD_ERROR, Polyline, Profile, ProfileError, Waveform, complement};
 
 fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, ProfileError> {
     let tab = Profile::Tab {
