@@ -353,6 +353,3 @@ impl Data<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -36,6 +36,3 @@ pub use body::{Body, Motion};
 pub use force::Fan;
 pub use settings::{MotionSettings, SettingsError};
 pub use simulation::{Run, Simulation, Snapshot, Stop};
-
-#[cfg(test)]
-mod tests;

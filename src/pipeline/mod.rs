@@ -145,6 +145,3 @@ fn check_barriers(
         &|done, count| observer.part("dynamics", done, count),
     ))
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,13 +1,19 @@
-//! Roadmaps, surveys and certificates, tested on landscapes whose answers are known and by
-//! symmetries that every answer must have.
+//! Roadmaps, surveys, certificates and what is made of them, tested on landscapes whose answers are
+//! known, on real tiles, and by symmetries that every answer must have.
 
 mod analytic;
+mod barriers;
 mod certificate;
 mod counts;
 #[path = "../shared/designs.rs"]
 mod designs;
+mod inventory;
+mod minimum;
+mod neighbours;
+mod ranking;
 mod roadmap;
 mod seam;
 mod surfaces;
 mod symmetry;
+mod volume;
 mod walls;

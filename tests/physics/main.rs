@@ -1,8 +1,21 @@
-//! Magnets and shields, by principle and against independent numbers; tiles as design files say.
+//! Tiles, their contact, magnets and shields and the way they move, by principle and against
+//! independent numbers; tiles as design files say.
 
+mod block_limits;
 mod blocks;
+mod bounds;
+mod calibration;
+mod configuration;
+mod contact;
 mod design_files;
 #[path = "../shared/designs.rs"]
 mod designs;
+mod dipole_kernel;
+mod dipoles;
+mod dynamics;
 mod fixtures;
+mod shield_factor;
 mod shielding;
+mod strength;
+mod tiles;
+mod units;

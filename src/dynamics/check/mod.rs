@@ -244,6 +244,3 @@ fn is_checkable(barrier: &Barrier) -> bool {
     matches!(barrier.from, Place::State(_))
         && (barrier.bounds.caged || (barrier.pathway.len() > 1 && barrier.forward() > 0.0))
 }
-
-#[cfg(test)]
-mod tests;

@@ -410,6 +410,3 @@ pub(super) fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Conf
         Outcome::Free | Outcome::Stuck => None,
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -142,6 +142,3 @@ impl CellBounds for ShieldedBounds {
         out
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -80,31 +80,3 @@ pub(super) fn without_collinear(vertices: Vec<Vector2<f64>>) -> Vec<Vector2<f64>
         .map(|i| vertices[i])
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::OutlineError;
-    use crate::tile::outline::tests::outline;
-
-    #[test]
-    fn wrong_outlines_are_refused() {
-        let clockwise = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
-        assert_eq!(outline(&clockwise).unwrap_err(), OutlineError::Clockwise);
-        let bow_tie = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-        assert!(matches!(
-            outline(&bow_tie).unwrap_err(),
-            OutlineError::SelfCrossing(..)
-        ));
-        let spike = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
-        assert!(matches!(
-            outline(&spike).unwrap_err(),
-            OutlineError::SelfCrossing(..)
-        ));
-    }
-
-    #[test]
-    fn points_on_straight_lines_are_dropped() {
-        let square = outline(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
-        assert_eq!(square.unwrap().vertices().len(), 4);
-    }
-}

@@ -4,5 +4,6 @@ mod analytic;
 mod caged;
 mod grid;
 mod paper_tile;
+mod quadratic;
 mod random_designs;
 mod scene;

@@ -4,6 +4,7 @@ mod drawing_faults;
 mod drawings;
 mod geometry;
 mod shields;
+mod starter;
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};

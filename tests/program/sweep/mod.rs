@@ -1,5 +1,6 @@
 //! `tilebind sweep` as its users see it: the same bytes however the work is divided or broken off.
 
+mod axes;
 mod interruptions;
 mod mistakes;
 mod parts;

@@ -15,8 +15,6 @@
 //! proved: sine, cosine and arc functions of the platform are right to 8 units in the last place.
 
 mod taylor;
-#[cfg(test)]
-pub(crate) mod tests;
 
 use super::near::{Interval, NearPair, depths};
 use super::{CellBounds, Enclosure};

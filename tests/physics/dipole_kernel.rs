@@ -1,14 +1,16 @@
-mod operations;
+//! The kernel of point dipoles against the scalar formula, for every instruction set.
 
 use std::f64::consts::PI;
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-use super::lanes::{Lanes, MAX_WIDTH, Task};
-use super::*;
-use crate::potential::dipole::ScalarDipoles;
+use tilebind::Configuration;
+use tilebind::potential::batch::Level;
+use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use tilebind::potential::dipole::{Dipole, ScalarDipoles};
+use tilebind::potential::{DipolePotential, Potential};
+use tilebind::units::MU0_OVER_4PI;
 
 /// Dipoles in a disc of radius 0.3 m, at any angle, of moments from 0.1 to 1 A m^2.
 fn random_dipoles(rng: &mut ChaCha8Rng, count: usize) -> Vec<Dipole> {
@@ -28,8 +30,7 @@ fn magnitudes(fixed: &[Dipole], moving: &[Dipole], q: &Configuration) -> (f64, V
     for second in moving {
         for first in fixed {
             let r = (q.transform(second.position) - first.position).norm();
-            let u =
-                crate::units::MU0_OVER_4PI * first.moment.norm() * second.moment.norm() / r.powi(3);
+            let u = MU0_OVER_4PI * first.moment.norm() * second.moment.norm() / r.powi(3);
             let force = 3.0 * u / r;
             energy += u;
             gradient += Vector3::new(force, force, u + second.position.norm() * force);

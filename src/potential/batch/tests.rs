@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use super::super::field::{Source, TOGETHER, field};
-use super::super::lanes::Arithmetic;
+use super::field::{Source, TOGETHER, field};
+use super::lanes::Arithmetic;
 
-#[path = "../../../../tests/bench/operations.rs"]
+#[path = "../../../tests/bench/operations.rs"]
 mod known;
 
 use known::Operations;

@@ -1,15 +1,22 @@
-use super::*;
-use crate::configuration::Configuration;
-use crate::contact::Contact;
-use crate::design::Design;
-use crate::potential::bounds::dipole::tests::assert_encloses;
-use crate::potential::{MagnetModel, Potential, ShieldedPotential};
+//! Enclosures of shielded dipoles' energy over cells.
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tilebind::Configuration;
+use tilebind::cell::Cell;
+use tilebind::contact::Contact;
+use tilebind::potential::batch::Level;
+use tilebind::potential::bounds::ShieldedBounds;
+use tilebind::potential::shielding::{Shield, Shields};
+use tilebind::potential::{CellBounds, MagnetModel, Potential, ShieldedPotential};
+use tilebind::tile::Tile;
+
+use super::assert_encloses;
+use crate::designs;
 
 /// Squares of 8 cm with two magnets on each face.
 fn tiles() -> (Tile, Tile) {
-    let design = Design::load("shapes/shielded-backs.toml".as_ref()).unwrap();
+    let design = designs::load("shapes/shielded-backs.toml");
     (design.pair.fixed.clone(), design.pair.moving.clone())
 }
 

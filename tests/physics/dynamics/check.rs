@@ -1,8 +1,14 @@
-use super::*;
-use crate::design::Design;
-use crate::dynamics::tests::paper_tile;
-use crate::observer::Silent;
-use crate::pipeline::{self, Settings};
+//! Barriers checked by moving tiles: true ones stand, and false ones do not.
+
+use tilebind::dynamics::Body;
+use tilebind::dynamics::check::{BarrierCheck, CheckSettings, SideVerdict, check};
+use tilebind::landscape::{Barrier, Place};
+use tilebind::observer::Silent;
+use tilebind::pipeline;
+use tilebind::{Design, Settings};
+
+use super::paper_tile;
+use crate::designs;
 
 fn few() -> CheckSettings {
     CheckSettings {
@@ -95,7 +101,7 @@ fn a_pathway_between_other_states_does_not_stand() {
 
 #[test]
 fn a_caged_tile_stays_whatever_its_energy() {
-    let design = Design::load("shapes/dovetail.toml".as_ref()).unwrap();
+    let design = designs::load("shapes/dovetail.toml");
     let settings = Settings {
         milestones: 2000,
         ..Settings::default()

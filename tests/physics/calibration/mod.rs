@@ -1,10 +1,19 @@
+//! Shields fitted to measurements whose truth is known.
+
+mod rows;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
-
-use super::*;
-use crate::tile::{Face, Magnet, Outline};
+use rand_chacha::ChaCha8Rng;
+use tilebind::Configuration;
+use tilebind::calibration::{
+    Calibration, CalibrationError, CalibrationSettings, Row, Specimen, calibrate,
+};
+use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
+use tilebind::potential::{MagnetModel, Potential, ShieldedPotential};
+use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 const TRUTH: Shield = Shield {
     attenuation: 0.7,
@@ -62,7 +71,7 @@ fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row
         fixed: fixed_shields.to_vec(),
         moving: vec![Some(TRUTH); 4],
     });
-    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
     (0..150)
         .map(|i| {
             let configuration = Configuration::new(
@@ -76,7 +85,9 @@ fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row
                 iron: i % 3 != 0,
                 measured: [None; 4],
             };
-            let values = predictions(if row.iron { &iron } else { &bare }, &row);
+            let model = if row.iron { &iron } else { &bare };
+            let (energy, gradient) = model.energy_and_gradient(&row.configuration);
+            let values = [energy, -gradient.x, -gradient.y, -gradient.z];
             let mut noisy =
                 |k: usize| Some(1.05 * values[k] + noise * SIZES[k] * rng.random_range(-1.0..1.0));
             row.measured = [noisy(0).filter(|_| i % 2 == 0), noisy(1), noisy(2), None];

@@ -1,8 +1,13 @@
+//! Docking runs: chances against another engine's, and what every run must obey.
+
 use std::sync::Arc;
 
-use super::*;
-use crate::design::Design;
-use crate::dynamics::tests::paper_tile;
+use tilebind::dynamics::docking::{
+    DockingError, DockingSettings, ENGINE, MatchRule, dock, share_within, trajectory,
+};
+use tilebind::{Configuration, Design};
+
+use super::paper_tile;
 
 fn few(runs: usize) -> DockingSettings {
     DockingSettings {

@@ -1,10 +1,15 @@
-use super::*;
-use crate::landscape::Place;
-use crate::observer::Silent;
+//! Barriers of real tiles: none lower by way of a third state, and a way out without play.
+
+use tilebind::Settings;
+use tilebind::landscape::{Barrier, Place};
+use tilebind::observer::Silent;
+use tilebind::pipeline::analyse;
+
+use crate::designs;
 
 #[test]
 fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
-    let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
+    let design = designs::load("shapes/paper-tile.toml");
     let analysis = analyse(&design, &Settings::default(), &Silent);
     let barriers = &analysis.inventory.barriers;
     let mut compared = 0;
@@ -24,7 +29,7 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
 
 #[test]
 fn teeth_without_play_are_pulled_out_straight() {
-    let design = Design::load("shapes/square-teeth-10mm.toml".as_ref()).unwrap();
+    let design = designs::load("shapes/square-teeth-10mm.toml");
     let settings = Settings {
         milestones: 300,
         certify_seconds: 0.0,

@@ -1,15 +1,19 @@
+//! Tiles that really move: knocks, friction, drag, shaking and fans by the laws of mechanics.
+
+mod check;
+mod docking;
+
 use nalgebra::{Vector2, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use tilebind::dynamics::{Body, Fan, Motion, MotionSettings, Run, Simulation, Snapshot, Stop};
+use tilebind::potential::Potential;
+use tilebind::{Configuration, Design, Problem};
 
-use super::*;
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::potential::Potential;
-use crate::problem::Problem;
+use crate::designs;
 
 /// A steady force (N, N) and torque (N m): U = -F.q.
-pub(super) struct Steady(pub Vector3<f64>);
+struct Steady(Vector3<f64>);
 
 impl Potential for Steady {
     fn energy(&self, q: &Configuration) -> f64 {
@@ -29,8 +33,8 @@ impl Potential for Steady {
     }
 }
 
-pub(super) fn paper_tile() -> Design {
-    Design::load("shapes/paper-tile.toml".as_ref()).unwrap()
+fn paper_tile() -> Design {
+    designs::load("shapes/paper-tile.toml")
 }
 
 /// The paper's tiles under a steady force in place of their magnets.

@@ -1,81 +1,24 @@
-use super::*;
-use crate::configuration::Configuration;
-use crate::contact::Contact;
-use crate::potential::{DipolePotential, Potential};
-use crate::tile::{Magnet, Outline};
-use nalgebra::Vector2;
+//! Enclosures of point dipoles' energy over cells.
+
+use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::f64::consts::PI;
+use tilebind::Configuration;
+use tilebind::cell::Cell;
+use tilebind::contact::Contact;
+use tilebind::potential::batch::Level;
+use tilebind::potential::bounds::DipoleBounds;
+use tilebind::potential::{CellBounds, DipolePotential, Potential};
+use tilebind::tile::Tile;
+use tilebind::units::MU0_OVER_4PI;
 
-/// A square of side 0.43 m with four magnets on each face, +1 for north pole out.
-pub fn square_tile(code: [f64; 4]) -> Tile {
-    let half = 0.215;
-    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
-    let mut magnets = Vec::new();
-    for face in 0..4 {
-        let angle = face as f64 * PI / 2.0;
-        let normal = Vector2::new(angle.cos(), angle.sin());
-        let tangent = Vector2::new(-angle.sin(), angle.cos());
-        for (k, sign) in code.iter().enumerate() {
-            magnets.push(Magnet {
-                position: normal * (half - 0.005) + tangent * ((k as f64 - 1.5) * 0.04),
-                angle: if *sign > 0.0 { angle } else { angle + PI },
-                moment: 1.2 * 3e-7 / crate::units::MU0,
-                size: [0.01, 0.01, 0.003],
-                face,
-            });
-        }
-    }
-    Tile {
-        outline: Outline::new(corners.map(|c| Vector2::new(c[0], c[1])).to_vec()).unwrap(),
-        faces: Vec::new(),
-        magnets,
-        mass: 0.1,
-        thickness: 0.013,
-    }
-}
-
-pub fn paper_tiles() -> (Tile, Tile) {
-    (
-        square_tile([1.0, 1.0, 1.0, -1.0]),
-        square_tile([1.0, -1.0, -1.0, -1.0]),
-    )
-}
+use super::{assert_encloses, paper_tiles};
 
 #[test]
 fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
     for level in Level::available() {
         check_random_cells(level);
     }
-}
-
-/// Asserts that the energies of free ones among twenty random configurations of a cell lie in its
-/// enclosure; returns how many these were.
-pub fn assert_encloses(
-    enclosure: &Enclosure,
-    potential: &dyn Potential,
-    contact: &Contact,
-    cell: &Cell,
-    rng: &mut ChaCha8Rng,
-) -> usize {
-    let mut tested = 0;
-    for _ in 0..20 {
-        let d = cell.half.map(|half| half * rng.random_range(-1.0..=1.0));
-        let q = cell.centre.moved(d.into());
-        if !contact.is_free(&q) {
-            continue;
-        }
-        let rest = potential.energy(&q) - enclosure.form.at(d);
-        tested += 1;
-        assert!(
-            rest >= enclosure.low && rest <= enclosure.high,
-            "{cell:?} {d:?}: {rest} not in [{}, {}]",
-            enclosure.low,
-            enclosure.high
-        );
-    }
-    tested
 }
 
 fn check_random_cells(level: Level) {
@@ -134,7 +77,7 @@ fn a_cell_of_no_size_gives_the_energy_and_its_gradient() {
     for i in 0..3 {
         assert!((enclosure.form.gradient[i] - gradient[i]).abs() < 1e-12);
         let h = 1e-5;
-        let mut step = nalgebra::Vector3::zeros();
+        let mut step = Vector3::zeros();
         step[i] = h;
         let there = potential.energy_and_gradient(&q.moved(step)).1;
         let back = potential.energy_and_gradient(&q.moved(-step)).1;

@@ -1,0 +1,88 @@
+//! Names of states, and the lowest ways out of them.
+
+use tilebind::landscape::{Barrier, Inventory, Place, State, StateKind};
+use tilebind::potential::DipolePotential;
+use tilebind::{Configuration, ConfigurationSpace, Problem};
+
+fn state(kind: StateKind, energy: f64) -> State {
+    State {
+        id: 0,
+        kind,
+        configuration: Configuration::new(0.0, 0.0, 0.0),
+        energy,
+        class: 0,
+        faces: Vec::new(),
+        attracting: 0,
+        repelling: 0,
+        block_energy: None,
+        capture: None,
+    }
+}
+
+/// A barrier between places with these energies, over a saddle of its own.
+fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
+    let start = Configuration::new(0.0, 0.0, 0.0);
+    let to = to.map_or((Place::Free, 0.0), |(id, energy)| {
+        (Place::State(id), energy)
+    });
+    Barrier {
+        saddle_energy,
+        ..Barrier::without_a_way((Place::State(0), -1.0), start, to)
+    }
+}
+
+#[test]
+fn letters_go_by_depth_and_twins_share_one() {
+    let state = |id: usize, class: usize, kind: StateKind, energy: f64| State {
+        id,
+        class,
+        ..state(kind, energy)
+    };
+    let [bond, trap] = [StateKind::Bond, StateKind::Trap];
+    let states = vec![
+        state(0, 0, bond, -2.0),
+        state(1, 0, bond, -2.0),
+        // Deeper than the bond, as with a wrong partner.
+        state(2, 2, trap, -3.0),
+        state(3, 3, trap, -1.0),
+        state(4, 3, trap, -1.0),
+        state(5, 5, trap, -1.0 + 1e-9),
+        state(6, 6, trap, -0.5),
+    ];
+    let mut inventory = Inventory {
+        states,
+        ..Inventory::default()
+    };
+    let names = ["A", "A.2", "B", "C", "C.2", "C'", "D"];
+    assert_eq!(inventory.names(), names);
+    assert_eq!(inventory.name_of(Place::State(5)), "trap C'");
+    assert_eq!(inventory.name_of(Place::Free), "free");
+    // Without a bond no state is called A; after Z comes AA.
+    let traps = (0..27).map(|id| state(id, id, trap, id as f64 - 40.0));
+    inventory.states = traps.collect();
+    assert_eq!(inventory.names()[0], "B");
+    assert_eq!(inventory.names()[25..], ["AA", "AB"]);
+}
+
+#[test]
+fn an_escape_is_the_lowest_known_way_down() {
+    let space = ConfigurationSpace {
+        half_size: [10.0, 10.0],
+        rho: 0.1,
+        free_distance: 1.0,
+    };
+    let energy = DipolePotential::new(&[], &[]);
+    let problem = Problem::without_contact(space, Box::new(energy));
+    let to_lower = barrier(Some((1, -2.0)), 3.0);
+    let to_higher = barrier(Some((2, -0.5)), 1.0);
+    let mut inventory = Inventory {
+        states: vec![state(StateKind::Bond, -1.0)],
+        barriers: vec![barrier(None, 5.0), to_lower.clone(), to_higher],
+        ..Inventory::default()
+    };
+    assert_eq!(inventory.escape(&problem, 0), Some(to_lower));
+    // A cage is told by the only barrier there is.
+    inventory.barriers = vec![barrier(None, f64::INFINITY)];
+    inventory.barriers[0].bounds.caged = true;
+    assert!(inventory.escape(&problem, 0).unwrap().bounds.caged);
+}

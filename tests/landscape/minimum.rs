@@ -1,0 +1,47 @@
+//! Descents to minima of real tiles.
+
+use tilebind::Configuration;
+use tilebind::design::MagnetModel;
+use tilebind::landscape::minimum::{Outcome, descend, drift};
+
+use crate::designs;
+
+#[test]
+fn a_shallow_minimum_is_not_jumped_out_of() {
+    // 2 mm beside this one a ridge of 16 µJ hides a slope that falls by 16 mJ.
+    let design = designs::load("shapes/arrowhead.toml");
+    let problem = design.problem();
+    let minimum = Configuration::new(0.347_926_5, -0.052_362_2, 0.0);
+    for [x, y, theta] in [
+        [0.347_843_4, -0.052_206_4, -1.298e-6],
+        [0.347_833_9, -0.052_187_7, 1.312e-6],
+        [0.348_1, -0.052_3, 0.0],
+    ] {
+        let start = Configuration::new(x, y, theta);
+        assert!(problem.is_free(&start), "{start:?}");
+        let Outcome::Minimum(end) = descend(&problem, &start).outcome else {
+            panic!("no minimum from {start:?}");
+        };
+        let distance = problem.space.distance(&end.point.q, &minimum);
+        assert!(distance < 1e-6, "from {start:?}: {:?}", end.point.q);
+    }
+}
+
+#[test]
+fn blocks_come_to_rest_beside_the_bond_as_dipoles_do() {
+    // Slid by one magnet, blocks of both tiles touch edge to edge, where the second derivative
+    // of their energy has no bound and the energy itself is least certain.
+    let mut design = designs::load("shapes/one-face.toml");
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+        design.interaction.model = model;
+        let problem = design.problem();
+        for y in [0.041, 0.039, -0.039, -0.041] {
+            let start = Configuration::new(0.43, y, 0.0);
+            let Outcome::Minimum(end) = drift(&problem, &start) else {
+                panic!("{model:?} from {y}: no minimum");
+            };
+            let aside = end.point.q.y.abs() - 0.04;
+            assert!(aside.abs() < 5e-5, "{model:?} from {y}: {:?}", end.point.q);
+        }
+    }
+}

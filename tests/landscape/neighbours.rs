@@ -1,0 +1,65 @@
+//! Neighbours of milestones.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tilebind::roadmap::Milestone;
+use tilebind::roadmap::neighbour::{NeighbourSearch, neighbour_pairs, neighbours_per_milestone};
+use tilebind::{Configuration, ConfigurationSpace};
+
+#[test]
+fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
+    let space = ConfigurationSpace {
+        half_size: [1.0, 1.0],
+        rho: 0.3,
+        free_distance: 0.5,
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let milestones: Vec<Milestone> = (0..500)
+        .map(|_| Milestone {
+            configuration: Configuration::new(
+                rng.random_range(-1.0..1.0),
+                rng.random_range(-1.0..1.0),
+                rng.random_range(-PI..PI),
+            ),
+            energy: 0.0,
+            gradient: Vector3::zeros(),
+        })
+        .collect();
+    let search = NeighbourSearch::new(&milestones, &space);
+    for m in &milestones {
+        let q = &m.configuration;
+        let mut plain: Vec<(f64, u32)> = milestones
+            .iter()
+            .enumerate()
+            .map(|(i, other)| (space.distance(q, &other.configuration).powi(2), i as u32))
+            .collect();
+        plain.sort_by_key(|(squared, _)| OrderedFloat(*squared));
+        let found = search.nearest(q, 12);
+        assert_eq!(found.len(), 12);
+        for (f, p) in found.iter().zip(&plain) {
+            assert!((f.0 - p.0).abs() < 1e-12 && f.1 == p.1);
+        }
+    }
+}
+
+#[test]
+fn few_milestones_have_few_neighbours() {
+    assert_eq!(neighbours_per_milestone(10_000), 34);
+    let space = ConfigurationSpace {
+        half_size: [1.0, 1.0],
+        rho: 0.3,
+        free_distance: 0.5,
+    };
+    let at = |x: f64| Milestone {
+        configuration: Configuration::new(x, 0.0, 0.0),
+        energy: 0.0,
+        gradient: Vector3::zeros(),
+    };
+    assert!(neighbour_pairs(&[at(0.0)], &space, 5).is_empty());
+    let pairs = neighbour_pairs(&[at(0.0), at(0.1), at(0.2)], &space, 5);
+    assert_eq!(pairs, [(0, 1), (0, 2), (1, 2)]);
+}

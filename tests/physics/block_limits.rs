@@ -1,0 +1,70 @@
+//! Bounds of a pair of blocks' energy and its derivatives.
+
+use nalgebra::Vector2;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tilebind::potential::cuboid::block::{Block, exact};
+use tilebind::potential::cuboid::limits::{Limits, face_distances};
+
+fn random_pair(rng: &mut ChaCha8Rng, gap: f64) -> (Block, Block) {
+    let first = Block::new(0.3, [0.010, 0.012, 0.003]);
+    let size = [0.008, 0.007, 0.005];
+    let angle: f64 = rng.random_range(-3.2..3.2);
+    let reach = (size[0] * angle.cos().abs() + size[1] * angle.sin().abs()) / 2.0;
+    let second = Block {
+        position: Vector2::new(0.005 + gap + reach, rng.random_range(-0.012..0.012)),
+        axis: Vector2::new(angle.cos(), angle.sin()),
+        ..Block::new(0.2, size)
+    };
+    (first, second)
+}
+
+fn moved(block: &Block, step: Vector2<f64>) -> Block {
+    Block {
+        position: block.position + step,
+        ..*block
+    }
+}
+
+#[test]
+fn energies_and_gradients_stay_below_their_bounds() {
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    for gap in [0.0, 1e-4, 1e-3, 1e-2, 5e-2, 0.3] {
+        for _ in 0..100 {
+            let (first, second) = random_pair(&mut rng, gap);
+            let limits = Limits::new(&first, &second);
+            let pair = exact(&first, &second);
+            assert!(pair.energy.abs() <= limits.energy(gap));
+            assert!(pair.gradient.norm() <= limits.gradient(0.0, gap));
+        }
+    }
+}
+
+#[test]
+fn the_bound_of_the_energy_is_attained_by_a_block_on_its_own_copy() {
+    let block = Block::new(0.3, [0.010, 0.012, 0.003]);
+    let limits = Limits::new(&block, &block);
+    let energy = exact(&block, &block).energy;
+    assert!(energy <= limits.energy(0.0) && energy > 0.999 * limits.energy(0.0));
+}
+
+#[test]
+fn second_differences_stay_below_their_bounds() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    for gap in [3e-4, 1e-3, 5e-3, 3e-2] {
+        for _ in 0..100 {
+            let (first, second) = random_pair(&mut rng, gap);
+            let limits = Limits::new(&first, &second);
+            let h = 0.1 * gap;
+            let direction: f64 = rng.random_range(-3.2..3.2);
+            let step = Vector2::new(direction.cos(), direction.sin()) * h;
+            let at = |t: f64| exact(&first, &moved(&second, step * t));
+            let second_derivative =
+                (at(1.0).gradient - at(-1.0).gradient).dot(&step) / (2.0 * h * h);
+            let distances = face_distances(&first, &second).map(|d| d - h);
+            let bound = limits.curvature_of_faces(0.0, distances);
+            assert!(second_derivative.abs() <= bound, "{gap}");
+            assert!(second_derivative.abs() <= limits.curvature(0.0, gap - h));
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Bounds of energies over cells hold what they enclose, and are as narrow as they are meant to be.
+
+mod cuboid;
+mod dipole;
+mod shielded;
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use tilebind::cell::Cell;
+use tilebind::contact::Contact;
+use tilebind::potential::Potential;
+use tilebind::potential::bounds::Enclosure;
+use tilebind::tile::{Magnet, Outline, Tile};
+use tilebind::units::MU0;
+
+/// A square of side 0.43 m with four magnets on each face, +1 for north pole out.
+fn square_tile(code: [f64; 4]) -> Tile {
+    let half = 0.215;
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let mut magnets = Vec::new();
+    for face in 0..4 {
+        let angle = face as f64 * PI / 2.0;
+        let normal = Vector2::new(angle.cos(), angle.sin());
+        let tangent = Vector2::new(-angle.sin(), angle.cos());
+        for (k, sign) in code.iter().enumerate() {
+            magnets.push(Magnet {
+                position: normal * (half - 0.005) + tangent * ((k as f64 - 1.5) * 0.04),
+                angle: if *sign > 0.0 { angle } else { angle + PI },
+                moment: 1.2 * 3e-7 / MU0,
+                size: [0.01, 0.01, 0.003],
+                face,
+            });
+        }
+    }
+    Tile {
+        outline: Outline::new(corners.map(|c| Vector2::new(c[0], c[1])).to_vec()).unwrap(),
+        faces: Vec::new(),
+        magnets,
+        mass: 0.1,
+        thickness: 0.013,
+    }
+}
+
+pub fn paper_tiles() -> (Tile, Tile) {
+    (
+        square_tile([1.0, 1.0, 1.0, -1.0]),
+        square_tile([1.0, -1.0, -1.0, -1.0]),
+    )
+}
+
+/// Asserts that the energies of free ones among twenty random configurations of a cell lie in its
+/// enclosure; returns how many these were.
+pub fn assert_encloses(
+    enclosure: &Enclosure,
+    potential: &dyn Potential,
+    contact: &Contact,
+    cell: &Cell,
+    rng: &mut ChaCha8Rng,
+) -> usize {
+    let mut tested = 0;
+    for _ in 0..20 {
+        let d = cell.half.map(|half| half * rng.random_range(-1.0..=1.0));
+        let q = cell.centre.moved(d.into());
+        if !contact.is_free(&q) {
+            continue;
+        }
+        let rest = potential.energy(&q) - enclosure.form.at(d);
+        tested += 1;
+        assert!(
+            rest >= enclosure.low && rest <= enclosure.high,
+            "{cell:?} {d:?}: {rest} not in [{}, {}]",
+            enclosure.low,
+            enclosure.high
+        );
+    }
+    tested
+}

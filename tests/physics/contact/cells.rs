@@ -1,0 +1,60 @@
+//! Cells of configurations: blocked, cut or open.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tilebind::Configuration;
+use tilebind::cell::Cell;
+use tilebind::contact::Contact;
+use tilebind::contact::cells::{CellContact, ContactCells, Cut};
+
+use super::{saw, square};
+
+#[test]
+fn no_free_configuration_is_blocked_or_cut_off() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for (a, b) in [
+        (square(0.43), square(0.43)),
+        (saw(false), saw(true)),
+        (saw(true), saw(false)),
+    ] {
+        let contact = Contact::new(&a, &b);
+        let cells = ContactCells::new(&contact);
+        let (mut blocked, mut cut, mut cut_off, mut cornered) = (0, 0, 0, 0);
+        for _ in 0..2000 {
+            let size = 10f64.powf(rng.random_range(-3.5..-0.7));
+            let cell = Cell {
+                centre: Configuration::new(
+                    rng.random_range(-0.6..0.6),
+                    rng.random_range(-0.6..0.6),
+                    rng.random_range(-3.1..3.1),
+                ),
+                half: std::array::from_fn(|_| size * rng.random_range(0.05..1.0)),
+            };
+            let verdict = cells.classify(&cell);
+            for _ in 0..20 {
+                let d: [f64; 3] =
+                    std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
+                let free = contact.is_free(&cell.centre.moved(d.into()));
+                match &verdict {
+                    CellContact::Blocked => {
+                        blocked += 1;
+                        assert!(!free, "{cell:?} {d:?}");
+                    }
+                    CellContact::Open { cuts, corners, .. } => {
+                        let holds = |c: &Cut| c.form.at(d) + c.slack >= 0.0;
+                        let allowed = cuts.iter().all(holds)
+                            && corners.iter().all(|pair| pair.iter().any(holds));
+                        assert!(allowed || !free, "{cell:?} {d:?}");
+                        cut += usize::from(!cuts.is_empty());
+                        cornered += usize::from(!corners.is_empty());
+                        cut_off += usize::from(!allowed);
+                    }
+                }
+            }
+        }
+        assert!(
+            blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5,
+            "{blocked} {cut} {cut_off} {cornered}"
+        );
+    }
+}

@@ -1,0 +1,94 @@
+//! What touching leaves free: gaps, their gradients and the directions they admit.
+
+use nalgebra::{Matrix3, Vector3};
+use tilebind::Configuration;
+use tilebind::contact::{Contact, closest_admissible};
+
+use super::{saw, square};
+
+fn flush() -> (Contact, Configuration) {
+    let contact = Contact::new(&square(0.4), &square(0.4));
+    (contact, Configuration::new(0.4, 0.05, 0.0))
+}
+
+#[test]
+fn gaps_and_their_gradients_agree_with_finite_differences() {
+    for (a, b, q) in [
+        (
+            square(0.4),
+            square(0.4),
+            Configuration::new(0.41, 0.05, 0.03),
+        ),
+        (
+            square(0.4),
+            square(0.4),
+            Configuration::new(0.41, -0.05, -0.03),
+        ),
+        (
+            saw(false),
+            saw(true),
+            Configuration::new(0.402, 0.0003, 0.01),
+        ),
+    ] {
+        let contact = Contact::new(&a, &b);
+        let here = contact.constraints(&q, 0.02);
+        assert!(!here.is_empty());
+        let h = 1e-7;
+        for axis in 0..3 {
+            let mut step = Vector3::zeros();
+            step[axis] = h;
+            let there = contact.constraints(&q.moved(step), 0.02);
+            let back = contact.constraints(&q.moved(-step), 0.02);
+            assert_eq!((here.len(), here.len()), (there.len(), back.len()));
+            for k in 0..here.len() {
+                let slope = (there[k].gap - back[k].gap) / (2.0 * h);
+                assert!((slope - here[k].gradient[axis]).abs() < 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flush_face_may_slide_and_leave_but_not_enter_or_turn() {
+    let (contact, q) = flush();
+    let constraints = contact.constraints(&q, 1e-6);
+    let metric = Matrix3::identity();
+    let go = |v: Vector3<f64>| closest_admissible(v, &metric, &constraints).unwrap().0;
+    let slide = Vector3::new(0.0, 1.0, 0.0);
+    assert!((go(slide) - slide).norm() < 1e-12);
+    let leave = Vector3::new(1.0, 0.3, 0.1);
+    assert!((go(leave) - leave).norm() < 1e-12);
+    assert!(go(Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
+    let turned = go(Vector3::new(-1.0, 0.5, 0.0));
+    assert!((turned - Vector3::new(0.0, 0.5, 0.0)).norm() < 1e-12);
+    // A turn in place is possible only by backing off.
+    let turned = go(Vector3::new(0.0, 0.0, 1.0));
+    assert!(turned.x > 0.0 && turned.z > 0.0);
+}
+
+#[test]
+fn coinciding_corners_do_not_hinder_sliding_either_way() {
+    let contact = Contact::new(&square(0.4), &square(0.4));
+    let constraints = contact.constraints(&Configuration::new(0.4, 0.0, 0.0), 1e-6);
+    for dy in [-1.0, 1.0] {
+        let wanted = Vector3::new(-0.5, dy, 0.0);
+        let (go, multipliers) =
+            closest_admissible(wanted, &Matrix3::identity(), &constraints).unwrap();
+        assert!((go - Vector3::new(0.0, dy, 0.0)).norm() < 1e-12);
+        assert!(multipliers.iter().all(|m| *m >= 0.0));
+    }
+}
+
+#[test]
+fn mated_teeth_only_let_go_outwards() {
+    let contact = Contact::new(&saw(false), &saw(true));
+    let constraints = contact.constraints(&Configuration::new(0.4, 0.0, 0.0), 1e-6);
+    let go = |v| {
+        closest_admissible(v, &Matrix3::identity(), &constraints)
+            .unwrap()
+            .0
+    };
+    assert!(go(Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
+    let slid = go(Vector3::new(0.0, 1.0, 0.0));
+    assert!(slid.x > 0.0, "a slide climbs the teeth: {slid}");
+}

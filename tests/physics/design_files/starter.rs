@@ -1,0 +1,33 @@
+//! The design that users start from.
+
+use tilebind::design::{Design, STARTER};
+
+#[test]
+fn the_starter_is_a_sound_design() {
+    let design = Design::parse(STARTER, "starter.toml").unwrap();
+    assert!(design.warnings.is_empty());
+    assert_eq!(design.pair.bound.to_array(), [0.43, 0.0, 0.0]);
+}
+
+/// What the remarks offer can be had by taking the `#` away.
+#[test]
+fn the_starter_s_remarks_are_sound_too() {
+    let mut taken = 0;
+    for line in STARTER.lines() {
+        let offered = line.strip_prefix("# ").filter(|rest| {
+            let first = rest.split(' ').nth(1);
+            first == Some("=") || rest.starts_with("[potential]")
+        });
+        // Corners instead of a side make another tile, with other faces.
+        let Some(offered) = offered.filter(|rest| !rest.starts_with("vertices")) else {
+            continue;
+        };
+        let mut text = STARTER.replacen(line, offered, 1);
+        if offered.starts_with("model") {
+            text = text.replacen("# [potential]", "[potential]", 1);
+        }
+        Design::parse(&text, "starter.toml").unwrap_or_else(|e| panic!("{offered}: {e}"));
+        taken += 1;
+    }
+    assert_eq!(taken, 5);
+}
