@@ -11,7 +11,7 @@ use toml::Table;
 use super::vary::{Axis, Value};
 use super::{document, drawings};
 use crate::comparison::AssessmentSettings;
-use crate::design::{Design, DesignError};
+use crate::design::{Design, DesignError, file};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 1_000_000;
@@ -280,13 +280,13 @@ impl Plan {
 }
 
 impl Source {
-    fn read(file: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
-        let design = Design::load(file).map_err(Box::new)?;
-        let text = std::fs::read_to_string(file)
-            .map_err(|error| PlanError::Malformed(format!("{}: {error}", file.display())))?;
+    fn read(path: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
+        let design = Design::load(path).map_err(Box::new)?;
+        let text = file::read_text(path)
+            .map_err(|error| PlanError::Malformed(format!("{}: {error}", path.display())))?;
         let mut source = Self {
             name: design.name,
-            file: file.display().to_string(),
+            file: path.display().to_string(),
             sha256: design.sha256,
             text,
             drawings: BTreeMap::new(),

@@ -18,6 +18,9 @@ const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 /// Most elements of a drawing.
 const MOST_NODES: u32 = 200_000;
 
+/// Most elements within one another: reading goes one call deeper with each.
+const MOST_NESTED: usize = 256;
+
 /// Cubics that stand for an arc leave it by this share of the chord error at most.
 const ARC_SHARE: f64 = 1e-3;
 
@@ -81,7 +84,7 @@ pub(super) fn read(
     };
     reader.refuse_unread_transforms(root, true)?;
     let map = scale(source, root, unit)?;
-    reader.children(root, map)?;
+    reader.children(root, map, 0)?;
     Ok((reader.shapes, reader.skipped))
 }
 
@@ -93,17 +96,23 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn children(&mut self, parent: Node, map: Affine) -> Result<()> {
+    /// Reads what an element holds, `depth` elements below the root.
+    fn children(&mut self, parent: Node, map: Affine, depth: usize) -> Result<()> {
+        if depth > MOST_NESTED {
+            let message = format!("more than {MOST_NESTED} elements are within one another");
+            let help = "ungroup the drawing's shapes in the drawing program";
+            return Err(self.source.error(span(parent), message, help));
+        }
         for node in parent.children().filter(Node::is_element) {
             // Notes of the drawing program, licences and the like draw nothing.
             if is_svg(node) {
-                self.element(node, map)?;
+                self.element(node, map, depth)?;
             }
         }
         Ok(())
     }
 
-    fn element(&mut self, node: Node, map: Affine) -> Result<()> {
+    fn element(&mut self, node: Node, map: Affine, depth: usize) -> Result<()> {
         let name = node.tag_name().name();
         let empty = || node.text().is_none_or(|text| text.trim().is_empty());
         match name {
@@ -131,7 +140,7 @@ impl Reader<'_> {
         self.refuse_unread_transforms(node, false)?;
         let map = map * self.transform(node)?;
         if container {
-            return self.children(node, map);
+            return self.children(node, map, depth + 1);
         }
         self.shape(node, map)
     }
