@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use super::drawings::{design, drawn, outlined};
+use super::drawings::{design, drawn, outlined, profiled};
 use tilebind::design::{Design, DesignError};
 
 /// What `load` says, within a few seconds.
@@ -93,4 +93,63 @@ fn deeply_nested_groups_are_refused() {
         assert!(error.message.contains("more than 256 elements"), "{error}");
         assert_eq!(error.place.unwrap().line, 2);
     }
+}
+
+#[test]
+fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
+    let far = "m from the drawing's origin, more than 1000";
+    let cases = [
+        ("<rect width=\"1e100\" height=\"9\"/>", far),
+        ("<path d=\"M0 0C1e100 0 1e100 9 0 9z\"/>", far),
+        ("<path d=\"M0 0Q1e7 0 0 9z\"/>", far),
+        ("<path d=\"M0 0h1e9v1e9z\"/>", far),
+        (
+            "<path transform=\"scale(1e100)\" d=\"M0 0C1 0 1 1 0 1z\"/>",
+            far,
+        ),
+        // Far across, though not far along.
+        (
+            "<path transform=\"scale(1e-3 1e100)\" d=\"M0 0c9 0 9 9 0 9z\"/>",
+            far,
+        ),
+        (
+            "<g transform=\"scale(1e200)\"><path transform=\"scale(1e200)\" d=\"M0 0c9 0 9 9 0 9z\"/></g>",
+            "not finite",
+        ),
+        (
+            "<path transform=\"scale(1e200)\" d=\"M0 0a1 1 0 0 0 9 9z\"/>",
+            "m from the drawing's origin",
+        ),
+        (
+            "<path d=\"M0 0A1e100 1e100 0 0 0 9 9z\"/>",
+            "more than 200 km",
+        ),
+        ("<circle r=\"1e100\"/>", far),
+        ("<ellipse rx=\"1e300\" ry=\"1\"/>", far),
+    ];
+    for (content, expected) in cases {
+        let drawing = drawn(content);
+        let error = at_once(move || outlined(&drawing, ""));
+        assert!(error.message.contains(expected), "{content}: {error}");
+        assert_eq!(error.place.unwrap().line, 2, "{content}");
+    }
+    for head in [
+        "width=\"1e300mm\" height=\"1e300mm\" viewBox=\"0 0 1 1\"",
+        "width=\"1mm\" height=\"1mm\" viewBox=\"0 0 1e-300 1e-300\"",
+    ] {
+        let drawing = format!("<svg {head}><circle r=\"1e100\"/></svg>");
+        let error = at_once(move || outlined(&drawing, ""));
+        assert!(error.message.contains("the shape"), "{error}");
+    }
+    // Not one curve, but thousands of them.
+    let petals = "c900 0 900 900 0 0".repeat(20_000);
+    let petals = drawn(&format!("<path d=\"M0 0{petals}z\"/>"));
+    let error = at_once(move || outlined(&petals, ""));
+    assert!(
+        error.message.contains("more than 1000000 points"),
+        "{error}"
+    );
+    // An arc that is almost straight is none of these.
+    let straight = drawn("<path d=\"M0 100A1e6 1e6 0 0 1 100 100\"/>");
+    assert!(profiled(&straight, "").is_ok());
 }
