@@ -13,7 +13,7 @@ use tilebind::report::writer::{self, Extent, WriteError};
 
 use super::failure::fail_if_contradicted;
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell};
+use super::{Failure, input, interrupt, memory, tell};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -91,6 +91,7 @@ impl Analyse {
         let start = Instant::now();
         let design = self.design.load()?;
         self.check_out()?;
+        memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
         interrupt::prepare()?;
 

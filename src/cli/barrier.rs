@@ -12,7 +12,7 @@ use tilebind::{Configuration, Settings};
 
 use super::options::{DesignOptions, WorkOptions};
 use super::progress::Progress;
-use super::{Failure, input, interrupt, print};
+use super::{Failure, input, interrupt, memory, print};
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
@@ -71,6 +71,7 @@ impl Barrier {
         if let Some(file) = &self.pathway {
             input::check_file(file)?;
         }
+        memory::check(self.milestones, None, 1)?;
         self.work.use_threads()?;
         interrupt::prepare()?;
         let progress = Progress::new(self.quiet);

@@ -18,7 +18,7 @@ use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
 use super::word::Word;
-use super::{Failure, input, interrupt};
+use super::{Failure, input, interrupt, memory};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -67,10 +67,11 @@ impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         let designs = self.load()?;
         input::check_folder(&self.out)?;
+        let settings = self.options.settings();
+        memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
         interrupt::prepare()?;
 
-        let settings = self.options.settings();
         let progress = self.print.progress();
         let assessments: Vec<Assessment> = designs
             .iter()

@@ -13,6 +13,7 @@ mod failure;
 pub mod init;
 mod input;
 mod interrupt;
+mod memory;
 mod options;
 mod progress;
 pub mod schema;

@@ -15,7 +15,7 @@ use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, print};
+use super::{Failure, input, interrupt, memory, print};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -107,6 +107,7 @@ impl Sweep {
         if let Some(file) = &self.run {
             let (plan, folder) = self.read(file)?;
             check_folders(&folder)?;
+            self.check_memory(&plan)?;
             interrupt::prepare_resumable()?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
@@ -126,6 +127,9 @@ impl Sweep {
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         input::check_file(&file)?;
         check_folders(&folder)?;
+        if self.plan.is_none() {
+            self.check_memory(&plan)?;
+        }
         interrupt::prepare_resumable()?;
         let text = plan.to_text();
         interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
@@ -164,6 +168,13 @@ impl Sweep {
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         Ok((plan, folder))
+    }
+
+    /// Refuses points for which the machine has not the memory, as many as are worked on at once.
+    fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
+        let at_once = self.work.threads().min(plan.points().len());
+        let settings = &plan.settings;
+        memory::check(settings.milestones, settings.neighbours, at_once)
     }
 
     fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {

@@ -8,10 +8,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::error::DesignError;
+use super::file;
 use crate::checksum::sha256;
-
-/// Largest drawing (bytes).
-const LARGEST: u64 = 16 << 20;
 
 /// A drawing that a design refers to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,12 +31,14 @@ pub(super) struct Drawings<'a> {
 
 /// The text of a drawing that the design at `design` calls `name`.
 pub(crate) fn read_text(design: &str, name: &str) -> std::io::Result<String> {
-    let path = path(design, name);
-    if std::fs::metadata(&path)?.len() > LARGEST {
-        let message = format!("it is larger than {} MB", LARGEST >> 20);
-        return Err(std::io::Error::other(message));
-    }
-    std::fs::read_to_string(path)
+    file::read_text(&path(design, name))
+}
+
+/// Whether faults may show lines of a drawing: one that lies with its design. A design that comes
+/// from elsewhere is not to show what any other file holds.
+pub(super) fn may_be_quoted(design: &str, name: &str) -> bool {
+    let folder = Path::new(design).parent();
+    folder.is_some_and(|folder| file::is_below(&path(design, name), folder))
 }
 
 pub(super) fn path(design: &str, name: &str) -> std::path::PathBuf {

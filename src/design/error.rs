@@ -36,8 +36,9 @@ pub struct Place {
     pub column: usize,
     /// How many characters of the line are meant, at least 1.
     pub width: usize,
-    /// The line's text.
-    pub source: String,
+    /// The line's text; `None` where it is not to be shown, as of a drawing elsewhere than its
+    /// design.
+    pub source: Option<String>,
 }
 
 impl Place {
@@ -52,7 +53,7 @@ impl Place {
             line: text[..start].matches('\n').count() + 1,
             column: text[line_start..start].chars().count() + 1,
             width: text[start..end].chars().count().max(1),
-            source: text[line_start..line_end].trim_end_matches('\r').to_owned(),
+            source: Some(text[line_start..line_end].trim_end_matches('\r').to_owned()),
         }
     }
 }
@@ -60,15 +61,15 @@ impl Place {
 impl Place {
     /// The line as it is shown, and the column in it: of a long line (a drawing can be one line) a
     /// part about the place.
-    fn window(&self) -> (String, usize) {
+    fn window(&self) -> Option<(String, usize)> {
         const MOST: usize = 160;
-        let source = self.source.replace('\t', " ");
+        let source = self.source.as_ref()?.replace('\t', " ");
         if source.chars().count() <= MOST {
-            return (source, self.column);
+            return Some((source, self.column));
         }
         let start = (self.column - 1).saturating_sub(MOST / 2);
         let shown: String = source.chars().skip(start).take(MOST).collect();
-        (shown, self.column - start)
+        Some((shown, self.column - start))
     }
 }
 
@@ -88,17 +89,18 @@ impl fmt::Display for DesignError {
         };
         let number = place.line.to_string();
         let gutter = " ".repeat(number.len());
-        let (source, column) = place.window();
-        let indent = " ".repeat(column - 1);
-        let carets = "^".repeat(place.width.min(source.chars().count() + 1 - column).max(1));
         writeln!(
             f,
             "{}:{number}:{}: {}",
             self.file, place.column, self.message
         )?;
-        writeln!(f, "{gutter} |")?;
-        writeln!(f, "{number} | {source}")?;
-        writeln!(f, "{gutter} | {indent}{carets}")?;
+        if let Some((source, column)) = place.window() {
+            let indent = " ".repeat(column - 1);
+            let carets = "^".repeat(place.width.min(source.chars().count() + 1 - column).max(1));
+            writeln!(f, "{gutter} |")?;
+            writeln!(f, "{number} | {source}")?;
+            writeln!(f, "{gutter} | {indent}{carets}")?;
+        }
         write!(f, "{gutter} = help: {}", self.help)
     }
 }

@@ -34,6 +34,7 @@ mod build;
 pub(crate) mod drawings;
 mod error;
 mod face;
+pub(crate) mod file;
 mod magnet;
 mod overlap;
 mod placement;
@@ -124,7 +125,7 @@ impl Design {
     /// Where the file cannot be read, or is no sound design.
     pub fn load(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| DesignError {
+        let bytes = file::read(path).map_err(|error| DesignError {
             file: file.clone(),
             place: None,
             message: format!("cannot read the design file: {error}"),
@@ -138,6 +139,7 @@ impl Design {
                 let source = Source {
                     file: &file,
                     text: &text,
+                    quoted: true,
                     drawings: &Drawings::default(),
                 };
                 Err(source.error(
@@ -174,6 +176,7 @@ impl Design {
         let source = Source {
             file,
             text,
+            quoted: true,
             drawings: &drawings,
         };
         let root = DeTable::parse(text).map_err(|error| {

@@ -8,6 +8,8 @@ use super::error::{DesignError, Place, Span};
 pub(super) struct Source<'a> {
     pub file: &'a str,
     pub text: &'a str,
+    /// Whether faults may show lines of it.
+    pub quoted: bool,
     /// The drawings that the design refers to.
     pub drawings: &'a Drawings<'a>,
 }
@@ -19,9 +21,13 @@ impl Source<'_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> DesignError {
+        let mut place = Place::new(self.text, span);
+        if !self.quoted {
+            place.source = None;
+        }
         DesignError {
             file: self.file.to_owned(),
-            place: Some(Box::new(Place::new(self.text, span))),
+            place: Some(Box::new(place)),
             message: message.into(),
             help: help.into(),
         }
@@ -37,6 +43,7 @@ mod tests {
     fn a_fault_shows_its_place_and_its_mend() {
         let source = Source {
             file: "a.toml",
+            quoted: true,
             drawings: &Drawings::default(),
             text: "name = \"ä\"\nside = 430 # m\n",
         };
@@ -52,6 +59,7 @@ mod tests {
     fn columns_count_characters_and_places_never_leave_the_text() {
         let source = Source {
             file: "a.toml",
+            quoted: false,
             drawings: &Drawings::default(),
             text: "ä = ü",
         };

@@ -58,6 +58,17 @@ pub struct RoadmapSettings {
     pub edges: EdgeSettings,
 }
 
+/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 40 bytes
+/// a milestone and 64 + 16 an edge. Of the pairs of a milestone and one of its nearest neighbours
+/// about every other one is an edge, as most are neighbours of each other.
+///
+/// Neighbours are by the PRM* rule where `None`.
+pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
+    let neighbours = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones));
+    let neighbours = neighbours.min(milestones.saturating_sub(1));
+    milestones as f64 * (56.0 + 40.0 + (64.0 + 16.0) * neighbours as f64 / 2.0)
+}
+
 impl Roadmap {
     /// Draws the milestones and joins each to its nearest ones. `watch` is told of each stage.
     pub fn build(

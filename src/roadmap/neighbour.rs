@@ -87,6 +87,7 @@ pub fn neighbour_pairs(
     if milestones.len() < 2 {
         return Vec::new();
     }
+    let k = k.min(milestones.len() - 1);
     let search = NeighbourSearch::new(milestones, space);
     let mut pairs: Vec<(u32, u32)> = milestones
         .par_iter()

@@ -11,7 +11,7 @@ use toml::Table;
 use super::vary::{Axis, Value};
 use super::{document, drawings};
 use crate::comparison::AssessmentSettings;
-use crate::design::{Design, DesignError};
+use crate::design::{Design, DesignError, file};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 1_000_000;
@@ -96,7 +96,7 @@ pub enum PlanError {
     Twice(String),
     /// There are more points than can be handled.
     #[error("the sweep has {0} points, more than {MOST_POINTS}")]
-    TooMany(usize),
+    TooMany(u128),
     /// Two designs have one name.
     #[error("two designs are called `{0}`: give them different names")]
     SameName(String),
@@ -142,11 +142,7 @@ impl Plan {
                 return Err(PlanError::Twice(axis.key.clone()));
             }
         }
-        let lengths = axes.iter().map(|axis| axis.values.len());
-        let count = lengths.fold(designs.len(), usize::saturating_mul);
-        if count > MOST_POINTS {
-            return Err(PlanError::TooMany(count));
-        }
+        check_count(&designs, &axes)?;
         let plan = Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
             designs,
@@ -181,13 +177,14 @@ impl Plan {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// Where it is none, or one of another version.
+    /// Where it is none, or one of another version, or of too many points.
     pub fn parse(text: &str) -> Result<Self, PlanError> {
         let plan: Self =
             serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;
         if plan.tilebind != env!("CARGO_PKG_VERSION") {
             return Err(PlanError::Version(plan.tilebind));
         }
+        check_count(&plan.designs, &plan.axes)?;
         Ok(plan)
     }
 
@@ -279,14 +276,24 @@ impl Plan {
     }
 }
 
+/// Refuses more points than can be handled.
+fn check_count(designs: &[Source], axes: &[Axis]) -> Result<(), PlanError> {
+    let lengths = axes.iter().map(|axis| axis.values.len() as u128);
+    let count = lengths.fold(designs.len() as u128, u128::saturating_mul);
+    if count > MOST_POINTS as u128 {
+        return Err(PlanError::TooMany(count));
+    }
+    Ok(())
+}
+
 impl Source {
-    fn read(file: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
-        let design = Design::load(file).map_err(Box::new)?;
-        let text = std::fs::read_to_string(file)
-            .map_err(|error| PlanError::Malformed(format!("{}: {error}", file.display())))?;
+    fn read(path: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
+        let design = Design::load(path).map_err(Box::new)?;
+        let text = file::read_text(path)
+            .map_err(|error| PlanError::Malformed(format!("{}: {error}", path.display())))?;
         let mut source = Self {
             name: design.name,
-            file: file.display().to_string(),
+            file: path.display().to_string(),
             sha256: design.sha256,
             text,
             drawings: BTreeMap::new(),

@@ -104,7 +104,13 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
         .ok_or_else(|| format!("`{count}` is no whole number from 1 to {MOST_VALUES}"))?;
     let number = |k: usize| {
         let share = k as f64 / (count - 1).max(1) as f64;
-        rounded(first + (last - first) * share)
+        let value = rounded(first + (last - first) * share);
+        // Where the ends cancel, what is left is rounding: -0.01:0.02:4 passes through 0.
+        if value.abs() < 1e-12 * first.abs().max(last.abs()) {
+            0.0
+        } else {
+            value
+        }
     };
     let numbers: Vec<f64> = (0..count).map(number).collect();
     let written_whole = [from, to].iter().all(|t| t.trim().parse::<i64>().is_ok());

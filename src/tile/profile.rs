@@ -16,6 +16,11 @@ use std::f64::consts::PI;
 /// to, and few enough points for contact to stay cheap.
 pub const CHORD_ERROR: f64 = 2e-4;
 
+/// A profile no deeper than this (m) is flat: a two-hundredth of the chord error, far below what is
+/// cut or printed to, and as far as drawings resolve. What is shallower comes of rounding, as in
+/// -0.01 + 0.01, and the circle through an arc of 1e-15 m would be wider than the solar system.
+pub const SHALLOWEST: f64 = 1e-6;
+
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;
 
@@ -97,7 +102,7 @@ pub enum ProfileError {
 
 impl Profile {
     /// The profile's points (s, h), from its beginning to its end, both at h = 0; none for a
-    /// profile that is no more than the base line.
+    /// profile that is no more than the base line, or no deeper than [`SHALLOWEST`].
     ///
     /// # Errors
     /// Where the parameters leave no profile to draw.
@@ -105,7 +110,7 @@ impl Profile {
         match self {
             Self::Flat => Ok(Vec::new()),
             Self::Tab { depth, .. } | Self::Teeth { depth, .. } | Self::Arc { depth, .. }
-                if *depth == 0.0 =>
+                if depth.abs() < SHALLOWEST =>
             {
                 Ok(Vec::new())
             }
@@ -239,4 +244,38 @@ fn checked_points(points: &[[f64; 2]]) -> Result<Polyline, ProfileError> {
         }
     }
     Ok(points.to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_depth_of_rounding_is_flat() {
+        for depth in [0.0, 1e-15, -1e-18, 5e-324, 0.9 * SHALLOWEST] {
+            let (width, offset, span) = (0.2, 0.0, 0.4);
+            let tab = Profile::Tab {
+                width,
+                depth,
+                draft: 0.0,
+                offset,
+            };
+            let arc = Profile::Arc {
+                width,
+                depth,
+                offset,
+            };
+            let form = Waveform::Sine;
+            let teeth = Profile::Teeth {
+                form,
+                count: 3,
+                depth,
+                span,
+            };
+            for profile in [tab, arc, teeth] {
+                assert_eq!(profile.polyline(), Ok(Vec::new()), "{profile:?}");
+            }
+        }
+        assert!(arc(10.0, SHALLOWEST, 0.0).len() >= 3);
+    }
 }

@@ -7,16 +7,26 @@ use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
 use super::super::error::Span;
+use super::super::quantity;
 use super::super::reader::Result;
 use super::super::source::Source;
 use super::path::{SHAPES, draw};
-use super::pen::{Pen, points};
+use super::pen::{Pen, Stroke, points};
 use super::scale::scale;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 
 /// Most elements of a drawing.
 const MOST_NODES: u32 = 200_000;
+
+/// Most points of a drawing's lines, curves drawn as chords.
+const MOST_POINTS: usize = 1_000_000;
+
+/// Farthest that a shape reaches from the drawing's origin (m): room for a tile in any plan.
+const FARTHEST: f64 = 1e3;
+
+/// Most elements within one another: reading goes one call deeper with each.
+const MOST_NESTED: usize = 256;
 
 /// Cubics that stand for an arc leave it by this share of the chord error at most.
 const ARC_SHARE: f64 = 1e-3;
@@ -76,34 +86,43 @@ pub(super) fn read(
     let mut reader = Reader {
         source,
         chord_error,
+        points: 0,
         shapes: Vec::new(),
         skipped: Vec::new(),
     };
     reader.refuse_unread_transforms(root, true)?;
     let map = scale(source, root, unit)?;
-    reader.children(root, map)?;
+    reader.children(root, map, 0)?;
     Ok((reader.shapes, reader.skipped))
 }
 
 struct Reader<'a> {
     source: Source<'a>,
     chord_error: f64,
+    /// Points of all lines so far.
+    points: usize,
     shapes: Vec<Shape>,
     skipped: Vec<Skipped>,
 }
 
 impl Reader<'_> {
-    fn children(&mut self, parent: Node, map: Affine) -> Result<()> {
+    /// Reads what an element holds, `depth` elements below the root.
+    fn children(&mut self, parent: Node, map: Affine, depth: usize) -> Result<()> {
+        if depth > MOST_NESTED {
+            let message = format!("more than {MOST_NESTED} elements are within one another");
+            let help = "ungroup the drawing's shapes in the drawing program";
+            return Err(self.source.error(span(parent), message, help));
+        }
         for node in parent.children().filter(Node::is_element) {
             // Notes of the drawing program, licences and the like draw nothing.
             if is_svg(node) {
-                self.element(node, map)?;
+                self.element(node, map, depth)?;
             }
         }
         Ok(())
     }
 
-    fn element(&mut self, node: Node, map: Affine) -> Result<()> {
+    fn element(&mut self, node: Node, map: Affine, depth: usize) -> Result<()> {
         let name = node.tag_name().name();
         let empty = || node.text().is_none_or(|text| text.trim().is_empty());
         match name {
@@ -131,7 +150,7 @@ impl Reader<'_> {
         self.refuse_unread_transforms(node, false)?;
         let map = map * self.transform(node)?;
         if container {
-            return self.children(node, map);
+            return self.children(node, map, depth + 1);
         }
         self.shape(node, map)
     }
@@ -157,30 +176,15 @@ impl Reader<'_> {
             let help = "mend the shape, or convert it to a path in the drawing program";
             self.source.error(place, fault.message, help)
         })?;
-        let lines: Vec<Line> = pen
-            .finish()
-            .iter()
-            .map(|stroke| {
-                let start = map * stroke.start;
-                let segments = stroke.segments.iter();
-                Line {
-                    start: [start.x, start.y],
-                    segments: segments
-                        .map(|segment| points(segment, map, self.chord_error))
-                        .collect(),
-                    closed: stroke.closed,
-                }
-            })
-            .collect();
-        let finite = lines.iter().all(|line| {
-            let all = line.segments.iter().flatten().chain([&line.start]);
-            all.flatten().all(|x| x.is_finite())
-        });
-        if !finite {
-            let message = "the shape's coordinates are not finite";
-            let help = "look for very large numbers in the shape and its transforms";
+        let overdrawn = pen.overdrawn();
+        let strokes = pen.finish();
+        self.check_extent(node, &strokes, map)?;
+        if overdrawn {
+            let message = "an arc of the shape has a radius of more than 200 km";
+            let help = "draw it as a line";
             return Err(self.source.error(span(node), message, help));
         }
+        let lines = self.lines(node, &strokes, map)?;
         if lines.is_empty() {
             let note = format!("<{}> that draws nothing", node.tag_name().name());
             self.skipped.push((span(node), note));
@@ -193,6 +197,52 @@ impl Reader<'_> {
             lines,
         });
         Ok(())
+    }
+
+    /// Refuses what lies too far out, before it is drawn as chords. Curves stay among their control
+    /// points.
+    fn check_extent(&self, node: Node, strokes: &[Stroke], map: Affine) -> Result<()> {
+        let pieces = strokes.iter().flat_map(|s| s.segments.iter().flatten());
+        let farthest = pieces
+            .map(|piece| map * piece.to_cubic())
+            .flat_map(|cubic| [cubic.p0, cubic.p1, cubic.p2, cubic.p3])
+            .flat_map(|point| [point.x.abs(), point.y.abs()])
+            .map(|x| if x.is_nan() { f64::INFINITY } else { x })
+            .fold(0.0, f64::max);
+        let message = if !farthest.is_finite() {
+            "the shape's coordinates are not finite".to_owned()
+        } else if farthest > FARTHEST {
+            let far = quantity::four_digits(farthest);
+            format!("the shape reaches {far} m from the drawing's origin, more than {FARTHEST}")
+        } else {
+            return Ok(());
+        };
+        let help = "look for very large numbers in the shape and its transforms";
+        Err(self.source.error(span(node), message, help))
+    }
+
+    /// The lines of a shape, curves as chords.
+    fn lines(&mut self, node: Node, strokes: &[Stroke], map: Affine) -> Result<Vec<Line>> {
+        let mut lines = Vec::with_capacity(strokes.len());
+        for stroke in strokes {
+            let start = map * stroke.start;
+            let mut segments = Vec::with_capacity(stroke.segments.len());
+            for segment in &stroke.segments {
+                segments.push(points(segment, map, self.chord_error));
+                self.points += segments.last().map_or(0, Vec::len);
+                if self.points > MOST_POINTS {
+                    let message = format!("the drawing has more than {MOST_POINTS} points");
+                    let help = "keep the shapes that are needed, and draw them simpler";
+                    return Err(self.source.error(span(node), message, help));
+                }
+            }
+            lines.push(Line {
+                start: [start.x, start.y],
+                segments,
+                closed: stroke.closed,
+            });
+        }
+        Ok(lines)
     }
 
     fn transform(&self, node: Node) -> Result<Affine> {

@@ -59,6 +59,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
     use_it(&Source {
         file: &drawings::path(file, name).display().to_string(),
         text: &text,
+        quoted: drawings::may_be_quoted(file, name),
         drawings,
     })
 }

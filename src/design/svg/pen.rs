@@ -13,11 +13,17 @@ pub(super) struct Stroke {
     pub closed: bool,
 }
 
+/// Largest radius of an arc, in units of how far cubics may leave it: 200 km in a drawing that is
+/// read to 0.2 mm. Beyond, rounding moves the arc's points, and it would take ever more cubics.
+const LARGEST_RADIUS: f64 = 1e12;
+
 /// Draws absolute segments, in user units.
 #[derive(Debug)]
 pub(super) struct Pen {
     strokes: Vec<Stroke>,
     at: Point,
+    /// Whether an arc was too large to be drawn; a line stands in its place.
+    overdrawn: bool,
     /// How far the cubics that stand for an arc may leave it (user units).
     arc_error: f64,
 }
@@ -27,12 +33,18 @@ impl Pen {
         Self {
             strokes: Vec::new(),
             at: Point::ORIGIN,
+            overdrawn: false,
             arc_error,
         }
     }
 
     pub fn at(&self) -> Point {
         self.at
+    }
+
+    /// Whether an arc's radius is more than [`LARGEST_RADIUS`] times the error of arcs.
+    pub fn overdrawn(&self) -> bool {
+        self.overdrawn
     }
 
     /// All strokes that are more than a point.
@@ -87,6 +99,11 @@ impl Pen {
         let Some(arc) = arc else {
             return self.line_to(to);
         };
+        let radius = arc.radii.x.abs().max(arc.radii.y.abs());
+        if radius.is_nan() || radius > LARGEST_RADIUS * self.arc_error {
+            self.overdrawn = true;
+            return self.line_to(to);
+        }
         let mut cubics: Vec<PathSeg> = Vec::new();
         let mut from = self.at;
         arc.to_cubic_beziers(self.arc_error, |first, second, end| {

@@ -2,6 +2,7 @@
 
 mod drawing_faults;
 mod drawings;
+mod excess;
 mod geometry;
 mod shields;
 mod starter;

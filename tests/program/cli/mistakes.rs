@@ -127,3 +127,26 @@ fn results_cannot_go_into_a_file() {
     }
     assert_eq!(std::fs::read_to_string(file).unwrap(), "precious");
 }
+
+#[test]
+fn more_memory_than_the_machine_has_is_refused_before_anything_is_done() {
+    let design = "shapes/paper-tile.toml";
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("results");
+    let out = out.to_str().unwrap();
+    let many = "4294967295";
+    let said = ["GB of memory", "are free", "--milestones"];
+    for command in ["analyse", "compare", "sweep"] {
+        let work = [command, design, "--out", out, "--milestones"];
+        refused(&[&work[..], &[many]].concat(), &said);
+        refused(&[&work[..], &["1e6", "--neighbours", many]].concat(), &said);
+        refused(&[&work[..], &["18446744073709551615"]].concat(), &said);
+    }
+    let ends = ["--from", "0.5,0,0", "--to", "free"];
+    let barrier = ["barrier", design, "--milestones", many];
+    refused(&[&barrier[..], &ends[..]].concat(), &said);
+    assert!(contents(folder.path()).is_empty());
+    // A milestone has no more neighbours than there are other milestones.
+    let few = [&["barrier", design, "--milestones", "1"][..], &ends[..]].concat();
+    assert_ne!(tilebind(&few).status.code(), Some(2));
+}

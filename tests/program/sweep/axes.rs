@@ -17,6 +17,8 @@ fn ranges_hold_both_ends_and_round_numbers() {
     assert_eq!(values("a=1:2:3")[1], Value::Number(1.5));
     assert_eq!(values("a=3:9:1"), [Value::Whole(3)]);
     assert_eq!(values("a=1:-1:3")[2], Value::Whole(-1));
+    assert_eq!(values("a=-0.01:0.02:4")[1], Value::Number(0.0));
+    assert_eq!(values("a=1e-15:2e-15:3")[0], Value::Number(1e-15));
 }
 
 #[test]

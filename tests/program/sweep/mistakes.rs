@@ -62,11 +62,15 @@ fn manifests_and_parts_are_checked() {
         let output = run(&["--run", plan, "--shard", part]);
         assert_eq!(output.status.code(), Some(2), "{part}");
     }
-    let older = std::fs::read_to_string(&file)
-        .unwrap()
-        .replace(env!("CARGO_PKG_VERSION"), "0.0.1");
+    let planned = std::fs::read_to_string(&file).unwrap();
+    let older = planned.replace(env!("CARGO_PKG_VERSION"), "0.0.1");
+    // 1000^7 points are more than a machine's numbers count.
+    let mut manifest: serde_json::Value = serde_json::from_str(&planned).unwrap();
+    let axis = |k: usize| serde_json::json!({"key": format!("a{k}"), "values": vec![k; 1000]});
+    manifest["axes"] = (0..7).map(axis).collect();
     for (content, said) in [
         (older.as_str(), "plan the sweep anew"),
+        (&manifest.to_string(), "more than 1000000"),
         ("{}", "no manifest"),
     ] {
         std::fs::write(&file, content).unwrap();

@@ -1,0 +1,52 @@
+//! The files that designs and drawings are read from.
+
+use std::fs::{File, metadata};
+use std::io::{Error, Read, Result};
+use std::path::Path;
+
+/// Largest file that is read (bytes).
+const LARGEST: u64 = 16 << 20;
+
+/// The bytes of a regular file. Devices, pipes and directories are refused: some of them never
+/// end, and others wait for ever to be opened.
+///
+/// # Errors
+/// Where there is no such file, or it is not regular, too large or not readable.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
+    let found = metadata(path)?;
+    if found.is_dir() {
+        return Err(Error::other("it is a folder"));
+    }
+    if !found.is_file() {
+        return Err(Error::other("it is not a regular file"));
+    }
+    // Read to a bound all the same: a file may grow, and those of /proc say that they are empty.
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(LARGEST + 1)
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("it is larger than {} MB", LARGEST >> 20);
+        return Err(Error::other(message));
+    }
+    Ok(bytes)
+}
+
+/// The text of a regular file, UTF-8.
+///
+/// # Errors
+/// As for [`read`], and where the bytes are not UTF-8.
+pub(crate) fn read_text(path: &Path) -> Result<String> {
+    String::from_utf8(read(path)?).map_err(|_| Error::other("it is not UTF-8 text"))
+}
+
+/// Whether a file lies in a folder or below it, wherever links lead.
+pub(super) fn is_below(path: &Path, folder: &Path) -> bool {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let (path, folder) = (path.canonicalize(), folder.canonicalize());
+    matches!((path, folder), (Ok(path), Ok(folder)) if path.starts_with(&folder))
+}
