@@ -2,7 +2,7 @@
 
 use tilebind::roadmap;
 
-use super::Failure;
+use super::{Failure, tell};
 
 /// What is taken to be free where the machine does not say (bytes).
 const SUPPOSED: f64 = 8e9;
@@ -30,7 +30,9 @@ pub fn check(milestones: usize, neighbours: Option<usize>, at_once: usize) -> Re
         )));
     }
     if needed > WORTH_TELLING {
-        eprintln!("note: {roadmaps} about {takes} of memory; {free_now} are free");
+        tell(format!(
+            "note: {roadmaps} about {takes} of memory; {free_now} are free"
+        ));
     }
     Ok(())
 }
