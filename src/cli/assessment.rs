@@ -18,7 +18,8 @@ pub struct AssessmentOptions {
     #[command(flatten)]
     survey: SurveyOptions,
 
-    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the bond]
+    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the
+    /// bond or a twentieth of the barrier, whichever is less]
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 

@@ -6,7 +6,7 @@ use clap::Args;
 use tilebind::dynamics::docking::{
     self, Docking, DockingError, DockingMap, DockingRun, DockingSettings, End,
 };
-use tilebind::dynamics::{Fan, Snapshot};
+use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::dock;
 use tilebind::report::{docking as report, writer};
@@ -42,16 +42,17 @@ pub struct Dock {
     design: PathBuf,
 
     /// Trajectories
-    #[arg(long, value_name = "N", default_value_t = 2000,
-          value_parser = clap::value_parser!(u32).range(1..))]
-    runs: u32,
+    #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
+          value_parser = input::count)]
+    runs: usize,
 
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// How long each trajectory lasts (s)
-    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = input::positive)]
+    #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
+          value_parser = input::positive)]
     duration: f64,
 
     /// The experiment made with the Open Dynamics Engine too: drag 0.5 per second, no rim
@@ -59,15 +60,18 @@ pub struct Dock {
     engine: bool,
 
     /// Drag rate (1/s)
-    #[arg(long, value_name = "C", default_value_t = 0.005, value_parser = input::not_negative)]
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = input::not_negative)]
     drag: f64,
 
     /// Coefficient of friction between the tiles and of a tile and the rim
-    #[arg(long, value_name = "MU", default_value_t = 0.3, value_parser = input::not_negative)]
+    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
+          value_parser = input::not_negative)]
     friction: f64,
 
     /// Share of the approach velocity that a knock gives back
-    #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = input::not_negative)]
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = input::not_negative)]
     restitution: f64,
 
     /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
@@ -94,7 +98,7 @@ pub struct Dock {
     /// Number of the trajectory that is written to trajectory.csv and that the page plays first
     /// [default: the first bound one]
     #[arg(long, value_name = "N")]
-    trajectory: Option<u32>,
+    trajectory: Option<usize>,
 
     #[command(flatten)]
     work: WorkOptions,
@@ -139,7 +143,7 @@ impl Dock {
             let mut files = vec![
                 ("dock.json", json.clone().into_bytes()),
                 ("runs.csv", report::runs_csv(&docking).into_bytes()),
-                ("map.csv", map.csv().into_bytes()),
+                ("map.csv", report::map_csv(&map).into_bytes()),
             ];
             let trace = |run: &DockingRun| {
                 let snapshots = docking::trajectory(&problem, &settings, run.index, INTERVAL);
@@ -197,7 +201,7 @@ impl Dock {
         settings.motion.restitution = self.restitution;
         settings.starts = self.starts.starts(settings.starts);
         settings.threshold = self.threshold;
-        settings.runs = self.runs as usize;
+        settings.runs = self.runs;
         settings.seed = self.work.seed;
         settings
     }
@@ -205,7 +209,7 @@ impl Dock {
     /// The trajectory that was asked for, or else the first bound one, and a few of each end.
     fn played(&self, docking: &Docking) -> Vec<DockingRun> {
         let runs = &docking.runs;
-        let asked = self.trajectory.and_then(|index| runs.get(index as usize));
+        let asked = self.trajectory.and_then(|index| runs.get(index));
         let mut chosen: Vec<DockingRun> = asked.copied().into_iter().collect();
         let mut take = |count: usize, is: &dyn Fn(&DockingRun) -> bool| {
             let fitting = runs.iter().filter(|run| is(run)).take(count);

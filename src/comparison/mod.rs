@@ -39,7 +39,8 @@ pub struct AssessmentSettings {
     pub settled: f64,
     /// Number of far starts from which capture shares are counted.
     pub far_starts: usize,
-    /// Width (J) to which certified bounds are narrowed; a hundredth of the bond where `None`.
+    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the
+    /// bond or a twentieth of the barrier, whichever is less.
     #[serde(rename = "tolerance_J")]
     pub tolerance: Option<f64>,
     /// Cells spent on the bounds of a barrier at most; 0 for no bounds.

@@ -136,7 +136,7 @@ pub struct Quantity {
     /// What the page calls the design that has most of it.
     pub most: Option<&'static str>,
     /// Whether the page tells it of a point under the pointer.
-    pub told: bool,
+    pub in_readout: bool,
     /// Its value, or why there is none.
     pub read: fn(&Assessment) -> Result<Reading, &'static str>,
 }
@@ -145,7 +145,7 @@ pub struct Quantity {
 #[rustfmt::skip]
 const PLAIN: Quantity = Quantity {
     key: "", label: "", measure: Count, bounds: None, column: None, panel: None, mapped: false,
-    ranking: None, most: None, told: false, read: |_| Err("not known"),
+    ranking: None, most: None, in_readout: false, read: |_| Err("not known"),
 };
 
 /// All of them, in the order of files.
@@ -154,13 +154,13 @@ pub static QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "bond_depth", label: "bond", measure: Energy,
         column: at(0, 0, "bond"), panel: at(0, 0, "bond: depth"), mapped: true,
-        ranking: at(0, 0, "bond"), most: Some("deepest bond"), told: true,
+        ranking: at(0, 0, "bond"), most: Some("deepest bond"), in_readout: true,
         read: |a| Ok(Number(-bond(a).or(Err("does not hold"))?.energy)), ..PLAIN
     },
     Quantity {
         key: "trap_depth", label: "deepest trap", measure: Energy,
         column: at(0, 1, "deepest trap"), panel: at(0, 1, "deepest trap: depth"), mapped: true,
-        ranking: at(0, 2, "deepest trap"), told: true,
+        ranking: at(0, 2, "deepest trap"), in_readout: true,
         read: |a| Ok(Number(-trap(a)?.energy)), ..PLAIN
     },
     Quantity {
@@ -179,7 +179,7 @@ pub static QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "unbinding", label: "unbinding barrier", measure: Energy, bounds: CERTIFIED,
         column: at(1, 0, "unbinding barrier"), panel: at(1, 0, "unbinding barrier"), mapped: true,
-        ranking: at(1, 0, "unbinding"), most: Some("highest unbinding barrier"), told: true,
+        ranking: at(1, 0, "unbinding"), most: Some("highest unbinding barrier"), in_readout: true,
         read: |a| climb(bond(a)?.way_out.climb(bond(a)?.energy)),
     },
     Quantity {
@@ -191,7 +191,7 @@ pub static QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "captured", label: "captured", measure: Share, bounds: INTERVAL,
         column: at(0, 3, "captured"), panel: at(2, 0, "captured far starts"), mapped: true,
-        ranking: at(2, 0, "captured"), most: Some("most captured"), told: true,
+        ranking: at(2, 0, "captured"), most: Some("most captured"), in_readout: true,
         read: |a| share(a.captured, a.far_starts),
     },
     Quantity {

@@ -2,6 +2,8 @@
 
 use super::{Assessment, Quantity};
 use crate::landscape::certificate::{self, Ordering};
+use ordered_float::OrderedFloat;
+use std::cmp::Reverse;
 
 /// The designs' places in `assessments` from the best to the worst by a figure, larger being
 /// better; those without the figure come last, equal ones in their order.
@@ -11,7 +13,7 @@ pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
         estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
     };
     let mut order: Vec<usize> = (0..assessments.len()).collect();
-    order.sort_by(|&a, &b| value(b).total_cmp(&value(a)).then(a.cmp(&b)));
+    order.sort_by_key(|&k| (Reverse(OrderedFloat(value(k))), k));
     order
 }
 

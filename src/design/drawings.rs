@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
+use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,9 @@ impl<'a> Drawings<'a> {
     /// Where it is not held and cannot be read.
     pub fn text(&self, design: &str, name: &str) -> std::io::Result<String> {
         let text = match self.held {
-            Some(held) => held.get(name).cloned().ok_or(ErrorKind::NotFound.into()),
+            Some(held) => held.get(name).cloned().ok_or_else(|| {
+                Error::new(ErrorKind::NotFound, "it could not be read with the design")
+            }),
             None => read_text(design, name),
         }?;
         let drawing = Drawing {

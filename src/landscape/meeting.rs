@@ -1,6 +1,7 @@
 //! Which faces touch and which magnets meet in a configuration.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
 use crate::contact::{Contact, EdgeOf, Touch};
@@ -56,7 +57,7 @@ fn face_of_edge(tile: &Tile, edge: usize) -> usize {
     let middle = (a + b) / 2.0;
     let distance = |i: usize| distance_to_segment(middle, tile.faces[i].start, tile.faces[i].end);
     (0..tile.faces.len())
-        .min_by(|&i, &j| distance(i).total_cmp(&distance(j)))
+        .min_by_key(|&i| OrderedFloat(distance(i)))
         .unwrap_or(0)
 }
 

@@ -1,5 +1,6 @@
 //! The search for the lowest energy over theta at a place.
 
+use ordered_float::OrderedFloat;
 use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
@@ -169,7 +170,7 @@ impl<'a> Search<'a> {
         thetas.extend(ranges.iter().flat_map(|range| [range.0, range.1]));
         let widest = ranges
             .into_iter()
-            .max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
+            .max_by_key(|(first, last)| OrderedFloat(last - first));
         let middle = widest.map_or(0.0, |(first, last)| (first + last) / 2.0);
         let candidates = thetas.into_iter().map(|theta| at(place, theta));
         (candidates.collect(), middle)

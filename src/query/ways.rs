@@ -1,5 +1,7 @@
 //! Ways between the ends of a query: from a roadmap, or from a certificate's pathway.
 
+use ordered_float::OrderedFloat;
+use std::cmp::Reverse;
 use std::collections::HashSet;
 
 use nalgebra::Vector3;
@@ -151,7 +153,7 @@ impl<'a> Search<'a> {
                 Some((self.problem.space.distance(q, &other), number, other))
             })
             .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.sort_by_key(|near| (OrderedFloat(near.0), near.1));
         near.truncate(JOINED);
         near.into_iter().map(|(_, number, q)| (number, q)).collect()
     }
@@ -166,7 +168,7 @@ fn peaks(problem: &Problem, points: &[Point]) -> Vec<(Configuration, Vector3<f64
             energy(i) > energy(i - 1) && energy(i) >= energy(i + 1)
         })
         .collect();
-    peaks.sort_by(|&a, &b| points[b].energy.total_cmp(&points[a].energy));
+    peaks.sort_by_key(|&peak| Reverse(OrderedFloat(points[peak].energy)));
     peaks.truncate(PEAKS);
     let passed = |i: usize| {
         let off = |point: &&Point| problem.space.distance(&point.q, &points[i].q) >= PASSING;

@@ -5,7 +5,7 @@ use std::iter::once;
 
 use serde_json::{Map, Value, json};
 
-use super::csv::{number, text};
+use super::csv::{number, table};
 use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
 use super::json;
 use super::summary::write_table;
@@ -166,18 +166,13 @@ impl Comparison {
 
     /// One line a design, best first.
     pub fn csv(&self) -> String {
-        let mut out = format!("rank,name,model,{}\n", columns().join(","));
-        for (k, design) in self.designs.iter().enumerate() {
-            let _ = writeln!(
-                out,
-                "{},{},{},{}",
-                k + 1,
-                text(&design.name),
-                design.model,
-                cells(design).join(",")
-            );
-        }
-        out
+        let mut head = ["rank", "name", "model"].map(str::to_owned).to_vec();
+        head.extend(columns());
+        let rows = self.designs.iter().zip(1..).map(|(design, rank)| {
+            let first = [rank.to_string(), design.name.clone(), design.model.clone()];
+            [first.to_vec(), cells(design)].concat()
+        });
+        table(head, rows)
     }
 
     /// Everything, with what reproduces it.
@@ -312,7 +307,7 @@ pub fn cells(design: &Assessment) -> Vec<String> {
     ]);
     let counts = design.checks();
     let counts = counts.map(|checks| checks.map(|count| count.to_string()));
-    cells.extend(counts.unwrap_or_default());
+    cells.extend(counts.unwrap_or_else(|| CHECKED.map(|_| String::new())));
     cells
 }
 

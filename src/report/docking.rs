@@ -155,6 +155,20 @@ fn timing(docking: &Docking) -> serde_json::Value {
     })
 }
 
+/// `map.csv`: one cell of the map a line.
+pub fn map_csv(map: &DockingMap) -> String {
+    let head = "orientation_low_rad,orientation_high_rad,speed_low_m_per_s,speed_high_m_per_s,\
+                matched,runs,share,share_low,share_high";
+    let rows = map.cells.iter().map(|cell| {
+        let ([a, b], [c, d], p) = (cell.orientation, cell.speed, cell.matched);
+        let mut row = [a, b, c, d].map(|end| format!("{end:.4}")).to_vec();
+        row.extend([p.count, p.of].map(|count| count.to_string()));
+        row.extend([p.share(), p.low, p.high].map(|share| format!("{share:.6}")));
+        row
+    });
+    csv::table(head.split(','), rows)
+}
+
 /// `runs.csv`: one trajectory a line.
 pub fn runs_csv(docking: &Docking) -> String {
     let head = "run,x_m,y_m,theta_rad,vx_m_per_s,vy_m_per_s,spin_rad_per_s,orientation_rad,\

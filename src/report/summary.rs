@@ -3,6 +3,7 @@
 //! It leads with where tiles that start far apart end. That there is no barrier on the way into
 //! the bond says little: without any barrier, many starts may run into traps first.
 
+use ordered_float::OrderedFloat;
 use std::fmt::Write;
 
 use crate::configuration::Configuration;
@@ -55,7 +56,7 @@ fn write_dipole_error(text: &mut String, analysis: &Analysis) {
         .states
         .iter()
         .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
-        .max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+        .max_by_key(|(.., error)| OrderedFloat(error.abs()));
     if let Some((state, blocks, error)) = worst {
         let _ = writeln!(
             text,
@@ -200,7 +201,7 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Kind>) {
 fn write_deepest(text: &mut String, inventory: &Inventory, bond: Option<&Kind>, traps: &[Kind]) {
     let deepest = traps
         .iter()
-        .min_by(|a, b| a.first().energy.total_cmp(&b.first().energy));
+        .min_by_key(|kind| OrderedFloat(kind.first().energy));
     let name = |kind: &Kind| inventory.name_of(Place::State(kind.first().id));
     let _ = match (deepest, bond) {
         (None, _) => writeln!(text, "no traps"),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Map, Value as Json, json};
 
 use super::comparison::{capture_settings, cells, checked, columns, merge, quantities};
-use super::csv::text;
+use super::csv::table;
 use super::json;
 use crate::comparison::Assessment;
 use crate::sweep::{Outcome, Plan, Point, Progress, Store};
@@ -64,32 +64,29 @@ impl<'a> Sweep<'a> {
     /// One line a point: the varied keys (as the design file has them, in SI units), the figures
     /// with their bounds, and for impossible designs the reason.
     pub fn csv(&self) -> String {
-        let keys = self.plan.axes.iter().map(|axis| text(&axis.key));
-        let mut head = vec!["index".to_owned(), "design".to_owned()];
-        head.extend(keys);
-        head.extend(["status", "reason", "model", "point"].map(str::to_owned));
         let figures = columns();
+        let mut head = ["index", "design"].map(str::to_owned).to_vec();
+        head.extend(self.plan.axes.iter().map(|axis| axis.key.clone()));
+        head.extend(["status", "reason", "model", "point"].map(str::to_owned));
         head.extend(figures.iter().cloned());
-        let mut out = head.join(",");
-        for point in &self.points {
+        let rows = self.points.iter().map(|point| {
+            let outcome = &self.outcomes[point.index];
+            let result = self.assessment(point.index);
             let mut row = vec![
                 point.index.to_string(),
-                text(&self.plan.designs[point.design].name),
+                self.plan.designs[point.design].name.clone(),
             ];
-            row.extend(point.values.iter().map(|value| text(&value.to_string())));
-            let outcome = &self.outcomes[point.index];
+            row.extend(point.values.iter().map(ToString::to_string));
             row.extend([
                 status(outcome).to_owned(),
-                text(reason(outcome).unwrap_or_default()),
+                reason(outcome).unwrap_or_default().to_owned(),
+                result.map(|r| r.model.clone()).unwrap_or_default(),
+                point.name.clone(),
             ]);
-            let result = self.assessment(point.index);
-            row.push(result.map(|r| r.model.clone()).unwrap_or_default());
-            row.push(point.name.clone());
             row.extend(result.map_or_else(|| vec![String::new(); figures.len()], cells));
-            let _ = write!(out, "\n{}", row.join(","));
-        }
-        out.push('\n');
-        out
+            row
+        });
+        table(head, rows)
     }
 
     /// Everything, with what reproduces it.

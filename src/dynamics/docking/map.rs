@@ -57,24 +57,6 @@ impl DockingMap {
             size,
         }
     }
-
-    /// Counts and intervals, one cell a line.
-    pub fn csv(&self) -> String {
-        let head = "orientation_low_rad,orientation_high_rad,speed_low_m_per_s,speed_high_m_per_s,\
-                    matched,runs,share,share_low,share_high\n";
-        let lines = self.cells.iter().map(|cell| {
-            let ([a, b], [c, d], p) = (cell.orientation, cell.speed, cell.matched);
-            format!(
-                "{a:.4},{b:.4},{c:.4},{d:.4},{},{},{:.6},{:.6},{:.6}\n",
-                p.count,
-                p.of,
-                p.share(),
-                p.low,
-                p.high
-            )
-        });
-        std::iter::once(head.to_owned()).chain(lines).collect()
-    }
 }
 
 /// Share matched of the trajectories that started with an orientation and a speed in the given

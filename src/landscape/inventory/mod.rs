@@ -16,6 +16,7 @@ use super::results::{
 use super::survey::Survey;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
+use ordered_float::OrderedFloat;
 
 /// Configurations closer than this (m, metric of the space) are taken for the same state.
 const SAME: f64 = 1e-4;
@@ -114,7 +115,7 @@ impl Inventory {
         };
         let mut ways = self.barriers.iter().filter(leads_down);
         let known = ways.next()?;
-        let lowest = ways.min_by(|a, b| a.saddle_energy.total_cmp(&b.saddle_energy));
+        let lowest = ways.min_by_key(|way| OrderedFloat(way.saddle_energy));
         let gain = LEAST_GAIN * problem.depth();
         let is_lower = |way: &&Barrier| way.saddle_energy < known.saddle_energy - gain;
         lowest.filter(is_lower).or(Some(known))
@@ -180,7 +181,7 @@ impl Inventory {
             .iter()
             .map(|s| (problem.space.distance(&s.configuration, q), s.id))
             .filter(|(distance, _)| *distance < SAME)
-            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .min_by_key(|(distance, _)| OrderedFloat(*distance))
             .map(|(_, id)| id)
     }
 

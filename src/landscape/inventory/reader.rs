@@ -1,5 +1,6 @@
 //! Reading states, escapes, barriers and pathways off a surveyed network.
 
+use ordered_float::OrderedFloat;
 use std::collections::HashSet;
 
 use super::{Inventory, SAME};
@@ -95,10 +96,7 @@ impl Reader<'_> {
             for &member in &class {
                 class_of[member] = Some(classes.len());
             }
-            class.sort_by(|&a, &b| {
-                let distance = |m: usize| self.distance_to_bound(m);
-                distance(a).total_cmp(&distance(b)).then(a.cmp(&b))
-            });
+            class.sort_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
             classes.push(class);
         }
         let deepest = (0..self.survey.states.len())
@@ -108,15 +106,10 @@ impl Reader<'_> {
         let count = self.survey.states.len();
         classes.retain(|class| self.depth(class[0]) >= least);
         let kept: usize = classes.iter().map(Vec::len).sum();
-        classes.sort_by(|a, b| {
-            let bound = |class: &Class| self.distance_to_bound(class[0]) < BOUND;
-            bound(b)
-                .cmp(&bound(a))
-                .then(self.energy(a[0]).total_cmp(&self.energy(b[0])))
-                .then(
-                    self.distance_to_bound(a[0])
-                        .total_cmp(&self.distance_to_bound(b[0])),
-                )
+        classes.sort_by_key(|class| {
+            let distance = self.distance_to_bound(class[0]);
+            let energy = OrderedFloat(self.energy(class[0]));
+            (distance >= BOUND, energy, OrderedFloat(distance))
         });
         (classes, count - kept)
     }

@@ -265,7 +265,7 @@ function showCharts() {
     hovered = point;
     if (point !== null) rows[point].classList.add("chosen");
     for (const other of section.querySelectorAll(".readout")) other.textContent = "";
-    if (readout) readout.textContent = point === null ? "" : charts.points[point].told;
+    if (readout) readout.textContent = point === null ? "" : charts.points[point].readout;
     drawAll();
   };
   const add = (title, parts, made) => {

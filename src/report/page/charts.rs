@@ -22,7 +22,7 @@ pub struct Charts {
 #[derive(Clone, Debug, Serialize)]
 struct ChartPoint {
     /// What is said of it under the pointer.
-    told: String,
+    readout: String,
     /// Of each figure the value and its bounds (SI), a value of null where there is no way at all;
     /// null where the figure is not known. None at all for an impossible design.
     figures: Vec<Option<[Option<f64>; 3]>>,
@@ -129,11 +129,11 @@ fn point(sweep: &Sweep, index: usize) -> ChartPoint {
     let called = sweep.called(&sweep.points[index]);
     match sweep.assessment(index) {
         Some(assessment) => ChartPoint {
-            told: format!("{called}: {}", told(assessment)),
+            readout: format!("{called}: {}", readout(assessment)),
             figures: QUANTITIES.iter().map(|q| figure(q, assessment)).collect(),
         },
         None => ChartPoint {
-            told: format!("{called}: {}", sweep.reason(index).unwrap_or_default()),
+            readout: format!("{called}: {}", sweep.reason(index).unwrap_or_default()),
             figures: Vec::new(),
         },
     }
@@ -144,8 +144,8 @@ fn figure(quantity: &Quantity, assessment: &Assessment) -> Option<[Option<f64>; 
     Some(numbers.map(|number| number.and_then(|value| finite(value, 6))))
 }
 
-fn told(assessment: &Assessment) -> String {
-    let told = QUANTITIES.iter().filter(|quantity| quantity.told);
-    let told = told.map(|one| format!("{} {}", one.label, cell(&[one], assessment)));
-    told.collect::<Vec<_>>().join(", ")
+fn readout(assessment: &Assessment) -> String {
+    let shown = QUANTITIES.iter().filter(|quantity| quantity.in_readout);
+    let shown = shown.map(|one| format!("{} {}", one.label, cell(&[one], assessment)));
+    shown.collect::<Vec<_>>().join(", ")
 }

@@ -6,6 +6,7 @@ use super::{curve_map, curves, picture::Picture};
 use crate::comparison::Assessment;
 use crate::report::sweep::{Sweep, short};
 use crate::sweep::{Point, Value};
+use ordered_float::OrderedFloat;
 
 /// Keys of the design that are lengths: their axes are in mm.
 const LENGTHS: [&str; 12] = [
@@ -194,7 +195,7 @@ fn curves_of<'a>(
             }
         });
         let mut points: Vec<_> = points.collect();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x));
+        points.sort_by_key(|point| OrderedFloat(point.x));
         let series = Series { name, points };
         match pictures.iter_mut().find(|(known, _)| *known == rest) {
             Some((_, all)) => all.push(series),

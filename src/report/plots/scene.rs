@@ -1,5 +1,7 @@
 //! What the pictures are drawn from, and which of it they show.
 
+use ordered_float::OrderedFloat;
+
 use super::marks::Mark;
 use crate::design::Design;
 use crate::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
@@ -56,7 +58,7 @@ impl<'a> Scene<'a> {
     /// The kinds of states, the lowest first.
     pub fn kinds(&self) -> Vec<Kind<'a>> {
         let mut kinds: Vec<_> = self.inventory.kinds().collect();
-        kinds.sort_by(|a, b| a.first().energy.total_cmp(&b.first().energy));
+        kinds.sort_by_key(|kind| OrderedFloat(kind.first().energy));
         kinds
     }
 
