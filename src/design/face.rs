@@ -198,16 +198,32 @@ fn first_of<'a>(section: &Section<'a>) -> Option<Entry<'a>> {
         .find_map(|key| section.get(key))
 }
 
+/// Most places for magnets on a face.
+const MOST_PLACES: usize = 1000;
+
+fn check_count(entry: &Entry, count: usize) -> Result<()> {
+    if count <= MOST_PLACES {
+        return Ok(());
+    }
+    let message = format!(
+        "`{}` has {count} places for magnets, more than {MOST_PLACES}",
+        entry.key
+    );
+    Err(entry.error(message, "a face of a tile has some tens of them"))
+}
+
 fn read_pattern(entry: &Entry) -> Result<Pattern> {
     if entry.key == "magnets" {
-        let magnets = entry
-            .array()?
+        let magnets = entry.array()?;
+        check_count(entry, magnets.len())?;
+        let magnets = magnets
             .iter()
             .map(ListedMagnet::read)
             .collect::<Result<_>>()?;
         return Ok(Pattern::List(magnets));
     }
     let text = entry.string()?;
+    check_count(entry, text.chars().count())?;
     let code = Barcode::parse(text).map_err(|error: BarcodeError| {
         let help = match error.character {
             'n' | 's' => format!("write {}", error.character.to_ascii_uppercase()),

@@ -79,6 +79,7 @@ impl Triangulation {
         let mut corner = vec![None; n * n];
         for i in 0..n - 1 {
             cost[i * n + i + 1] = 0.0;
+            cost[(i + 1) * n + i] = 0.0;
         }
         for span in 2..n {
             for i in 0..n - span {
@@ -87,15 +88,17 @@ impl Triangulation {
                     continue;
                 }
                 let closing = (vertices[j] - vertices[i]).norm();
+                let mut least = f64::INFINITY;
                 for k in i + 1..j {
-                    let total = cost[i * n + k] + cost[k * n + j] + closing;
-                    if total < cost[i * n + j]
-                        && turn(vertices[i], vertices[k], vertices[j]) > STRAIGHT
-                    {
-                        cost[i * n + j] = total;
+                    // Of the chain from k to j, kept both ways round: read along a row.
+                    let total = cost[i * n + k] + cost[j * n + k] + closing;
+                    if total < least && turn(vertices[i], vertices[k], vertices[j]) > STRAIGHT {
+                        least = total;
                         corner[i * n + j] = Some(k);
                     }
                 }
+                cost[i * n + j] = least;
+                cost[j * n + i] = least;
             }
         }
         corner[n - 1].is_some().then_some(Self {

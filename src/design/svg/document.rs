@@ -42,6 +42,14 @@ pub(super) struct Shape {
     pub lines: Vec<Line>,
 }
 
+impl Shape {
+    /// Points of all its lines.
+    pub fn points(&self) -> usize {
+        let segments = self.lines.iter().flat_map(|line| &line.segments);
+        self.lines.len() + segments.map(Vec::len).sum::<usize>()
+    }
+}
+
 /// A line drawn without lifting the pen: x to the right, y upwards (m).
 #[derive(Clone, Debug)]
 pub(super) struct Line {

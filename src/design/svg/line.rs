@@ -6,6 +6,7 @@ use super::super::quantity;
 use super::super::reader::{Result, Section};
 use super::super::source::Source;
 use super::document::{Line, Shape};
+use super::simplify::simplified;
 use super::{SAME_POINT, only_line, with_shape};
 use crate::tile::outline::{Outline, OutlineError};
 use crate::tile::profile::Polyline;
@@ -93,6 +94,7 @@ fn on_base_line(source: &Source, shape: &Shape, mut points: Vec<[f64; 2]>) -> Re
     points[0][1] = 0.0;
     points[last][1] = 0.0;
     points.dedup_by(|a, b| apart(*a, *b) <= SAME_POINT);
+    let points = simplified(source, shape, vec![points])?.concat();
     if let Some([s, h]) = crossing(&points) {
         let message = format!(
             "the line crosses or touches itself, or the base line beyond its ends, near s = {} mm, \

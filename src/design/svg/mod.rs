@@ -8,7 +8,9 @@
 //! (a transform in an element's `style`, another origin of one) is refused.
 //!
 //! Curves become chords between points on the curve, no chord farther than
-//! [`CHORD_ERROR`] from it. Arcs go by way of cubics that leave them by a thousandth of that.
+//! [`CHORD_ERROR`] from it. Arcs go by way of cubics that leave them by a thousandth of that. Of
+//! lines with very many points, as tracing programs draw them, the points are left out that lie
+//! within half the chord error of the others; curves then are drawn to within the other half.
 //!
 //! A drawing of several shapes needs `id`, the shape's own in the file; the other shapes then are
 //! left out.
@@ -29,6 +31,7 @@ mod outline;
 mod path;
 mod pen;
 mod scale;
+mod simplify;
 
 pub(super) use line::read_line;
 #[cfg(test)]
@@ -44,6 +47,9 @@ use document::{Shape, Skipped};
 
 /// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
 const SAME_POINT: f64 = 1e-6;
+
+/// Most things by name of what is not read.
+const MOST_TOLD: usize = 8;
 
 /// Gives the drawing that `entry` names to `use_it`.
 fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> Result<T> {
@@ -70,13 +76,17 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
         return;
     };
     let line = |at: usize| source.text[..at].matches('\n').count() + 1;
-    let all: Vec<String> = skipped
+    let mut told: Vec<String> = skipped
         .iter()
+        .take(MOST_TOLD)
         .map(|(span, what)| format!("{what} in line {}", line(span.start)))
         .collect();
+    if skipped.len() > MOST_TOLD {
+        told.push(format!("and {} more", skipped.len() - MOST_TOLD));
+    }
     source.drawings.note(source.error(
         first,
-        format!("not read of the drawing: {}", all.join(", ")),
+        format!("not read of the drawing: {}", told.join(", ")),
         "what belongs to the shape is to be converted to a path; delete the rest",
     ));
 }
@@ -96,18 +106,27 @@ fn with_shape<T>(
     with_drawing(&file, |source| {
         let (shapes, skipped) = document::read(*source, unit, CHORD_ERROR)?;
         note_skipped(source, &skipped);
+        let use_it = |index: usize| match &shapes[index] {
+            shape if shape.points() <= simplify::MANY => use_it(source, shape),
+            // What is left out of it must leave no curve by more than the chord error.
+            _ => {
+                let error = CHORD_ERROR - simplify::TOLERANCE;
+                let (shapes, _) = document::read(*source, unit, error)?;
+                use_it(source, &shapes[index])
+            }
+        };
         let ids: Vec<&str> = shapes.iter().filter_map(|s| s.id.as_deref()).collect();
         if let Some(entry) = id {
             let wanted = entry.string()?;
-            let found = shapes.iter().find(|s| s.id.as_deref() == Some(wanted));
+            let found = shapes.iter().position(|s| s.id.as_deref() == Some(wanted));
             let missing = || {
                 let message = format!("the drawing has no shape with the id \"{wanted}\"");
                 entry.error(message, nearest_help(wanted, &ids))
             };
-            return use_it(source, found.ok_or_else(missing)?);
+            return use_it(found.ok_or_else(missing)?);
         }
         match shapes.as_slice() {
-            [shape] => use_it(source, shape),
+            [_] => use_it(0),
             [] => Err(source.error(
                 (0..0).into(),
                 "the drawing holds no shape",

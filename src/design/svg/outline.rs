@@ -8,9 +8,10 @@ use super::super::reader::{Entry, Result};
 use super::super::source::Source;
 use super::document::Shape;
 use super::line::apart;
+use super::simplify::{MANY, simplified};
 use super::{SAME_POINT, only_line, with_shape};
 use crate::tile::Face;
-use crate::tile::outline::{Outline, OutlineError, cross};
+use crate::tile::outline::{Outline, OutlineError, centroid, cross};
 use crate::tile::profile::Polyline;
 
 /// The keys of `outline`.
@@ -19,9 +20,8 @@ pub(in crate::design) const OUTLINE_KEYS: [&str; 4] = ["file", "unit", "id", "co
 /// How far a corner may lie from the drawn point that is meant (m).
 const NEAR: f64 = 1e-3;
 
-/// Most faces of a tile, and most points of its outline.
+/// Most faces of a tile.
 const MOST_FACES: usize = 64;
-const MOST_POINTS: usize = 4000;
 
 /// The drawn segments one after the other, counter-clockwise, closed. Each holds all its points,
 /// the last of which is the first of the next.
@@ -31,25 +31,43 @@ type Segments = Vec<Vec<Vector2<f64>>>;
 pub(in crate::design) fn read_outline(entry: &Entry) -> Result<(Vec<Vector2<f64>>, Vec<Polyline>)> {
     let section = entry.section("`outline`")?;
     section.allow(&OUTLINE_KEYS)?;
-    let mut segments = with_shape(&section, closed)?;
-    if let Some(corners) = section.get("corners") {
-        segments = joined(&segments, &corners)?;
-    }
-    if segments.len() > MOST_FACES {
-        return Err(entry.error(
-            format!(
-                "the outline is drawn in {} segments, and a tile has at most {MOST_FACES} faces",
-                segments.len()
-            ),
-            "say where its faces meet: corners = [[x, y], ...] (m, from the centre of its area)",
-        ));
-    }
+    let segments = with_shape(&section, |source, shape| {
+        let (mut segments, centre) = closed(source, shape)?;
+        if let Some(corners) = section.get("corners") {
+            segments = joined(&segments, &corners)?;
+        }
+        if segments.len() > MOST_FACES {
+            return Err(entry.error(
+                format!(
+                    "the outline is drawn in {} segments, and a tile has at most {MOST_FACES} faces",
+                    segments.len()
+                ),
+                "say where its faces meet: corners = [[x, y], ...] (m, from the centre of its area)",
+            ));
+        }
+        let drawn = ring(&segments).len();
+        let segments = simplified(source, shape, segments)?;
+        if drawn > MANY {
+            let points = ring(&segments).iter().map(|point| point + centre).collect();
+            sound(source, shape, points)?;
+        }
+        Ok(segments)
+    })?;
     let corners: Vec<_> = segments.iter().map(|segment| segment[0]).collect();
     Ok((corners, segments.iter().map(|s| in_face(s)).collect()))
 }
 
-/// The segments of a shape's one closed line about the centre of its area.
-fn closed(source: &Source, shape: &Shape) -> Result<Segments> {
+/// The points of closed segments, each once.
+fn ring(segments: &Segments) -> Vec<Vector2<f64>> {
+    let points = segments.iter();
+    let points = points.flat_map(|segment| &segment[..segment.len() - 1]);
+    points.copied().collect()
+}
+
+/// The segments of a shape's one closed line about the centre of its area, and this centre in the
+/// drawing. Whether a line of very many points is an outline is left open: that is for what is
+/// left of it.
+fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>)> {
     let line = only_line(source, shape)?;
     let fault = |message: String, help: &str| source.error(shape.span, message, help);
     let mut segments: Segments = Vec::new();
@@ -85,18 +103,29 @@ fn closed(source: &Source, shape: &Shape) -> Result<Segments> {
         segments.reverse();
         segments.iter_mut().for_each(|segment| segment.reverse());
     }
-    let ring: Vec<_> = segments
-        .iter()
-        .flat_map(|segment| &segment[..segment.len() - 1])
-        .copied()
-        .collect();
-    if ring.len() > MOST_POINTS {
-        let message = format!("the outline has {} points", ring.len());
-        let help = format!("simplify it: at most {MOST_POINTS}");
-        return Err(fault(message, &help));
-    }
+    let ring = ring(&segments);
     check_size(&ring).map_err(|message| fault(message, "check the drawing's size and unit"))?;
-    let outline = Outline::new(ring.clone()).map_err(|error| {
+    let centre = if ring.len() > MANY {
+        centroid(&ring)
+    } else {
+        sound(source, shape, ring)?.centroid()
+    };
+    if !(centre.x.is_finite() && centre.y.is_finite()) {
+        let message = "this is no outline: it encloses no area".to_owned();
+        return Err(fault(
+            message,
+            "draw the tile's outline as one line around it",
+        ));
+    }
+    for point in segments.iter_mut().flatten() {
+        *point -= centre;
+    }
+    Ok((segments, centre))
+}
+
+/// The outline of a drawn ring.
+fn sound(source: &Source, shape: &Shape, ring: Vec<Vector2<f64>>) -> Result<Outline> {
+    Outline::new(ring.clone()).map_err(|error| {
         let message = match error {
             OutlineError::SelfCrossing(i, j) => {
                 let n = ring.len();
@@ -109,13 +138,9 @@ fn closed(source: &Source, shape: &Shape) -> Result<Segments> {
             }
             other => format!("this is no outline: {other}"),
         };
-        fault(message, "draw the tile's outline as one line around it")
-    })?;
-    let centre = outline.centroid();
-    for point in segments.iter_mut().flatten() {
-        *point -= centre;
-    }
-    Ok(segments)
+        let help = "draw the tile's outline as one line around it";
+        source.error(shape.span, message, help)
+    })
 }
 
 fn check_size(ring: &[Vector2<f64>]) -> std::result::Result<(), String> {

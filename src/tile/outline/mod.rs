@@ -10,7 +10,7 @@ use parry2d_f64::transformation::convex_hull;
 
 pub use convex_part::{Bounds, ConvexPart};
 use plane::outward_normal;
-pub use plane::{contains, cross, distance_to_segment};
+pub use plane::{centroid, contains, cross, distance_to_segment};
 pub(super) use plane::{segments_meet, signed_area};
 pub use validity::OutlineError;
 
@@ -112,10 +112,7 @@ impl Outline {
 
     /// Centre of mass of the evenly filled outline (m).
     pub fn centroid(&self) -> Vector2<f64> {
-        self.edges()
-            .map(|(a, b)| (a + b) * cross(a, b))
-            .sum::<Vector2<f64>>()
-            / (6.0 * self.area())
+        centroid(&self.vertices)
     }
 
     /// Integral of the squared distance from the centroid over the area (m^4).

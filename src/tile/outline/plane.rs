@@ -43,6 +43,18 @@ pub(in crate::tile) fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
         / 2.0
 }
 
+/// Centre of mass of an evenly filled polygon (m).
+pub fn centroid(vertices: &[Vector2<f64>]) -> Vector2<f64> {
+    let edges = vertices
+        .iter()
+        .enumerate()
+        .map(|(i, a)| (*a, vertices[(i + 1) % vertices.len()]));
+    edges
+        .map(|(a, b)| (a + b) * cross(a, b))
+        .sum::<Vector2<f64>>()
+        / (6.0 * signed_area(vertices))
+}
+
 /// Whether two segments share a point, ends included. An end counts as lying on the other
 /// segment's line where it is seen from the line's first point at an angle of sine `straight` or
 /// less.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use super::drawings::{design, drawn, outlined, profiled};
 use tilebind::design::{Design, DesignError};
+use tilebind::tile::profile::CHORD_ERROR;
 
 /// What `load` says, within a few seconds.
 fn at_once<T: Send + 'static>(
@@ -152,4 +153,138 @@ fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
     // An arc that is almost straight is none of these.
     let straight = drawn("<path d=\"M0 100A1e6 1e6 0 0 1 100 100\"/>");
     assert!(profiled(&straight, "").is_ok());
+}
+
+/// A wavy outline about (200, 200), traced in `n` steps.
+fn traced(n: usize) -> String {
+    let points: Vec<String> = (0..n)
+        .map(|k| std::f64::consts::TAU * k as f64 / n as f64)
+        .map(|angle| (angle, 100.0 + 5.0 * (5.0 * angle).sin()))
+        .map(|(angle, r)| {
+            format!(
+                "{:.5},{:.5}",
+                200.0 + r * angle.cos(),
+                200.0 - r * angle.sin()
+            )
+        })
+        .collect();
+    drawn(&format!("<polygon points=\"{}\"/>", points.join(" ")))
+}
+
+#[test]
+fn traced_lines_are_simplified_within_the_chord_error() {
+    let corners = ", corners = [[0.1, 0.0], [0.0, 0.105], [-0.1, 0.0], [0.0, -0.095]]";
+    // Few enough to be taken as they are.
+    let coarse = outlined(&traced(240), corners).unwrap();
+    assert_eq!(coarse.pair.fixed.outline.vertices().len(), 240);
+    assert!(
+        coarse
+            .warnings
+            .iter()
+            .all(|doubt| !doubt.message.contains("left out"))
+    );
+    let begun = std::time::Instant::now();
+    for n in [800, 20_000] {
+        let design = outlined(&traced(n), corners).unwrap();
+        let outline = &design.pair.fixed.outline;
+        let left = outline.vertices().len();
+        assert!((60..=200).contains(&left), "{left}");
+        let told = format!("of the line's {n} points are left out");
+        let doubts = design
+            .warnings
+            .iter()
+            .filter(|doubt| doubt.message.contains(&told));
+        assert_eq!(doubts.count(), 1, "{:?}", design.warnings);
+        // What was drawn is within the chord error of what is left, and its corners are there.
+        for k in 0..n {
+            let angle = std::f64::consts::TAU * k as f64 / n as f64;
+            let r = 0.1 + 0.005 * (5.0 * angle).sin();
+            let p = nalgebra::Vector2::new(r * angle.cos(), r * angle.sin());
+            assert!(outline.signed_distance(p).abs() <= CHORD_ERROR, "{p}");
+        }
+        assert!((design.pair.fixed.faces[0].start.x - 0.1).abs() < 1e-5);
+        assert!((design.pair.fixed.faces[1].start.y - 0.105).abs() < 1e-3);
+    }
+    assert!(
+        begun.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        begun.elapsed()
+    );
+}
+
+#[test]
+fn a_traced_profile_is_simplified_too() {
+    let line: String = (1..20_000)
+        .map(|k| f64::from(k) / 20_000.0)
+        .map(|x| {
+            format!(
+                "L{:.5} {:.5}",
+                300.0 * x,
+                -8.0 * (std::f64::consts::PI * x).sin()
+            )
+        })
+        .collect();
+    let line = drawn(&format!("<path d=\"M0 0{line}L300 0\"/>"));
+    let left = profiled(&line, "").unwrap();
+    assert!((8..60).contains(&left.len()), "{}", left.len());
+    assert!(left.iter().any(|p| (p[1] - 0.008).abs() < CHORD_ERROR));
+}
+
+#[test]
+fn lines_that_stay_too_long_are_refused() {
+    // Teeth far larger than the chord error.
+    let teeth = |n: usize| {
+        let tooth = "l.05 -1l.05 1".repeat(n);
+        drawn(&format!("<path d=\"M0 0{tooth}\"/>"))
+    };
+    for (n, expected) in [(1000, "more than 500"), (60_000, "more than 100000")] {
+        let drawing = teeth(n);
+        let error = at_once(move || profiled(&drawing, ""));
+        assert!(error.message.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn what_is_not_read_is_told_in_one_line() {
+    let many = format!(
+        "{}<rect width=\"100\" height=\"100\"/>",
+        "<text/>\n".repeat(20_000)
+    );
+    let design = outlined(&drawn(&many), "").unwrap();
+    let doubts: Vec<_> = design
+        .warnings
+        .iter()
+        .filter(|doubt| doubt.file.ends_with(".svg"))
+        .collect();
+    assert_eq!(doubts.len(), 1);
+    let message = &doubts[0].message;
+    assert!(
+        message.ends_with("<text> in line 9, and 19992 more"),
+        "{message}"
+    );
+}
+
+#[test]
+fn codes_and_lists_of_very_many_magnets_are_refused_at_once() {
+    for code in [
+        format!("code = \"{}\"", "N".repeat(1_000_000)),
+        format!(
+            "magnets = [{}]",
+            "{ at = 0.0, pole = \"N\" },".repeat(100_000)
+        ),
+    ] {
+        let text = design(
+            "side = 0.1",
+            &format!("east = {{ {code} }}"),
+            "side = 0.1",
+            (0, 2),
+        );
+        let error = at_once(move || Design::parse(&text, "design.toml"));
+        assert!(
+            error.message.contains("more than 1000"),
+            "{}",
+            error.message
+        );
+        assert!(error.to_string().len() < 1000);
+    }
 }
