@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use kurbo::Affine;
+use kurbo::{Affine, Point};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
@@ -10,7 +10,7 @@ use super::super::error::Span;
 use super::super::reader::Result;
 use super::super::source::Source;
 use super::path::{SHAPES, draw};
-use super::pen::{Pen, points};
+use super::pen::{Pen, Stroke, points};
 use super::scale::scale;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
@@ -20,6 +20,9 @@ const MOST_NODES: u32 = 200_000;
 
 /// Cubics that stand for an arc leave it by this share of the chord error at most.
 const ARC_SHARE: f64 = 1e-3;
+
+/// Farthest that anything drawn may lie from the drawing's origin (m).
+const FARTHEST: f64 = 1e3;
 
 /// A shape of a drawing.
 #[derive(Clone, Debug)]
@@ -157,8 +160,16 @@ impl Reader<'_> {
             let help = "mend the shape, or convert it to a path in the drawing program";
             self.source.error(place, fault.message, help)
         })?;
-        let lines: Vec<Line> = pen
-            .finish()
+        let strokes = pen.finish();
+        if !strokes.iter().all(|stroke| is_near(stroke, map)) {
+            let message = format!(
+                "the shape's coordinates are not finite, or more than {FARTHEST} m from the \
+                 drawing's origin"
+            );
+            let help = "look for very large numbers in the shape and its transforms";
+            return Err(self.source.error(span(node), message, help));
+        }
+        let lines: Vec<Line> = strokes
             .iter()
             .map(|stroke| {
                 let start = map * stroke.start;
@@ -172,15 +183,6 @@ impl Reader<'_> {
                 }
             })
             .collect();
-        let finite = lines.iter().all(|line| {
-            let all = line.segments.iter().flatten().chain([&line.start]);
-            all.flatten().all(|x| x.is_finite())
-        });
-        if !finite {
-            let message = "the shape's coordinates are not finite";
-            let help = "look for very large numbers in the shape and its transforms";
-            return Err(self.source.error(span(node), message, help));
-        }
         if lines.is_empty() {
             let note = format!("<{}> that draws nothing", node.tag_name().name());
             self.skipped.push((span(node), note));
@@ -276,4 +278,18 @@ fn byte_of(text: &str, position: roxmltree::TextPos) -> usize {
     let column = (position.col as usize).saturating_sub(1);
     let within = text[rows..].char_indices().nth(column);
     rows + within.map_or(0, |(at, _)| at)
+}
+
+/// Whether the control points of a stroke are near enough for curves to become chords.
+fn is_near(stroke: &Stroke, map: Affine) -> bool {
+    let near = |point: Point| {
+        let at = map * point;
+        [at.x, at.y].iter().all(|x| x.abs() <= FARTHEST)
+    };
+    stroke.segments.iter().flatten().all(|piece| {
+        let cubic = piece.to_cubic();
+        [cubic.p0, cubic.p1, cubic.p2, cubic.p3]
+            .into_iter()
+            .all(near)
+    })
 }

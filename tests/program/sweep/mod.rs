@@ -3,6 +3,7 @@
 mod interruptions;
 mod mistakes;
 mod parts;
+mod records;
 mod tables;
 
 use std::collections::BTreeMap;
