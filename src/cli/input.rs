@@ -1,5 +1,6 @@
 //! What users type: designs, poses, numbers with limits.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
@@ -95,9 +96,14 @@ pub fn check_folder(folder: &Path) -> Result<(), Failure> {
         let folder = folder.display();
         Failure::Run(format!("cannot write to the folder {folder}: {error}"))
     };
-    for path in folder.ancestors().map(or_here) {
+    for ancestor in folder.ancestors() {
+        let path = or_here(ancestor);
         match fs::metadata(path) {
-            Ok(found) if found.is_dir() => return try_to_write(path).map_err(refused),
+            Ok(found) if found.is_dir() => {
+                let missing = folder.strip_prefix(ancestor).unwrap_or(Path::new(""));
+                let possible = missing.iter().try_for_each(|name| possible(path, name));
+                return possible.and_then(|()| try_to_write(path)).map_err(refused);
+            }
             Ok(_) => {
                 let (folder, file) = (folder.display(), path.display());
                 return Err(Failure::Usage(format!(
@@ -129,6 +135,14 @@ fn or_here(path: &Path) -> &Path {
     match path.as_os_str().is_empty() {
         true => Path::new("."),
         false => path,
+    }
+}
+
+/// Whether a folder may have such a name in it: not one of a thousand letters.
+fn possible(folder: &Path, name: &OsStr) -> io::Result<()> {
+    match folder.join(name).symlink_metadata() {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
 }
 

@@ -41,7 +41,14 @@ pub fn answer(answer: &clap::Error) -> ExitCode {
 /// Tells the user something on standard error. Where it cannot be written nobody reads it; that
 /// neither stops the work nor changes how it ends.
 fn tell(message: impl Display) {
-    let _ = std::io::stderr().write_all(format!("{message}\n").as_bytes());
+    let harmless = |c: char| match c {
+        '\n' | '\t' => c,
+        // Of a file's name or an unknown key; a terminal would obey it.
+        _ if c.is_control() => char::REPLACEMENT_CHARACTER,
+        _ => c,
+    };
+    let message: String = format!("{message}\n").chars().map(harmless).collect();
+    let _ = std::io::stderr().write_all(message.as_bytes());
 }
 
 /// Writes to standard output.

@@ -202,9 +202,10 @@ impl Design {
         warnings.extend(doubt);
         let (fixed, moving) = (fixed.tile, moving.tile);
         let mut design = Self {
-            name: root
-                .string("name")?
-                .map_or_else(|| stem(file), str::to_owned),
+            name: match root.get("name") {
+                Some(name) => name.line()?.to_owned(),
+                None => stem(file),
+            },
             description: root.string("description")?.unwrap_or_default().to_owned(),
             sha256: sha256(text),
             table,
@@ -321,5 +322,5 @@ fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
 
 fn stem(file: &str) -> String {
     let stem = Path::new(file).file_stem().unwrap_or_default();
-    stem.to_string_lossy().into_owned()
+    stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
 }

@@ -178,11 +178,32 @@ impl<'a> Entry<'a> {
         self.value.get_ref().as_bool()
     }
 
+    /// A text without control characters: a terminal would obey them, and no picture or page can
+    /// hold them. Lines may end in it, and have tabs.
     pub fn string(&self) -> Result<&'a str> {
-        self.value
-            .get_ref()
-            .as_str()
-            .ok_or_else(|| self.wrong_type("a string"))
+        let text = self.value.get_ref().as_str();
+        let text = text.ok_or_else(|| self.wrong_type("a string"))?;
+        self.without(text, |c| !matches!(c, '\n' | '\r' | '\t'))
+    }
+
+    /// A text of one line.
+    pub fn line(&self) -> Result<&'a str> {
+        self.without(self.string()?, |_| true)
+    }
+
+    fn without(&self, text: &'a str, refused: impl Fn(char) -> bool) -> Result<&'a str> {
+        // The last two are no characters of XML either.
+        let odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        match text.chars().find(|&c| odd(c) && refused(c)) {
+            None => Ok(text),
+            Some(c) => Err(self.error(
+                format!(
+                    "`{}` holds the control character U+{:04X}",
+                    self.key, c as u32
+                ),
+                "delete it, or write what is meant in letters",
+            )),
+        }
     }
 
     /// The place of character `index` of a string: the character itself where the string is

@@ -76,7 +76,7 @@ impl Comparison {
         }
         out.push('\n');
         for line in self.orders() {
-            let _ = writeln!(out, "- {line}");
+            let _ = writeln!(out, "- {}", without_html(&line));
         }
         let _ = writeln!(out, "\n{}", self.note());
         out
@@ -311,10 +311,18 @@ pub fn cells(design: &Assessment) -> Vec<String> {
     cells
 }
 
+/// Markdown passes HTML on as it is; this shows it.
+fn without_html(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
 /// Rows as a Markdown table, the first one its head.
 pub fn markdown_table(rows: &[Vec<String>]) -> String {
     let line = |cells: &[String]| {
-        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        let cells: Vec<String> = cells
+            .iter()
+            .map(|cell| without_html(cell).replace('|', "\\|"))
+            .collect();
         format!("| {} |\n", cells.join(" | "))
     };
     let mut out = String::new();

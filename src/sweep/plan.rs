@@ -1,6 +1,6 @@
 //! The manifest of a sweep: everything that decides it, and the points that come of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -131,18 +131,8 @@ impl Plan {
     ) -> Result<Self, PlanError> {
         let mut designs: Vec<Source> = Vec::new();
         for file in files {
-            let source = Source::read(file.as_ref(), &axes)?;
-            if designs.iter().any(|known| known.name == source.name) {
-                return Err(PlanError::SameName(source.name));
-            }
-            designs.push(source);
+            designs.push(Source::read(file.as_ref(), &axes)?);
         }
-        for (k, axis) in axes.iter().enumerate() {
-            if axes[..k].iter().any(|earlier| earlier.key == axis.key) {
-                return Err(PlanError::Twice(axis.key.clone()));
-            }
-        }
-        check_count(&designs, &axes)?;
         let plan = Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
             designs,
@@ -150,8 +140,36 @@ impl Plan {
             settings,
             seed,
         };
+        plan.check()?;
         plan.check_keys()?;
         Ok(plan)
+    }
+
+    /// Refuses what leaves nothing to do, too much, or something twice.
+    fn check(&self) -> Result<(), PlanError> {
+        let malformed = |message: String| Err(PlanError::Malformed(message));
+        if self.designs.is_empty() {
+            return malformed("it holds no design".to_owned());
+        }
+        if let Some(axis) = self.axes.iter().find(|axis| axis.values.is_empty()) {
+            return malformed(format!("`{}` has no values", axis.key));
+        }
+        let mut seen = HashSet::new();
+        let mut names = self.designs.iter().map(|design| &design.name);
+        if let Some(name) = names.find(|name| !seen.insert(*name)) {
+            return Err(PlanError::SameName(name.clone()));
+        }
+        let mut seen = HashSet::new();
+        let mut keys = self.axes.iter().map(|axis| &axis.key);
+        if let Some(key) = keys.find(|key| !seen.insert(*key)) {
+            return Err(PlanError::Twice(key.clone()));
+        }
+        let lengths = self.axes.iter().map(|axis| axis.values.len() as u128);
+        let count = lengths.fold(self.designs.len() as u128, u128::saturating_mul);
+        match count <= MOST_POINTS as u128 {
+            true => Ok(()),
+            false => Err(PlanError::TooMany(count)),
+        }
     }
 
     /// The manifest's text. It lists the points too, for people and schedulers.
@@ -177,14 +195,14 @@ impl Plan {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// Where it is none, or one of another version, or of too many points.
+    /// Where it is none, one of another version, or one without points or of too many.
     pub fn parse(text: &str) -> Result<Self, PlanError> {
         let plan: Self =
             serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;
         if plan.tilebind != env!("CARGO_PKG_VERSION") {
             return Err(PlanError::Version(plan.tilebind));
         }
-        check_count(&plan.designs, &plan.axes)?;
+        plan.check()?;
         Ok(plan)
     }
 
@@ -274,16 +292,6 @@ impl Plan {
         }
         Ok(())
     }
-}
-
-/// Refuses more points than can be handled.
-fn check_count(designs: &[Source], axes: &[Axis]) -> Result<(), PlanError> {
-    let lengths = axes.iter().map(|axis| axis.values.len() as u128);
-    let count = lengths.fold(designs.len() as u128, u128::saturating_mul);
-    if count > MOST_POINTS as u128 {
-        return Err(PlanError::TooMany(count));
-    }
-    Ok(())
 }
 
 impl Source {

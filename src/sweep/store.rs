@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Point;
+use crate::checksum::sha256;
 use crate::comparison::Assessment;
 
 /// Folder of the points' files within that of the sweep.
@@ -40,8 +41,28 @@ pub enum Outcome {
 struct Record {
     tilebind: String,
     point: String,
+    /// Of the outcome as compact JSON: a damaged file is not believed.
+    sha256: String,
     #[serde(flatten)]
     outcome: Outcome,
+}
+
+impl Record {
+    fn new(point: &Point, outcome: Outcome) -> io::Result<Self> {
+        Ok(Self {
+            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+            point: point.name.clone(),
+            sha256: sha256(serde_json::to_vec(&outcome)?),
+            outcome,
+        })
+    }
+
+    /// The outcome, if the record is what this version writes of a point.
+    fn outcome_of(self, point: &Point) -> Option<Outcome> {
+        let sound = Self::new(point, self.outcome).ok()?;
+        let found = (self.tilebind, self.point, self.sha256);
+        (found == (sound.tilebind, sound.point, sound.sha256)).then_some(sound.outcome)
+    }
 }
 
 /// How many points there are of each kind.
@@ -98,11 +119,12 @@ impl Store {
         self.points().join(format!("{}.json", point.name))
     }
 
-    /// What came of a point; `None` where nothing is known, as of a file that is damaged.
+    /// What came of a point; `None` where nothing is known, as of a file that is damaged or of
+    /// another version.
     pub fn load(&self, point: &Point) -> Option<Outcome> {
         let text = fs::read_to_string(self.path(point)).ok()?;
         let record: Record = serde_json::from_str(&text).ok()?;
-        (record.point == point.name).then_some(record.outcome)
+        record.outcome_of(point)
     }
 
     /// Keeps what came of a point: written, synced, renamed, so that the file is there as a whole
@@ -113,17 +135,17 @@ impl Store {
     pub fn save(&self, point: &Point, outcome: &Outcome) -> io::Result<()> {
         let folder = self.points();
         fs::create_dir_all(&folder)?;
-        let record = Record {
-            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
-            point: point.name.clone(),
-            outcome: outcome.clone(),
-        };
+        let record = serde_json::to_vec_pretty(&Record::new(point, outcome.clone())?)?;
         let name = format!(".{}.{}{PARTIAL}", point.name, std::process::id());
         let temporary = folder.join(name);
-        let mut file = File::create(&temporary)?;
-        file.write_all(&serde_json::to_vec_pretty(&record)?)?;
-        file.sync_all()?;
-        fs::rename(&temporary, self.path(point))?;
+        let written = write_synced(&temporary, &record)
+            .and_then(|()| fs::rename(&temporary, self.path(point)));
+        if let Err(error) = written {
+            let _ = fs::remove_file(&temporary);
+            // Of a folder that is not empty this takes nothing away.
+            let _ = fs::remove_dir(&folder);
+            return Err(error);
+        }
         // The new name, too, is to survive a power cut; not every file system can sync a folder.
         if let Ok(folder) = File::open(&folder) {
             let _ = folder.sync_all();
@@ -137,9 +159,23 @@ impl Store {
         let entries = folders.iter().flat_map(fs::read_dir).flatten().flatten();
         for entry in entries {
             let name = entry.file_name().to_string_lossy().into_owned();
-            if name.starts_with('.') && name.ends_with(PARTIAL) {
+            if is_partial(&name) {
                 let _ = fs::remove_file(entry.path());
             }
         }
     }
+}
+
+fn write_synced(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(content)?;
+    file.sync_all()
+}
+
+/// Whether a name is one that tilebind writes under: `.NAME.PROCESS.partial`.
+fn is_partial(name: &str) -> bool {
+    let inner = name.strip_prefix('.').and_then(|n| n.strip_suffix(PARTIAL));
+    inner
+        .and_then(|inner| inner.rsplit_once('.'))
+        .is_some_and(|(name, process)| !name.is_empty() && process.parse::<u32>().is_ok())
 }

@@ -126,3 +126,20 @@ fn mistakes_are_found_before_anything_is_written() {
         assert!(!output.stderr.is_empty() && !out.exists());
     }
 }
+
+#[test]
+fn names_are_no_html_in_markdown() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("named.toml");
+    let text = std::fs::read_to_string(DESIGNS[0]).unwrap();
+    let text = text.replace("name = \"wrong-partner\"", "name = '<img src=x> & co'");
+    std::fs::write(&design, text).unwrap();
+    let designs = [design.to_str().unwrap(), DESIGNS[1]];
+    let output = compare(&designs, folder.path(), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let markdown = read(folder.path(), "compare.md");
+    assert!(!markdown.contains("<img"), "{markdown}");
+    // In both tables and in the proved order.
+    assert!(markdown.matches("&lt;img src=x> &amp; co").count() > 2);
+    assert!(stdout(&output).contains("<img src=x> & co"));
+}

@@ -5,7 +5,7 @@ use super::drawings::{design, drawn, outlined, parse, profiled};
 /// Each drawing with what is said of it, and the line and column where.
 #[test]
 fn drawings_are_refused_where_the_fault_is() {
-    let cases: [(&str, &str, &str); 15] = [
+    let cases: [(&str, &str, &str); 16] = [
         (
             "<path d=\"M0 0h100v100h-100\"/>",
             "the outline is open: its ends are 100 mm apart",
@@ -48,6 +48,11 @@ fn drawings_are_refused_where_the_fault_is() {
         (
             "<path transform=\"scale(1e200)\" d=\"M0 0h1e200v9z\"/>",
             "not finite",
+            "2:2",
+        ),
+        (
+            "<path d=\"M0 0h100v100C1e15 0 0 100 0 100z\"/>",
+            "from the drawing's origin",
             "2:2",
         ),
         ("<path d=\"M0 0h9v9z\">", "not well-formed XML", "3:1"),

@@ -120,9 +120,10 @@ fn check_barrier(out: &Path, states: &[Value], barrier: &Value, from: Option<usi
         None => 0.0,
     };
     let saddle = number("saddle_energy_J");
-    let difference = |key: &str, end: &str| number(key) - (saddle - energy(&barrier[end]));
-    assert!(difference("forward_J", "from").abs() < 1e-12);
-    assert!(difference("reverse_J", "to").abs() < 1e-12);
+    let above = |end: &str| saddle - energy(&barrier[end]);
+    assert!((number("forward_J") - above("from")).abs() < 1e-12);
+    // No barrier is negative, though ways to free may end a little below 0.
+    assert!((number("reverse_J") - above("to").max(0.0)).abs() < 1e-12);
     assert!(number("forward_J") > 0.0);
     assert_eq!(numbers(&barrier["saddle_pose"]).len(), 3);
     assert!(barrier.get("lower_J").is_some() && barrier.get("upper_J").is_some());

@@ -124,7 +124,7 @@ fn the_folder_of_another_program_is_refused_as_it_is() {
         let theirs = [("report.json", report), ("pictures/map.svg", "theirs")];
         place(folder.path(), &theirs);
         let before = contents(folder.path());
-        let output = analyse(folder.path(), &["--milestones", "3000000"]);
+        let output = analyse(folder.path(), &[]);
         assert_eq!(output.status.code(), Some(2));
         let message = stderr(&output);
         assert!(message.contains("not a report of tilebind") && message.contains("help:"));
@@ -153,7 +153,7 @@ fn folders_that_cannot_be_written_are_refused_before_the_computation() {
     let endless = ["--milestones", "3000000"];
     let analyse = [&["analyse", DESIGN], &endless[..], &["--out"]].concat();
     let compare = [&["compare", DESIGN], &endless[..], &["--out"]].concat();
-    let sweep = ["sweep", DESIGN, "--vary", "mass=0.1,0.2"];
+    let sweep = ["sweep", DESIGN, "--vary", "fixed.mass=0.1,0.2"];
     let sweep = [&sweep, &endless[..], &["--out"]].concat();
     let dock = ["dock", DESIGN, "--runs", "1000000", "--out"];
     for command in [&analyse[..], &compare, &sweep, &dock] {

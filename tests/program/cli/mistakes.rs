@@ -150,3 +150,22 @@ fn more_memory_than_the_machine_has_is_refused_before_anything_is_done() {
     let few = [&["barrier", design, "--milestones", "1"][..], &ends[..]].concat();
     assert_ne!(tilebind(&few).status.code(), Some(2));
 }
+
+/// A terminal would obey them.
+#[test]
+fn messages_hold_no_control_characters() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("keyed.toml");
+    let text = std::fs::read_to_string("shapes/paper-tile.toml").unwrap();
+    std::fs::write(&design, format!("\"\\u001b[2J\" = 1\n{text}")).unwrap();
+    for file in [design.to_str().unwrap(), "\u{1b}[2J.toml"] {
+        let output = tilebind(&["energy", file, "--pose", "0.43,0,0"]);
+        assert_eq!(output.status.code(), Some(2));
+        let message = stderr(&output);
+        let odd = |c: char| c.is_control() && c != '\n';
+        assert!(
+            message.contains("[2J") && !message.contains(odd),
+            "{message:?}"
+        );
+    }
+}

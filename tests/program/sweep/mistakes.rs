@@ -62,21 +62,40 @@ fn manifests_and_parts_are_checked() {
         let output = run(&["--run", plan, "--shard", part]);
         assert_eq!(output.status.code(), Some(2), "{part}");
     }
-    let planned = std::fs::read_to_string(&file).unwrap();
-    let older = planned.replace(env!("CARGO_PKG_VERSION"), "0.0.1");
-    // 1000^7 points are more than a machine's numbers count.
-    let mut manifest: serde_json::Value = serde_json::from_str(&planned).unwrap();
-    let axis = |k: usize| serde_json::json!({"key": format!("a{k}"), "values": vec![k; 1000]});
-    manifest["axes"] = (0..7).map(axis).collect();
+    let older = std::fs::read_to_string(&file)
+        .unwrap()
+        .replace(env!("CARGO_PKG_VERSION"), "0.0.1");
+    let manifest: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    let with = |pointer: &str, value: serde_json::Value| {
+        let mut changed = manifest.clone();
+        *changed.pointer_mut(pointer).unwrap() = value;
+        changed.to_string()
+    };
+    let axis = |k: usize| serde_json::json!({"key": format!("a.{k}"), "values": vec![0; 1000]});
     for (content, said) in [
         (older.as_str(), "plan the sweep anew"),
-        (&manifest.to_string(), "more than 1000000"),
+        (&with("/designs", serde_json::json!([])), "holds no design"),
+        (
+            &with("/axes/0/values", serde_json::json!([])),
+            "has no values",
+        ),
+        (
+            &with("/axes", (0..7).map(axis).collect()),
+            "more than 1000000",
+        ),
+        (
+            &with("/axes", [0, 0].map(axis).into_iter().collect()),
+            "varied twice",
+        ),
         ("{}", "no manifest"),
     ] {
         std::fs::write(&file, content).unwrap();
-        let output = run(&["--run", plan]);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains(said), "{}", stderr(&output));
+        for what in ["--run", "--status", "--merge"] {
+            let output = run(&[what, plan]);
+            assert_eq!(output.status.code(), Some(2), "{what}");
+            assert!(stderr(&output).contains(said), "{}", stderr(&output));
+        }
     }
     let output = run(&["--status", "nowhere/plan.json"]);
     assert_eq!(output.status.code(), Some(2));

@@ -4,6 +4,7 @@ mod axes;
 mod interruptions;
 mod mistakes;
 mod parts;
+mod records;
 mod tables;
 
 use std::collections::BTreeMap;
