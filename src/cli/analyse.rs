@@ -89,11 +89,11 @@ pub struct Analyse {
 impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
+        interrupt::prepare()?;
         let design = self.design.load()?;
         self.check_out()?;
         memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
-        interrupt::prepare()?;
 
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);

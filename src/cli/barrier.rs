@@ -67,13 +67,13 @@ pub struct Barrier {
 
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
         let design = self.design.load()?;
         if let Some(file) = &self.pathway {
             input::check_file(file)?;
         }
         memory::check(self.milestones, None, 1)?;
         self.work.use_threads()?;
-        interrupt::prepare()?;
         let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
             let message = error.to_string();

@@ -65,12 +65,12 @@ pub struct Compare {
 
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
         let designs = self.load()?;
         input::check_folder(&self.out)?;
         let settings = self.options.settings();
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
-        interrupt::prepare()?;
 
         let progress = self.print.progress();
         let assessments: Vec<Assessment> = designs

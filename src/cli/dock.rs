@@ -116,13 +116,13 @@ const INTERVAL: f64 = 0.02;
 
 impl Dock {
     pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
         let design = input::load(&self.design)?;
         let problem = design.problem();
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
         }
         self.work.use_threads()?;
-        interrupt::prepare()?;
         let settings = self.settings();
         if let Some(index) = self.trajectory.filter(|index| *index >= self.runs) {
             return Err(Failure::Usage(format!(

@@ -107,8 +107,8 @@ impl Sweep {
         if let Some(file) = &self.run {
             let (plan, folder) = self.read(file)?;
             check_folders(&folder)?;
-            self.check_memory(&plan)?;
             interrupt::prepare_resumable()?;
+            self.check_memory(&plan)?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
         }
@@ -127,10 +127,10 @@ impl Sweep {
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         input::check_file(&file)?;
         check_folders(&folder)?;
+        interrupt::prepare_resumable()?;
         if self.plan.is_none() {
             self.check_memory(&plan)?;
         }
-        interrupt::prepare_resumable()?;
         let text = plan.to_text();
         interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
         if self.plan.is_some() {

@@ -61,7 +61,10 @@ impl<'a> Drawings<'a> {
     pub fn text(&self, design: &str, name: &str) -> std::io::Result<String> {
         let text = match self.held {
             Some(held) => held.get(name).cloned().ok_or_else(|| {
-                Error::new(ErrorKind::NotFound, "it could not be read with the design")
+                Error::new(
+                    ErrorKind::NotFound,
+                    "it was not there when the design was read",
+                )
             }),
             None => read_text(design, name),
         }?;

@@ -167,10 +167,10 @@ fn tables_pictures_and_the_summary() {
     assert_eq!(table.lines().count(), 1 + states.len());
     assert!(table.starts_with("id,kind,class,copies,x_m,y_m,theta_rad,energy_J,"));
     let header = table.lines().next().unwrap();
-    assert!(header.ends_with("faces,block_energy_J,dipole_error_J"));
+    assert!(header.ends_with("faces,block_energy_J,dipole_error_J,name,caged"));
     for (row, state) in table.lines().skip(1).zip(states) {
         let cells: Vec<&str> = row.split(',').collect();
-        let [blocks, error] = [cells.len() - 2, cells.len() - 1].map(|k| cells[k].parse::<f64>());
+        let [blocks, error] = [cells.len() - 4, cells.len() - 3].map(|k| cells[k].parse::<f64>());
         let energy = state["energy_J"].as_f64().unwrap();
         let expected = energy - state["block_energy_J"].as_f64().unwrap();
         assert!((error.unwrap() - expected).abs() < 1e-9 * expected.abs());

@@ -143,7 +143,7 @@ fn a_drawing_is_part_of_the_point() {
     );
     let table = std::fs::read_to_string(folder.path().join("sweep.csv")).unwrap();
     assert!(
-        table.contains("the drawing \"\"c.svg\"\" could not be read"),
+        table.contains("cannot read the drawing \"\"c.svg\"\""),
         "{table}"
     );
 }
