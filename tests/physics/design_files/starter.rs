@@ -29,5 +29,5 @@ fn the_starter_s_remarks_are_sound_too() {
         Design::parse(&text, "starter.toml").unwrap_or_else(|e| panic!("{offered}: {e}"));
         taken += 1;
     }
-    assert_eq!(taken, 5);
+    assert_eq!(taken, 7);
 }

@@ -28,6 +28,25 @@ fn the_starter_is_written_once_and_can_be_used() {
     assert_eq!(fs::read_to_string(&path).unwrap(), "my own work");
 }
 
+/// A first design has a bond that starts find, and nothing that holds the tiles nearly as well.
+#[test]
+fn the_starter_binds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, out] = ["mine.toml", "out"].map(|name| folder.path().join(name));
+    let [file, out] = [&file, &out].map(|path| path.to_str().unwrap());
+    assert_eq!(tilebind(&["init", file]).status.code(), Some(0));
+    let quick = ["--milestones", "1500", "--far-starts", "100", "--json"];
+    let report = json(&[&["analyse", file, "--out", out], &quick[..]].concat());
+    let states = report["states"].as_array().unwrap();
+    let energy = |k: usize| states[k]["energy_J"].as_f64().unwrap();
+    assert_eq!(
+        (&states[0]["kind"], &states[0]["copies"]),
+        (&"bound".into(), &1.into())
+    );
+    assert!(states[0]["capture"]["share"].as_f64().unwrap() > 0.25);
+    assert!((1..states.len()).all(|k| energy(k) > 0.1 * energy(0)));
+}
+
 #[test]
 fn the_starter_is_called_design_toml() {
     let folder = tempfile::tempdir().unwrap();
