@@ -104,7 +104,7 @@ fn is_captured(
             problem.space.distance(&end.point.q, bond) < SAME_BOND
                 && end.point.energy <= energy + ENERGY_SHARE * energy.abs()
         }
-        Outcome::Free | Outcome::Stuck => false,
+        Outcome::Free | Outcome::Stuck(_) => false,
     }
 }
 

@@ -29,8 +29,9 @@ pub enum Outcome {
     Minimum(Box<Stationary>),
     /// The tiles are far apart.
     Free,
-    /// No step goes down, but no minimum is near: the accuracy of the energy is exhausted.
-    Stuck,
+    /// No step goes down from here, but no minimum could be verified: the accuracy of the energy is
+    /// exhausted, or corners of both tiles meet.
+    Stuck(Configuration),
 }
 
 /// A descent: its way, start and end included, and where it ended.
@@ -86,13 +87,13 @@ fn follow(
             // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
             match lower_neighbour(problem, &here) {
                 Some(lower) => way.push(lower),
-                None => return Outcome::Stuck,
+                None => return Outcome::Stuck(here.q),
             }
             size = LONGEST_STEP;
             newton_below = TRY_NEWTON;
         }
     }
-    Outcome::Stuck
+    Outcome::Stuck(way.last().expect("a way has a start").q)
 }
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free

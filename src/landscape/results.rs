@@ -66,6 +66,17 @@ impl Proportion {
     }
 }
 
+/// Shares of the far starts that end in no reported state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncaptured {
+    /// All of them.
+    pub all: Proportion,
+    /// Those that come to rest, in something too shallow to be reported.
+    pub at_rest: Proportion,
+    /// Those that leave the table.
+    pub gone: Proportion,
+}
+
 /// A local minimum of the energy over the free configurations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Settings;
 use crate::configuration::Configuration;
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Inventory, Proportion, Uncertified};
+use crate::landscape::{Barrier, Inventory, Uncaptured, Uncertified};
 use crate::problem::Problem;
 use crate::roadmap::RoadmapSettings;
 
@@ -22,8 +22,8 @@ pub struct Analysis {
     pub bound: (Configuration, f64),
     /// States, barriers and pathways.
     pub inventory: Inventory,
-    /// Share of the far starts that end in no state.
-    pub uncaptured: Proportion,
+    /// Shares of the far starts that end in no state.
+    pub uncaptured: Uncaptured,
     /// Inner and outer radius (m) of the ring of far starts.
     pub ring: [f64; 2],
     /// Why the barriers have no certified bounds, where they have none.

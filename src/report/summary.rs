@@ -76,18 +76,20 @@ fn write_captures(
     bond: Option<&Kind>,
     traps: &[Kind],
 ) {
-    let of = analysis.uncaptured.of;
+    let of = analysis.uncaptured.all.of;
     let trapped: usize = traps.iter().map(|class| class.captured().count).sum();
     let bound = bond.map_or(0, |class| class.captured().count);
     let [inner, outer] = analysis.ring;
     let _ = writeln!(
         text,
-        "{}: of {of} far starts {} end in the bond, {} in traps, {} in neither\n\
+        "{}: of {of} far starts {} end in the bond, {} in traps,\n\
+         {} at rest in something shallow, {} gone\n\
          (overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)",
         design.name,
         percent(&Proportion::new(bound, of)),
         percent(&Proportion::new(trapped, of)),
-        percent(&analysis.uncaptured),
+        percent(&analysis.uncaptured.at_rest),
+        percent(&analysis.uncaptured.gone),
     );
 }
 

@@ -407,6 +407,6 @@ pub(super) fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Conf
     }
     match drift(problem, &q) {
         Outcome::Minimum(found) => Some(found.point.q),
-        Outcome::Free | Outcome::Stuck => None,
+        Outcome::Free | Outcome::Stuck(_) => None,
     }
 }

@@ -12,6 +12,7 @@ pub use kind::Kind;
 use self::reader::Reader;
 use super::results::{
     Alternative, Barrier, PathwayPoint, Place, Proportion, SAME_ENERGY, State, StateKind,
+    Uncaptured,
 };
 use super::survey::Survey;
 use crate::configuration::Configuration;
@@ -155,25 +156,32 @@ impl Inventory {
         }
     }
 
-    /// Counts in which states far starts ended and fills in the capture shares; returns the share
-    /// that ended in none.
+    /// Counts in which states far starts ended and fills in the capture shares; the others are
+    /// returned.
     pub fn count_captures(
         &mut self,
         problem: &Problem,
         ends: &[Option<Configuration>],
-    ) -> Proportion {
+    ) -> Uncaptured {
+        let share = |count| Proportion::new(count, ends.len());
         let mut counts = vec![0; self.states.len()];
-        let mut none = 0;
+        let [mut at_rest, mut gone] = [0, 0];
         for end in ends {
-            match end.and_then(|q| self.nearest_state(problem, &q)) {
-                Some(id) => counts[id] += 1,
-                None => none += 1,
+            let state = end.and_then(|q| self.nearest_state(problem, &q));
+            match (state, end) {
+                (Some(id), _) => counts[id] += 1,
+                (None, Some(_)) => at_rest += 1,
+                (None, None) => gone += 1,
             }
         }
         for (state, count) in self.states.iter_mut().zip(counts) {
-            state.capture = Some(Proportion::new(count, ends.len()));
+            state.capture = Some(share(count));
         }
-        Proportion::new(none, ends.len())
+        Uncaptured {
+            all: share(at_rest + gone),
+            at_rest: share(at_rest),
+            gone: share(gone),
+        }
     }
 
     fn nearest_state(&self, problem: &Problem, q: &Configuration) -> Option<usize> {

@@ -174,7 +174,7 @@ impl Survey {
                 self.network.add_same(node, self.free, last.energy);
                 Some(node)
             }
-            Outcome::Stuck => None,
+            Outcome::Stuck(_) => None,
         }
     }
 

@@ -52,9 +52,15 @@ impl Report {
                 "state": analysis.inventory.bound_state,
             },
             "states": entries(&states(Output::Json), StateRow::all(design, analysis, &analysis.inventory.names())),
-            // Share of the far starts that ended in no state; inner and outer radius of the ring
-            // from which they are drawn.
-            "free": {"capture": proportion(analysis.uncaptured), "ring_m": analysis.ring},
+            // Share of the far starts that ended in no state, and of which rest in something too
+            // shallow to be listed or leave the table; inner and outer radius of the ring from
+            // which they are drawn.
+            "free": {
+                "capture": proportion(analysis.uncaptured.all),
+                "ring_m": analysis.ring,
+                "at_rest": proportion(analysis.uncaptured.at_rest),
+                "gone": proportion(analysis.uncaptured.gone),
+            },
             "barriers": entries(&barriers(Output::Json), &analysis.inventory.barriers),
             // Why the bounds of all barriers are null; itself null where they are certified.
             "uncertified": analysis.uncertified.map(|why| why.to_string()),

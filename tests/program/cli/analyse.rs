@@ -107,6 +107,8 @@ fn the_report_has_every_key_and_every_file_that_it_names() {
         .sum();
     let uncaptured = report["free"]["capture"]["share"].as_f64().unwrap();
     assert!((shares + uncaptured - 1.0).abs() < 1e-9);
+    let count = |key: &str| report["free"][key]["count"].as_u64().unwrap();
+    assert_eq!(count("at_rest") + count("gone"), count("capture"));
 }
 
 /// A barrier's numbers agree with its ends and with its pathway.
