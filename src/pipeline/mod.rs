@@ -34,7 +34,6 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
     clock.start("capture shares", 0.7);
     let ends = capture::ends(&problem, &settings.far_starts());
-    let uncaptured = inventory.count_captures(&problem, &ends);
     for repeat in 1..settings.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
@@ -50,6 +49,8 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         &settings.certification(),
         observer,
     );
+    inventory.leave_out_shallow(&problem, settings.least_depth);
+    let uncaptured = inventory.count_captures(&problem, &ends);
     let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
     let stages = clock.stop();
     Analysis {

@@ -43,3 +43,63 @@ fn teeth_without_play_are_pulled_out_straight() {
     assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
     assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
 }
+
+/// Pointed teeth of which two meet point to point: on a slope, though no step that was tried there
+/// led down.
+#[test]
+fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
+    let design = designs::load("tests/designs/good/vertex-points.toml");
+    let analysis = analyse(&design, &Settings::default(), &Silent);
+    let states = &analysis.inventory.states;
+    let deepest = states.iter().map(|state| state.energy.abs());
+    let least = Settings::default().least_depth * deepest.fold(0.0, f64::max);
+    for (id, state) in states.iter().enumerate() {
+        assert_eq!(
+            (state.id, analysis.inventory.kinds().count()),
+            (id, states.len())
+        );
+        let escape = analysis.escape(id).unwrap();
+        assert_eq!(escape.from, Place::State(id));
+        assert!(escape.forward() >= least, "{state:?}: {escape:?}");
+        let beside = [
+            state.configuration.x - 0.16,
+            state.configuration.y - 0.046875,
+        ];
+        assert!(beside[0].hypot(beside[1]) > 1e-4, "{state:?}");
+    }
+    let is_listed = |place: Place| match place {
+        Place::State(id) => id < states.len(),
+        Place::Free => true,
+    };
+    let barriers = &analysis.inventory.barriers;
+    assert!(
+        barriers
+            .iter()
+            .all(|b| is_listed(b.from) && is_listed(b.to))
+    );
+}
+
+/// Corners of both tiles meet in the bond: a tile that rests a micrometre from it is bound.
+#[test]
+fn far_starts_that_rest_beside_the_bond_are_bound() {
+    let design = designs::load("tests/designs/good/triangles.toml");
+    let settings = Settings {
+        milestones: 2000,
+        certify_seconds: 0.0,
+        ..Settings::default()
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let bound = analysis
+        .inventory
+        .kinds()
+        .find(|kind| kind.is_bond())
+        .unwrap();
+    // An independent flow finds 7.8 % there.
+    let share = bound.captured();
+    assert!(share.low < 0.078 && share.high > 0.078, "{share:?}");
+    let uncaptured = analysis.uncaptured;
+    assert_eq!(
+        uncaptured.at_rest.count + uncaptured.gone.count,
+        uncaptured.all.count
+    );
+}

@@ -156,6 +156,49 @@ impl Inventory {
         }
     }
 
+    /// Leaves out the traps that a known way leads out of with less than `least_depth`, a fraction
+    /// of the deepest energy: where the certificate found such a way they were no traps, whatever
+    /// the roadmap made of them.
+    pub fn leave_out_shallow(&mut self, problem: &Problem, least_depth: f64) {
+        let deepest = self.states.iter().map(|state| state.energy.abs());
+        let least = least_depth * deepest.fold(0.0, f64::max);
+        let holds = |kind: &Kind| {
+            let escape = self.escape_of_kind(problem, kind.first().class);
+            kind.is_bond() || escape.is_none_or(|way| way.forward() >= least)
+        };
+        let kept: Vec<usize> = self
+            .kinds()
+            .filter(holds)
+            .flat_map(|kind| kind.states.iter().map(|state| state.id))
+            .collect();
+        if kept.len() < self.states.len() {
+            self.keep(&kept);
+        }
+    }
+
+    /// Keeps the states with these ids, ascending, under new ones, and what joins them.
+    fn keep(&mut self, kept: &[usize]) {
+        let new_id = |id: usize| kept.binary_search(&id).ok();
+        let place = |place: Place| match place {
+            Place::State(id) => new_id(id).map(Place::State),
+            Place::Free => Some(Place::Free),
+        };
+        let renamed = |from: &mut Place, to: &mut Place| {
+            let ends = place(*from).zip(place(*to));
+            ends.map(|ends| (*from, *to) = ends).is_some()
+        };
+        self.shallow += self.states.len() - kept.len();
+        self.states.retain(|state| new_id(state.id).is_some());
+        for state in &mut self.states {
+            state.id = new_id(state.id).unwrap_or(state.id);
+            state.class = new_id(state.class).unwrap_or(state.class);
+        }
+        self.barriers
+            .retain_mut(|barrier| renamed(&mut barrier.from, &mut barrier.to));
+        self.alternatives
+            .retain_mut(|way| renamed(&mut way.from, &mut way.to));
+    }
+
     /// Counts in which states far starts ended and fills in the capture shares; the others are
     /// returned.
     pub fn count_captures(
