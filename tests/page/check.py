@@ -237,7 +237,7 @@ def check_sweep(check, program, folder):
         # The first design's bond at the first depth: the dot nearest to the curve's beginning.
         dot = browser.run("(() => { const c = document.querySelector('#charts .panels canvas'),"
                           " g = charts.curves[0], p = g.series[0].points[1][1];"
-                          " return [p, charts.points[p].told]; })()")
+                          " return [p, charts.points[p].readout]; })()")
         row = "document.querySelectorAll('#tables table')[0].tBodies[0].rows[%d]" % dot[0]
         browser.run(f"{row}.dispatchEvent(new PointerEvent('pointerenter'))")
         check.that(picture(browser) != before, "a row of the table is shown among the curves")
