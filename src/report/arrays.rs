@@ -18,9 +18,9 @@
 use std::borrow::Borrow;
 
 use super::columns::{self, Cell, Column, Output, StateRow};
+use super::files::Files;
 use super::page::landscape::{in_front, whole};
 use super::plots::Scene;
-use super::writer::Files;
 use crate::design::Design;
 use crate::landscape::volume::Volume;
 use crate::landscape::{Barrier, Place};

@@ -2,9 +2,10 @@
 //!
 //! A new column is one entry here, and appears in every output in which it is given a place.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::json::{barrier, face_names, kind, pathway_file, pose, proportion};
+use super::names::{face_names, kind, pathway_file, place};
+use super::values::{pose, positive_zero, proportion};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
@@ -186,7 +187,7 @@ fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
         // Proved that there is no way out at all.
         c([20,  0,  0,  0], "caged", "", "caged", |s| value(s.is_caged())),
         c([ 0,  9,  0,  0], "escape_saddle_energy", "J", "saddle", |s| s.out(|b| real(b.saddle_energy))),
-        c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(barrier(b)))),
+        c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(object(&barriers(Output::Json), b)))),
         c([11, 10,  0,  7], "capture_share", "%", "captured", |s| real(s.capture.map(|c| c.share()))),
         c([12,  0,  0,  0], "capture_low", "%", "at least", |s| real(s.capture.map(|c| c.low))),
         c([13,  0,  0,  0], "capture_high", "%", "at most", |s| real(s.capture.map(|c| c.high))),
@@ -265,6 +266,19 @@ fn value(value: impl Into<Value>) -> Cell {
 
 fn real(value: impl Into<Option<f64>>) -> Cell {
     Cell::Real(value.into().unwrap_or(f64::NAN))
+}
+
+/// A row as an object.
+pub fn object<Row>(columns: &[Column<Row>], row: &Row) -> Value {
+    let cells = columns.iter().map(|column| {
+        let value = match (column.get)(row) {
+            Cell::Value(value) => value,
+            Cell::Real(value) => json!(positive_zero(value)),
+            Cell::Place(at) => place(at),
+        };
+        (column.key(), value)
+    });
+    Value::Object(cells.collect::<Map<_, _>>())
 }
 
 #[cfg(test)]

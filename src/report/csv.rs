@@ -4,7 +4,8 @@ use ordered_float::OrderedFloat;
 use std::borrow::Borrow;
 
 use super::columns::{self, Cell, Column, Output, StateRow};
-use super::json::{place_name, positive_zero};
+use super::names::place_name;
+use super::values::positive_zero;
 use crate::design::Design;
 use crate::landscape::{Barrier, Pathway, PathwayPoint};
 use crate::pipeline::Analysis;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::csv;
-use super::json::{place, place_name};
+use super::names::{place, place_name};
 use crate::dynamics::check::{BarrierCheck, Side, SideVerdict};
 use crate::pipeline::Analysis;
 

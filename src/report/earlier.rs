@@ -6,7 +6,7 @@ use std::path::{Component, Path};
 
 use serde::Deserialize;
 
-use super::writer::REPORT;
+use super::files::REPORT;
 use crate::checksum::sha256;
 
 /// The part of a report that tells who wrote it, and what beside it.

@@ -2,6 +2,7 @@
 //!
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`columns`] - what is told of states and of barriers, once for all outputs;
+//! - [`names`] - what states, places, faces and files are called;
 //! - [`csv`] - tables of states and barriers, and pathways;
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
@@ -12,7 +13,7 @@
 //! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
 //!   for programs that draw disconnectivity graphs;
-//! - [`writer`] - all of it as files of one folder.
+//! - [`writer`] - all of it as [`files`] of one folder.
 
 pub mod arrays;
 pub mod calibration;
@@ -23,10 +24,13 @@ pub mod docking;
 pub mod dynamics;
 mod earlier;
 pub mod figures;
+pub mod files;
 pub mod json;
+pub mod names;
 pub mod page;
 pub mod plots;
 pub mod summary;
 pub mod sweep;
 pub mod topsearch;
+mod values;
 pub mod writer;

@@ -11,7 +11,7 @@ use crate::design::Design;
 use crate::landscape::{Inventory, Kind, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
-use crate::report::json::face_names;
+use crate::report::names::face_names;
 use crate::units::{si, si_range};
 
 /// Traps that are listed one by one.

@@ -10,8 +10,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use super::files::Files;
 use super::plots::Scene;
-use super::writer::Files;
 use crate::configuration::Configuration;
 use crate::landscape::Place;
 

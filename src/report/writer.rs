@@ -1,30 +1,23 @@
 //! The files of an analysis: whole or not there at all.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::earlier::{Earlier, content};
+pub use super::files::{Files, PAGE, REPORT};
 use super::json::Report;
+use super::names::{alternative_file, pathway_file};
 use super::page::Page;
 use super::plots::{self, NamedPicture, PictureError, Scene};
-use super::{arrays, csv, dynamics, json, topsearch};
+use super::{arrays, csv, dynamics, topsearch};
 use crate::design::Design;
 use crate::landscape::Barrier;
 use crate::pipeline::Analysis;
 
-/// Files by their names relative to the folder they go to.
-pub type Files = BTreeMap<String, Vec<u8>>;
-
-/// The file that is written last: where it is, the others are too.
-pub const REPORT: &str = "report.json";
-
 /// The folders of an analysis within that of its results.
 pub const FOLDERS: [&str; 4] = ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER];
-
-/// The page for a browser.
-pub const PAGE: &str = "report.html";
 
 /// Why results could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -99,11 +92,11 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
         .filter_map(|state| analysis.escape(state.id));
     let barriers = escapes.chain(analysis.inventory.barriers.iter().cloned());
     for barrier in barriers.filter(Barrier::has_way) {
-        add(json::pathway_file(&barrier), csv::pathway(&barrier.pathway));
+        add(pathway_file(&barrier), csv::pathway(&barrier.pathway));
     }
     for alternative in &analysis.inventory.alternatives {
         add(
-            json::alternative_file(alternative),
+            alternative_file(alternative),
             csv::pathway(&alternative.pathway),
         );
     }

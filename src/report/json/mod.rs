@@ -5,23 +5,22 @@
 //! same design, settings and version. What is not known, or infinite, is null.
 
 mod layout;
-mod names;
 
 use std::borrow::Borrow;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+pub use super::values::positive_zero;
 pub use layout::text;
-pub(super) use names::place;
-pub use names::{alternative_file, face_names, kind, pathway_file, place_name};
 
-use super::columns::{Cell, Column, Output, StateRow, barriers, states};
+use super::columns::{Column, Output, StateRow, barriers, object, states};
 use super::dynamics;
-use super::writer::Files;
+use super::files::Files;
+use super::names::{self, alternative_file, place};
+use super::values::{pose, proportion};
 use crate::checksum::sha256;
-use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::landscape::{Alternative, Barrier, PathwayCost, Proportion};
+use crate::landscape::{Alternative, Barrier, PathwayCost};
 use crate::pipeline::Analysis;
 
 /// The content of `report.json`.
@@ -109,7 +108,7 @@ impl Report {
 
 /// A barrier as an entry of `report.json`.
 pub fn barrier(barrier: &Barrier) -> Value {
-    entry(&barriers(Output::Json), barrier)
+    object(&barriers(Output::Json), barrier)
 }
 
 /// Which design was analysed; the checksum is of the design file's bytes.
@@ -166,44 +165,10 @@ fn alternative(alternative: &Alternative) -> Value {
     })
 }
 
-/// A sampled proportion with its 95 % Wilson interval.
-pub(super) fn proportion(proportion: Proportion) -> Value {
-    json!({
-        "share": proportion.share(),
-        "low": proportion.low,
-        "high": proportion.high,
-        "count": proportion.count,
-        "of": proportion.of,
-    })
-}
-
 fn entries<Row>(
     columns: &[Column<Row>],
     rows: impl IntoIterator<Item = impl Borrow<Row>>,
 ) -> Value {
     let rows = rows.into_iter();
-    rows.map(|row| entry(columns, row.borrow())).collect()
-}
-
-/// A row as an object.
-pub(super) fn entry<Row>(columns: &[Column<Row>], row: &Row) -> Value {
-    let cells = columns.iter().map(|column| {
-        let value = match (column.get)(row) {
-            Cell::Value(value) => value,
-            Cell::Real(value) => json!(positive_zero(value)),
-            Cell::Place(at) => place(at),
-        };
-        (column.key(), value)
-    });
-    Value::Object(cells.collect::<Map<_, _>>())
-}
-
-/// A configuration as entries have it.
-pub(super) fn pose(q: &Configuration) -> [f64; 3] {
-    q.to_array().map(positive_zero)
-}
-
-/// The number itself, but 0 for -0.
-pub fn positive_zero(value: f64) -> f64 {
-    value + 0.0
+    rows.map(|row| object(columns, row.borrow())).collect()
 }

@@ -16,7 +16,7 @@ use crate::landscape::map::evenly;
 use crate::landscape::volume::{InFront, Volume, around};
 use crate::landscape::{Place, State};
 use crate::potential::{DipolePotential, Potential};
-use crate::report::json::kind;
+use crate::report::names::kind;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::{EnergyScale, VIK};
 use crate::tile::Tile;

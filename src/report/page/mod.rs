@@ -229,7 +229,7 @@ fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{value:.*e}", digits - 1);
     let rounded = text.parse().unwrap_or(value);
     if f64::is_finite(rounded) {
-        super::json::positive_zero(rounded)
+        super::values::positive_zero(rounded)
     } else {
         0.0
     }
@@ -238,7 +238,7 @@ fn rounded(value: f64, digits: usize) -> f64 {
 /// A length or an angle with `decimals` decimals.
 fn fixed(value: f64, decimals: i32) -> f64 {
     let scale = 10f64.powi(decimals);
-    super::json::positive_zero((value * scale).round() / scale)
+    super::values::positive_zero((value * scale).round() / scale)
 }
 
 /// Like [`rounded`], `None` for what is not finite.

@@ -41,7 +41,7 @@ pub fn face_names(design: &Design, state: &State) -> Vec<[String; 2]> {
 }
 
 /// A place as an entry names it: a state's id, or `free`.
-pub(in crate::report) fn place(place: Place) -> Value {
+pub(super) fn place(place: Place) -> Value {
     match place {
         Place::State(id) => json!(id),
         Place::Free => json!("free"),
