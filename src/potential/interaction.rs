@@ -21,6 +21,8 @@
 //! and its keys in the design reader. Roadmap, landscape, certificates, dynamics and pictures stay
 //! as they are.
 
+use std::sync::LazyLock;
+
 use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
 use super::{CuboidPotential, DipolePotential, Potential, ShieldedPotential};
@@ -78,25 +80,38 @@ pub struct Energy {
     /// U and its derivatives.
     pub potential: Box<dyn Potential + Send>,
     /// Its bounds over cells, or why there are none.
-    pub bounds: Result<Box<dyn CellBounds + Send>, Unbounded>,
+    pub bounds: Result<LazyBounds, Unbounded>,
 }
+
+/// Bounds over cells, made when they are first asked for: those of blocks take longer than many
+/// energies.
+pub type LazyBounds = LazyLock<BoxedBounds, Box<dyn FnOnce() -> BoxedBounds + Send>>;
+
+/// Bounds over cells of any energy.
+pub type BoxedBounds = Box<dyn CellBounds + Send>;
 
 impl Interaction {
     /// The energy between two tiles.
     pub fn between(&self, fixed: &Tile, moving: &Tile) -> Energy {
         let Self { model, shields } = self;
         let (first, second) = (&fixed.magnets, &moving.magnets);
-        let bounds: Result<Box<dyn CellBounds + Send>, _> = match model {
+        let bounds: Result<fn(&Tile, &Tile, &Shields) -> BoxedBounds, _> = match model {
             _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
             MagnetModel::Dipole if shields.is_none() => {
-                Ok(Box::new(DipoleBounds::new(fixed, moving)))
+                Ok(|a, b, _| Box::new(DipoleBounds::new(a, b)))
             }
-            MagnetModel::Dipole => Ok(Box::new(ShieldedBounds::new(fixed, moving, shields))),
+            MagnetModel::Dipole => Ok(|a, b, shields| Box::new(ShieldedBounds::new(a, b, shields))),
             MagnetModel::Cuboid if shields.is_none() => {
-                Ok(Box::new(CuboidBounds::new(fixed, moving)))
+                Ok(|a, b, _| Box::new(CuboidBounds::new(a, b)))
             }
             MagnetModel::Cuboid => Err(Unbounded::ShieldedBlocks),
         };
+        let bounds = bounds.map(|make| {
+            let (fixed, moving, shields) = (fixed.clone(), moving.clone(), shields.clone());
+            let make: Box<dyn FnOnce() -> BoxedBounds + Send> =
+                Box::new(move || make(&fixed, &moving, &shields));
+            LazyBounds::new(make)
+        });
         let potential: Box<dyn Potential + Send> = match model {
             _ if !shields.is_none() => {
                 Box::new(ShieldedPotential::new(*model, fixed, moving, shields))

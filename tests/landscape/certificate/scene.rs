@@ -7,9 +7,8 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::{Bracket, Certifier, Effort, End};
-use tilebind::potential::bounds::CellBounds;
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
-use tilebind::potential::{Energy, Interaction, MagnetModel, Potential};
+use tilebind::potential::{Energy, Interaction, LazyBounds, MagnetModel, Potential};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 use crate::designs;
@@ -20,7 +19,7 @@ pub struct Scene {
     pub space: ConfigurationSpace,
     pub contact: Contact,
     pub potential: Box<dyn Potential + Send>,
-    pub bounds: Box<dyn CellBounds + Send>,
+    pub bounds: LazyBounds,
 }
 
 pub fn effort(tolerance: f64, cells: usize) -> Effort {
