@@ -234,14 +234,14 @@ impl Assessment {
                 energy: state.energy,
                 escape: Way::new(analysis.escape(state.id).as_ref()),
             }),
-            far_starts: analysis.uncaptured.all.of,
+            far_starts: analysis.uncaptured.gone.of,
             captured: inventory
                 .states
                 .iter()
                 .filter(|state| state.kind == StateKind::Bond)
                 .map(captured)
                 .sum(),
-            uncaptured: analysis.uncaptured.all.count,
+            uncaptured: analysis.uncaptured.all().count,
             barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
             contradictions: analysis
                 .contradicted()

@@ -69,12 +69,17 @@ impl Proportion {
 /// Shares of the far starts that end in no reported state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncaptured {
-    /// All of them.
-    pub all: Proportion,
     /// Those that come to rest, in something too shallow to be reported.
     pub at_rest: Proportion,
     /// Those that leave the table.
     pub gone: Proportion,
+}
+
+impl Uncaptured {
+    /// All of them.
+    pub fn all(&self) -> Proportion {
+        Proportion::new(self.at_rest.count + self.gone.count, self.gone.of)
+    }
 }
 
 /// A local minimum of the energy over the free configurations.

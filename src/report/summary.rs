@@ -76,7 +76,7 @@ fn write_captures(
     bond: Option<&Kind>,
     traps: &[Kind],
 ) {
-    let of = analysis.uncaptured.all.of;
+    let of = analysis.uncaptured.gone.of;
     let trapped: usize = traps.iter().map(|class| class.captured().count).sum();
     let bound = bond.map_or(0, |class| class.captured().count);
     let [inner, outer] = analysis.ring;

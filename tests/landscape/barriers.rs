@@ -100,6 +100,9 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     let uncaptured = analysis.uncaptured;
     assert_eq!(
         uncaptured.at_rest.count + uncaptured.gone.count,
-        uncaptured.all.count
+        uncaptured.all().count
     );
+    let kinds = analysis.inventory.kinds();
+    let captured: usize = kinds.map(|kind| kind.captured().count).sum();
+    assert_eq!(captured + uncaptured.all().count, settings.far_starts);
 }

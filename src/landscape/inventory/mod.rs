@@ -221,7 +221,6 @@ impl Inventory {
             state.capture = Some(share(count));
         }
         Uncaptured {
-            all: share(at_rest + gone),
             at_rest: share(at_rest),
             gone: share(gone),
         }

@@ -55,7 +55,7 @@ impl Report {
             // shallow to be listed or leave the table; inner and outer radius of the ring from
             // which they are drawn.
             "free": {
-                "capture": proportion(analysis.uncaptured.all),
+                "capture": proportion(analysis.uncaptured.all()),
                 "ring_m": analysis.ring,
                 "at_rest": proportion(analysis.uncaptured.at_rest),
                 "gone": proportion(analysis.uncaptured.gone),
