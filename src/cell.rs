@@ -23,6 +23,11 @@ impl Cell {
         }
     }
 
+    /// Volume (m^2 rad).
+    pub fn volume(&self) -> f64 {
+        self.half.iter().map(|half| 2.0 * half).product()
+    }
+
     /// The farthest the reference point gets from where it is at the centre (m).
     pub fn travel(&self) -> f64 {
         self.half[0].hypot(self.half[1])

@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use tilebind::Settings;
 use tilebind::dynamics::check::BarrierCheck;
+use tilebind::landscape::CompletenessSettings;
 use tilebind::observer::Observer;
 use tilebind::pipeline;
 use tilebind::report::summary;
@@ -70,6 +71,21 @@ pub struct Analyse {
     #[arg(long, value_name = "S", default_value_t = Settings::default().certify_seconds,
           value_parser = input::not_negative)]
     certify_seconds: f64,
+
+    /// Seconds given to the proof that no state is missing from the list; 0 for no proof
+    #[arg(long, value_name = "S", default_value_t = Settings::default().completeness.seconds,
+          value_parser = input::not_negative)]
+    complete_seconds: f64,
+
+    /// Traps are looked for below this share of the bond's energy
+    #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.below,
+          value_parser = input::fraction)]
+    complete_below: f64,
+
+    /// Traps are to be listed that need more than this share of the bond's energy to leave
+    #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.escape,
+          value_parser = input::fraction)]
+    complete_escape: f64,
 
     #[command(flatten)]
     work: WorkOptions,
@@ -147,6 +163,12 @@ impl Analyse {
             repeats: self.repeats,
             tolerance: self.tolerance,
             certify_seconds: self.certify_seconds,
+            completeness: CompletenessSettings {
+                below: self.complete_below,
+                escape: self.complete_escape,
+                seconds: self.complete_seconds,
+                ..Settings::default().completeness
+            },
             dynamics_runs: self.survey.dynamics_runs(),
             ..Settings::default()
         }

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Claims, SaddleBounds, State, StateKind};
+use crate::landscape::{Barrier, Claims, CompletenessSettings, SaddleBounds, State, StateKind};
 use crate::observer::Observer;
 use crate::pipeline::{self, Analysis, Settings};
 
@@ -70,6 +70,9 @@ impl Default for AssessmentSettings {
     }
 }
 
+/// Cells spent on the search for states that may be missing.
+const COMPLETE_CELLS: usize = 300_000;
+
 impl AssessmentSettings {
     /// The settings of the main job.
     pub fn settings(&self, seed: u64) -> Settings {
@@ -85,6 +88,12 @@ impl AssessmentSettings {
                 f64::INFINITY
             } else {
                 0.0
+            },
+            // Cells, not seconds, so that the same is found on every machine.
+            completeness: CompletenessSettings {
+                cells: COMPLETE_CELLS,
+                seconds: f64::INFINITY,
+                ..Settings::default().completeness
             },
             claims: Claims::BondAndDeepestTrap,
             dynamics_runs: self.dynamics_runs,

@@ -4,6 +4,7 @@ pub mod approach;
 pub mod capture;
 pub mod certificate;
 pub mod certification;
+pub mod completeness;
 pub mod constrained;
 pub mod inventory;
 pub mod map;
@@ -18,6 +19,7 @@ pub mod survey;
 pub mod volume;
 
 pub use certification::{Claims, Uncertified};
+pub use completeness::{Completeness, CompletenessSettings};
 pub use inventory::{Inventory, Kind};
 pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,

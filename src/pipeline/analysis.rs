@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Settings;
 use crate::configuration::Configuration;
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Inventory, Uncaptured, Uncertified};
+use crate::landscape::{Barrier, Completeness, Inventory, Uncaptured, Uncertified};
 use crate::problem::Problem;
 use crate::roadmap::RoadmapSettings;
 
@@ -22,6 +22,8 @@ pub struct Analysis {
     pub bound: (Configuration, f64),
     /// States, barriers and pathways.
     pub inventory: Inventory,
+    /// What is proved of the states that the inventory may lack, or why nothing is.
+    pub completeness: Result<Completeness, Uncertified>,
     /// Shares of the far starts that end in no state.
     pub uncaptured: Uncaptured,
     /// Inner and outer radius (m) of the ring of far starts.

@@ -15,6 +15,7 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Body;
 use crate::dynamics::check::{self, BarrierCheck};
+use crate::landscape::completeness::Search;
 use crate::landscape::survey::Survey;
 use crate::landscape::{Barrier, Inventory, capture, certification};
 use crate::observer::Observer;
@@ -29,7 +30,13 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     let roadmap = settings.roadmap(&problem);
     let mut clock = Clock::new(&problem, observer);
 
-    let (survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    let (mut survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    clock.start("states that may be missing", 0.5);
+    let search = Search::run(&problem, &survey, &settings.completeness, observer);
+    let missed = search.as_ref().map_or_else(|_| Vec::new(), Search::missed);
+    if !missed.is_empty() {
+        survey.add(&problem, &missed, &settings.survey(&roadmap));
+    }
     clock.start("states and barriers", 0.6);
     let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
     clock.start("capture shares", 0.7);
@@ -50,6 +57,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         observer,
     );
     inventory.leave_out_shallow(&problem, settings.least_depth);
+    let completeness = search.map(|search| search.conclude(&problem, &survey, &inventory));
     let uncaptured = inventory.count_captures(&problem, &ends);
     let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
     let stages = clock.stop();
@@ -58,6 +66,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         roadmap,
         bound: (design.pair.bound, problem.energy(&design.pair.bound)),
         inventory,
+        completeness,
         uncaptured,
         ring: capture::ring(&problem),
         uncertified: certified.err(),

@@ -1,10 +1,10 @@
 //! What the main job is asked for, and what that means for each of its stages.
 
 use crate::dynamics::check::CheckSettings;
-use crate::landscape::Claims;
 use crate::landscape::capture::FarStarts;
 use crate::landscape::certification::CertificationSettings;
 use crate::landscape::survey::SurveySettings;
+use crate::landscape::{Claims, CompletenessSettings};
 use crate::problem::Problem;
 use crate::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
@@ -39,6 +39,8 @@ pub struct Settings {
     pub certify_cells: usize,
     /// Which barriers are certified, and checked by moving tiles.
     pub claims: Claims,
+    /// How the proof is sought that no state is missing from the list.
+    pub completeness: CompletenessSettings,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
     /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
@@ -60,6 +62,12 @@ impl Default for Settings {
             certify_seconds: 60.0,
             certify_cells: 1_000_000,
             claims: Claims::All,
+            completeness: CompletenessSettings {
+                below: 0.01,
+                escape: 0.005,
+                cells: 4_000_000,
+                seconds: 60.0,
+            },
             repeats: 1,
             dynamics_runs: 0,
         }

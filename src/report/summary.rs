@@ -37,6 +37,7 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
     }
     write_bond(&mut text, analysis, bond);
     write_deepest(&mut text, &analysis.inventory, bond, &traps);
+    write_completeness(&mut text, analysis);
     write_dipole_error(&mut text, analysis);
     if let Some(why) = analysis.uncertified {
         let _ = writeln!(text, "barriers are not certified: {why}");
@@ -47,6 +48,39 @@ pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
         "results in {folder}: report.html to look at; report.json, tables, pathways/, pictures/"
     );
     text
+}
+
+/// Whether states may be missing from the list.
+fn write_completeness(text: &mut String, analysis: &Analysis) {
+    let known = match &analysis.completeness {
+        Ok(known) => known,
+        Err(why) => {
+            let _ = writeln!(
+                text,
+                "the list of states is sampled and may lack some: {why}"
+            );
+            return;
+        }
+    };
+    let [below, escape] = [known.below, known.escape].map(|energy| si(energy, "J", 3));
+    let claim = format!("no other state below {below} takes more than {escape} to leave");
+    let _ = match known.open.first() {
+        None => writeln!(text, "complete, proved: {claim}"),
+        Some(lowest) => writeln!(
+            text,
+            "{claim}, proved but for {} {} ({:.1e} of the space)\n\
+             that may hide something down to {}, first at {}",
+            known.open.len(),
+            if known.open.len() == 1 {
+                "region"
+            } else {
+                "regions"
+            },
+            known.share,
+            si(lowest.lowest, "J", 3),
+            pose(&lowest.pose),
+        ),
+    };
 }
 
 /// How far the dipoles' energy is off at the state where it is off most.

@@ -4,6 +4,7 @@
 mod analytic;
 mod barriers;
 mod certificate;
+mod completeness;
 mod counts;
 #[path = "../shared/designs.rs"]
 mod designs;

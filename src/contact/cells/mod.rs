@@ -10,6 +10,7 @@
 //! All claims hold for configurations in which no point of a tile lies deeper than [`RELAXED`]
 //! inside the other, which includes every configuration that counts as free.
 
+mod possible;
 mod side;
 
 use nalgebra::Vector2;
@@ -19,6 +20,7 @@ use super::{Contact, TOUCH};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::tile::Outline;
+pub use possible::PossibleContact;
 use side::{Side, Verdict};
 
 /// Depth (m) up to which an overlap is not used as a proof: touching, and rounding (coordinates

@@ -64,18 +64,7 @@ pub(super) fn assess(
         return None;
     };
     let enclosure = bounds.enclose(cell);
-    let mut tight = Lagrangian::new(&enclosure, &cell.half, &cuts);
-    for pair in &corners {
-        let [a, b] = pair.map(|cut| {
-            let mut cuts = cuts.clone();
-            cuts.push(cut);
-            Lagrangian::new(&enclosure, &cell.half, &cuts)
-        });
-        let weaker = if a.lower < b.lower { a } else { b };
-        if weaker.lower > tight.lower {
-            tight = weaker;
-        }
-    }
+    let tight = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners);
     let deepest = cuts
         .iter()
         .map(|cut| cut.form.value)
@@ -139,12 +128,34 @@ fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> u
 ///
 /// Rounding: the energy's own is subtracted with the sizes its terms have before the cuts are
 /// taken off. The cuts' slack has a spare 1e-9 m, a million times the rounding of their terms.
-struct Lagrangian {
-    lower: f64,
+pub(in crate::landscape) struct Lagrangian {
+    /// Of the energy (J) where the cuts hold.
+    pub lower: f64,
     form: Quadratic,
 }
 
 impl Lagrangian {
+    /// The greatest of the bounds that all cuts give together with one of each pair in `corners`.
+    pub fn tightest(
+        enclosure: &Enclosure,
+        half: &[f64; 3],
+        cuts: &[Cut],
+        corners: &[[Cut; 2]],
+    ) -> Self {
+        let mut tight = Self::new(enclosure, half, cuts);
+        for pair in corners {
+            let [a, b] = pair.map(|cut| {
+                let cuts = [cuts, &[cut]].concat();
+                Self::new(enclosure, half, &cuts)
+            });
+            let weaker = if a.lower < b.lower { a } else { b };
+            if weaker.lower > tight.lower {
+                tight = weaker;
+            }
+        }
+        tight
+    }
+
     fn new(enclosure: &Enclosure, half: &[f64; 3], cuts: &[Cut]) -> Self {
         let rounding = enclosure.form.rounding(half);
         let bound = |form: &Quadratic, penalty: f64| {

@@ -39,10 +39,10 @@
 mod certifier;
 mod flood;
 mod landscape;
-mod lower;
+pub(super) mod lower;
 mod query;
 mod store;
-mod upper;
+pub(super) mod upper;
 
 use std::time::Duration;
 

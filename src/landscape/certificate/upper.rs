@@ -19,7 +19,7 @@ const FINEST: usize = 24;
 
 /// A pathway proved free throughout, and the proved bound of its energy.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ProvedPath {
+pub(in crate::landscape) struct ProvedPath {
     /// No configuration on the pathway has a higher energy (J).
     pub upper: f64,
     /// The highest point met.
@@ -27,7 +27,7 @@ pub(super) struct ProvedPath {
     pub points: Vec<Configuration>,
 }
 
-pub(super) struct PathProof<'a> {
+pub(in crate::landscape) struct PathProof<'a> {
     pub bounds: &'a dyn CellBounds,
     pub contact: Option<&'a Contact>,
     pub space: &'a ConfigurationSpace,

@@ -226,6 +226,12 @@ impl Inventory {
         }
     }
 
+    /// Whether a configuration, or one of its images, is that of a state.
+    pub fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
+        let mut images = problem.symmetries.iter().map(|s| s.apply(q));
+        images.any(|image| self.nearest_state(problem, &image).is_some())
+    }
+
     fn nearest_state(&self, problem: &Problem, q: &Configuration) -> Option<usize> {
         self.states
             .iter()

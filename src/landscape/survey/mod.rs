@@ -14,6 +14,7 @@
 //! are withdrawn straight from what they touch.
 
 mod densify;
+mod siblings;
 mod withdraw;
 
 use std::collections::{HashMap, HashSet};
@@ -33,6 +34,8 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
+/// No minimum is looked for closer than this (m) to a known one.
+const KNOWN: f64 = 1e-4;
 /// How far (m, mass metric) from a transition state its descents start.
 const OFF_SADDLE: f64 = 2e-4;
 
@@ -89,28 +92,49 @@ impl Survey {
         let mut survey = Self::of_roadmap(problem, roadmap);
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
-        survey.withdraw(problem, settings);
-        survey.network.span();
+        survey.find_siblings(problem, settings);
+        survey.settle(problem, settings);
+        survey
+    }
+
+    /// Adds minima that were found otherwise, with their symmetric images, and how they are joined
+    /// to the others.
+    pub fn add(&mut self, problem: &Problem, minima: &[Stationary], settings: &SurveySettings) {
+        for minimum in minima {
+            for symmetry in &problem.symmetries {
+                let image = minimum.image(problem, symmetry.apply(&minimum.point.q));
+                let node = self.state_node(problem, &image);
+                if self.network.is_isolated(node) {
+                    self.join(problem, node, settings);
+                }
+            }
+        }
+        self.settle(problem, settings);
+    }
+
+    /// Looks more closely, in rounds, at where basins meet.
+    fn settle(&mut self, problem: &Problem, settings: &SurveySettings) {
+        self.withdraw(problem, settings);
+        self.network.span();
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
-            survey.rounds = round;
-            let open: Vec<Merge> = survey
+            self.rounds = round;
+            let open: Vec<Merge> = self
                 .merges()
                 .into_iter()
-                .filter(|merge| !survey.is_settled(merge, settings))
+                .filter(|merge| !self.is_settled(merge, settings))
                 .collect();
             if open.is_empty() {
                 break;
             }
-            survey.polish(problem, &open, &mut tried, settings);
-            survey.densify(problem, &open, round as u64, settings);
-            survey.network.span();
+            self.polish(problem, &open, &mut tried, settings);
+            self.densify(problem, &open, round as u64, settings);
+            self.network.span();
         }
-        survey
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
-    pub(crate) fn of_roadmap(problem: &Problem, roadmap: Roadmap) -> Self {
+    pub fn of_roadmap(problem: &Problem, roadmap: Roadmap) -> Self {
         let mut network = Network::new(roadmap);
         let free = network.add_node(None);
         for node in 0..free {
@@ -160,6 +184,31 @@ impl Survey {
                     self.join(problem, end, settings);
                 }
                 _ => {}
+            }
+        }
+    }
+
+    /// Looks for minima where those known so far would be on other pairs of faces or in the mirror,
+    /// until there are no more.
+    fn find_siblings(&mut self, problem: &Problem, settings: &SurveySettings) {
+        let mut known = 0;
+        while known < self.states.len() {
+            let fresh = self.states[known..]
+                .iter()
+                .map(|state| state.minimum.point.q);
+            let fresh: Vec<Configuration> = fresh.collect();
+            known = self.states.len();
+            let places: Vec<Configuration> = siblings::siblings(problem, &fresh)
+                .into_iter()
+                .filter(|q| self.state_at(problem, q, KNOWN).is_none())
+                .collect();
+            let descents: Vec<Descent> = places.par_iter().map(|q| descend(problem, q)).collect();
+            for descent in &descents {
+                if let Some(end) = self.arrive(problem, descent)
+                    && self.network.is_isolated(end)
+                {
+                    self.join(problem, end, settings);
+                }
             }
         }
     }

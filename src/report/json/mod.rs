@@ -51,6 +51,7 @@ impl Report {
                 "state": analysis.inventory.bound_state,
             },
             "states": entries(&states(Output::Json), StateRow::all(design, analysis, &analysis.inventory.names())),
+            "inventory": inventory(analysis),
             // Share of the far starts that ended in no state, and of which rest in something too
             // shallow to be listed or leave the table; inner and outer radius of the ring from
             // which they are drawn.
@@ -148,7 +149,43 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
         "certify_cells": settings.certify_cells,
         // Which barriers are certified, and checked by moving tiles.
         "claims": names::claims(settings.claims),
+        // Shares of the depth, cells and time of the proof that no state is missing.
+        "complete_below": settings.completeness.below,
+        "complete_escape": settings.completeness.escape,
+        "complete_cells": settings.completeness.cells,
+        "complete_s": settings.completeness.seconds,
     })
+}
+
+/// What is proved of the states that may be missing: besides the listed ones no configuration lies
+/// below `below_J` from which every way out rises by more than `escape_J`, except in the `open`
+/// regions (their `share` is that of the space). `unproved` says why nothing is, and is null
+/// otherwise.
+fn inventory(analysis: &Analysis) -> Value {
+    match &analysis.completeness {
+        Ok(known) => json!({
+            "below_J": known.below,
+            "escape_J": known.escape,
+            "complete": known.is_complete(),
+            "open": known.open.iter().map(|region| json!({
+                "pose": pose(&region.pose),
+                "volume": region.volume,
+                "lowest_J": region.lowest,
+            })).collect::<Value>(),
+            "share": known.share,
+            "cells": known.cells,
+            "unproved": null,
+        }),
+        Err(why) => json!({
+            "below_J": null,
+            "escape_J": null,
+            "complete": false,
+            "open": [],
+            "share": 1.0,
+            "cells": 0,
+            "unproved": why.to_string(),
+        }),
+    }
 }
 
 /// A pathway by another cost than the highest energy: the work against the energy on the way, or

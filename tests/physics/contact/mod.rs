@@ -4,6 +4,7 @@ mod cells;
 mod constraint;
 mod lift;
 mod motion;
+mod possible;
 
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};

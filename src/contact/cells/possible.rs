@@ -1,0 +1,200 @@
+//! The contacts that the configurations of a cell may make, and how fast motions open them.
+//!
+//! Where two free tiles come to overlap, a convex vertex of one of them passes through an edge of
+//! the other: first contact is a convex vertex on an edge or on a vertex, and of two corners that
+//! meet the line of one of their edges separates. A motion that closes none of the gaps between a
+//! vertex and an edge that may touch leads from free configurations to free ones only.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::side::Side;
+use super::{Cell, ContactCells};
+
+/// Share of the distances by which rounding is allowed for.
+const ROUNDING: f64 = 1e-12;
+
+/// A convex vertex of one tile and an edge of the other that may touch somewhere in a cell. The
+/// gap (m) is the vertex' distance from the edge's line, negative behind it.
+#[derive(Clone, Copy, Debug)]
+pub struct PossibleContact {
+    /// At the cell's centre (m).
+    pub gap: f64,
+    /// Of the gap at the centre, by x and y (1) and by theta (m/rad).
+    pub gradient: Vector3<f64>,
+    /// The edge's outward normal at the centre.
+    normal: Vector2<f64>,
+    /// The vertex as seen from the moving tile's reference point, at the centre (m).
+    arm: Vector2<f64>,
+    /// Whether the edge is the moving tile's.
+    edge_moves: bool,
+}
+
+impl PossibleContact {
+    fn new(normal: Vector2<f64>, arm: Vector2<f64>, gap: f64, edge_moves: bool) -> Self {
+        let along = Vector3::new(normal.x, normal.y, cross(arm, normal));
+        Self {
+            gap,
+            gradient: if edge_moves { -along } else { along },
+            normal,
+            arm,
+            edge_moves,
+        }
+    }
+
+    /// By how much (m) the gap differs from that at the centre at most, over the box with these
+    /// half sizes.
+    fn spread(&self, half: &[f64; 3]) -> f64 {
+        let (sin, versine) = turn(half[2]);
+        let turning =
+            cross(self.arm, self.normal).abs() * sin + self.normal.dot(&self.arm).abs() * versine;
+        let n = self.normal;
+        let shift = if self.edge_moves {
+            (n.x.abs() + sin * n.y.abs()) * half[0] + (n.y.abs() + sin * n.x.abs()) * half[1]
+        } else {
+            n.x.abs() * half[0] + n.y.abs() * half[1]
+        };
+        shift + turning + ROUNDING * (1.0 + self.arm.norm())
+    }
+
+    /// The least gap (m) over the box with these half sizes about the centre.
+    pub fn least(&self, half: &[f64; 3]) -> f64 {
+        self.gap - self.spread(half)
+    }
+
+    /// By how much (m) the motion `step` opens the gap at least, if its rate is nowhere lower than
+    /// anywhere in the box with these half sizes about the centre.
+    pub fn opening(&self, half: &[f64; 3], step: &Vector3<f64>) -> f64 {
+        let (sin, versine) = turn(half[2]);
+        let (way, turned) = (step.xy(), step.z.abs());
+        let (n, arm) = (self.normal, self.arm);
+        let lever = cross(arm, n).abs() * versine + n.dot(&arm).abs() * sin;
+        let lost = if self.edge_moves {
+            let across = cross(n, way).abs() * sin + n.dot(&way).abs() * versine;
+            across + turned * (lever + half[0].hypot(half[1]))
+        } else {
+            turned * lever
+        };
+        let size = way.norm() + turned * (1.0 + arm.norm());
+        self.gradient.dot(step) - lost - ROUNDING * size
+    }
+}
+
+/// Largest sine of angles up to `angle`, and of 1 minus the cosine.
+fn turn(angle: f64) -> (f64, f64) {
+    let sin = if angle < std::f64::consts::FRAC_PI_2 {
+        angle.sin()
+    } else {
+        1.0
+    };
+    let half = (angle / 2.0).min(std::f64::consts::FRAC_PI_2).sin();
+    (sin, 2.0 * half * half)
+}
+
+fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+impl ContactCells {
+    /// The contacts that free configurations of a cell may make: every convex vertex and every edge
+    /// of the other tile that may touch without overlap somewhere in it. `None` where there are more
+    /// than `most` of them.
+    pub fn possible(&self, cell: &Cell, most: usize) -> Option<Vec<PossibleContact>> {
+        let q = &cell.centre;
+        let mut found = Vec::new();
+        let apart =
+            q.x.hypot(q.y) - self.fixed.outline.circumradius() - self.moving.outline.circumradius();
+        if apart > cell.travel() {
+            return Some(found);
+        }
+        let (turn, position) = (q.rotation(), q.position());
+        let on_fixed = Meeting {
+            vertices: &self.moving,
+            edges: &self.fixed,
+            place: &|p| position + turn * p,
+            direction: &|d| turn * d,
+            reach: &|p: Vector2<f64>| cell.reach(p.norm()),
+            contact: &|vertex, normal, start| {
+                let arm = turn * vertex;
+                PossibleContact::new(normal, arm, normal.dot(&(position + arm - start)), false)
+            },
+        };
+        let back = turn.inverse();
+        let on_moving = Meeting {
+            vertices: &self.fixed,
+            edges: &self.moving,
+            place: &|p| back * (p - position),
+            direction: &|d| back * d,
+            reach: &|p: Vector2<f64>| cell.reach((p - position).norm() + cell.travel()),
+            contact: &|vertex, normal, start| {
+                let (world, arm) = (turn * normal, vertex - position);
+                PossibleContact::new(world, arm, world.dot(&arm) - normal.dot(&start), true)
+            },
+        };
+        let is_listed = on_fixed.list(&cell.half, most, &mut found)
+            && on_moving.list(&cell.half, most, &mut found);
+        is_listed.then_some(found)
+    }
+}
+
+/// The vertices of one tile against the edges of the other, seen in the other's frame.
+struct Meeting<'a> {
+    vertices: &'a Side,
+    edges: &'a Side,
+    place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
+    direction: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
+    /// How far (m) a vertex gets from where it is at the cell's centre.
+    reach: &'a dyn Fn(Vector2<f64>) -> f64,
+    /// The contact of a vertex with an edge of this normal and start.
+    contact: &'a dyn Fn(Vector2<f64>, Vector2<f64>, Vector2<f64>) -> PossibleContact,
+}
+
+impl Meeting<'_> {
+    /// Adds what may touch; false where that makes more than `most`.
+    fn list(&self, half: &[f64; 3], most: usize, found: &mut Vec<PossibleContact>) -> bool {
+        let outline = &self.vertices.outline;
+        let corners = outline.vertices();
+        let n = corners.len();
+        (0..n).filter(|&i| outline.convex_vertices()[i]).all(|i| {
+            let (at, reach) = ((self.place)(corners[i]), (self.reach)(corners[i]));
+            if at.norm() > self.edges.outline.circumradius() + reach {
+                return true;
+            }
+            let sides = [(i + 1) % n, (i + n - 1) % n]
+                .map(|k| (self.direction)((corners[k] - corners[i]).normalize()));
+            self.edges.edges.near(at, reach, &mut |edge| {
+                if self.may_touch(at, reach, &sides, edge, half[2]) {
+                    let normal = self.edges.outline.normals()[edge];
+                    let start = self.edges.outline.vertices()[edge];
+                    let contact = (self.contact)(corners[i], normal, start);
+                    if contact.gap.abs() <= contact.spread(half) {
+                        found.push(contact);
+                    }
+                }
+                found.len() <= most
+            })
+        })
+    }
+
+    /// Whether a vertex at `at` that gets no farther than `reach` (m) may lie on an edge, its tile,
+    /// which leads away from it in the directions `sides` and turns by up to `turned` (rad), in
+    /// front of the edge's line.
+    fn may_touch(
+        &self,
+        at: Vector2<f64>,
+        reach: f64,
+        sides: &[Vector2<f64>; 2],
+        edge: usize,
+        turned: f64,
+    ) -> bool {
+        let (start, end) = self.edges.outline.edge(edge);
+        let normal = self.edges.outline.normals()[edge];
+        let length = (end - start).norm();
+        let along = (at - start).dot(&(end - start)) / length;
+        let (sin, versine) = turn(turned);
+        let in_front = |side: &Vector2<f64>| {
+            let (height, across) = (normal.dot(side), cross(normal, *side));
+            height + height.abs() * versine + across.abs() * sin >= -ROUNDING
+        };
+        along >= -reach && along <= length + reach && sides.iter().all(in_front)
+    }
+}

@@ -1,0 +1,292 @@
+//! What is proved of one cell: that nothing in it can be a trap of its own.
+
+use nalgebra::{Matrix3, Vector3};
+use ordered_float::OrderedFloat;
+
+use crate::cell::{Cell, Quadratic};
+use crate::configuration::Configuration;
+use crate::contact::cells::{CellContact, ContactCells, Cut, PossibleContact};
+use crate::contact::{Constraint, EdgeOf, Touch, closest_admissible};
+use crate::landscape::certificate::lower::Lagrangian;
+use crate::potential::bounds::{CellBounds, Enclosure};
+
+/// Cells in which more contacts than these may be made are subdivided first.
+const MOST_CONTACTS: usize = 600;
+/// Longest component of a step downhill, in units of the cell's half size along it.
+const FALL: f64 = 1.0;
+/// The same of steps off contact, which have to clear the whole cell; a peg in a hole turns far.
+const WAYS_OUT: [f64; 2] = [6.0, 60.0];
+/// A projected force shorter than this share of the whole one is taken for none.
+const HELD: f64 = 1e-6;
+/// Tries to make a step open all contacts throughout a cell.
+const TRIES: usize = 4;
+
+/// What is proved of the free configurations of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    /// There are none, or none below the level.
+    Nothing,
+    /// A step leads from each of them to a free one of lower energy.
+    Falls,
+    /// A step leads from each of them into a wholly free box about this configuration, on which the
+    /// energy exceeds the cell's least, `lowest` (J), by at most the allowed rise.
+    Opens { into: Configuration, lowest: f64 },
+    /// None of this.
+    Open { lowest: f64 },
+}
+
+/// Proves cells.
+pub(super) struct CellProof<'a> {
+    pub bounds: &'a dyn CellBounds,
+    pub contact: Option<&'a ContactCells>,
+    /// Weights of a step's squared components.
+    pub metric: Matrix3<f64>,
+    /// Configurations above this energy (J) are of no concern.
+    pub level: f64,
+    /// Highest rise (J) on the way out of what is no trap.
+    pub rise: f64,
+}
+
+impl CellProof<'_> {
+    pub fn verdict(&self, cell: &Cell) -> Verdict {
+        let contact = self
+            .contact
+            .map_or_else(CellContact::open, |contact| contact.classify(cell));
+        let CellContact::Open { cuts, corners, .. } = contact else {
+            return Verdict::Nothing;
+        };
+        let enclosure = self.bounds.enclose(cell);
+        let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners).lower;
+        if lowest > self.level {
+            return Verdict::Nothing;
+        }
+        let open = Verdict::Open { lowest };
+        let unknown = enclosure.high - enclosure.low;
+        if !unknown.is_finite() {
+            return open;
+        }
+        if self.falls(cell, &enclosure, &cuts, &corners) == Some(true) {
+            return Verdict::Falls;
+        }
+        let is_narrow = unknown < self.rise;
+        let ways_out = WAYS_OUT.into_iter().filter(|_| is_narrow);
+        let mut opens = ways_out.filter_map(|longest| self.opens(cell, lowest, longest));
+        opens.next().unwrap_or(open)
+    }
+
+    /// The contacts that may be made by steps from the cell with components of at most `longest`
+    /// half sizes.
+    fn within_steps(&self, cell: &Cell, longest: f64) -> Option<Vec<PossibleContact>> {
+        self.possible(&Cell {
+            centre: cell.centre,
+            half: cell.half.map(|h| (1.0 + longest) * h),
+        })
+    }
+
+    fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
+        self.contact.map_or(Some(Vec::new()), |contact| {
+            contact.possible(cell, MOST_CONTACTS)
+        })
+    }
+
+    /// Whether one step leads downhill from every free configuration of the cell.
+    fn falls(
+        &self,
+        cell: &Cell,
+        enclosure: &Enclosure,
+        cuts: &[Cut],
+        corners: &[[Cut; 2]],
+    ) -> Option<bool> {
+        let unknown = enclosure.high - enclosure.low;
+        let out = self.pushed_out(cell, cuts, corners);
+        let gradient = slope(&enclosure.form, &out);
+        let most: f64 = (0..3)
+            .map(|i| gradient[i].abs() * FALL * cell.half[i])
+            .sum();
+        if most <= unknown {
+            return None;
+        }
+        let contacts = self.within_steps(cell, FALL)?;
+        let force = -(self.metric.try_inverse()? * gradient);
+        let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
+        let (direction, _) = closest_admissible(force, &self.metric, &held)?;
+        let length = |v: &Vector3<f64>| v.dot(&(self.metric * v)).sqrt();
+        if length(&direction) <= HELD * length(&force) {
+            return None;
+        }
+        let wanted = fitted(&direction, &cell.half, FALL);
+        let step = self.opening_step(cell, &contacts, (wanted, FALL), |_| 0.0)?;
+        // What is unknown over the cell is known no better over all that the step sweeps.
+        let is_promising = gradient.dot(&step) + unknown < 0.0;
+        Some(is_promising && self.is_fall(cell, &step, cuts, corners))
+    }
+
+    /// The offset from the centre, within the cell, of about the nearest free configuration.
+    fn pushed_out(&self, cell: &Cell, cuts: &[Cut], corners: &[[Cut; 2]]) -> Vector3<f64> {
+        let easier = corners.iter().map(|pair| {
+            if pair[0].form.value > pair[1].form.value {
+                pair[0]
+            } else {
+                pair[1]
+            }
+        });
+        let rows: Vec<Constraint> = cuts
+            .iter()
+            .copied()
+            .chain(easier)
+            .map(|cut| Constraint {
+                touch: NO_TOUCH,
+                gap: cut.form.value,
+                gradient: cut.form.gradient.into(),
+            })
+            .collect();
+        let push = closest_admissible(Vector3::zeros(), &self.metric, &rows);
+        let push = push.map_or_else(Vector3::zeros, |(push, _)| push);
+        Vector3::from_fn(|i, _| push[i].clamp(-cell.half[i], cell.half[i]))
+    }
+
+    /// A step near `wanted` that opens every possible contact by at least what `least` asks, from
+    /// everywhere in the cell.
+    fn opening_step(
+        &self,
+        cell: &Cell,
+        contacts: &[PossibleContact],
+        (wanted, longest): (Vector3<f64>, f64),
+        least: impl Fn(&PossibleContact) -> f64,
+    ) -> Option<Vector3<f64>> {
+        let mut step = wanted;
+        for _ in 0..TRIES {
+            let swept: [f64; 3] = std::array::from_fn(|i| cell.half[i] + step[i].abs());
+            let lost = |c: &PossibleContact| c.gradient.dot(&step) - c.opening(&swept, &step);
+            if contacts
+                .iter()
+                .all(|c| c.opening(&swept, &step) >= least(c).max(0.0))
+            {
+                return Some(step);
+            }
+            let rows: Vec<Constraint> = contacts
+                .iter()
+                .map(|c| row(c, -(least(c).max(0.0) + 1.1 * lost(c))))
+                .collect();
+            step = closest_admissible(wanted, &self.metric, &rows)?.0;
+            if (0..3).any(|i| step[i].abs() > longest * cell.half[i]) {
+                step = fitted(&step, &cell.half, longest);
+            }
+        }
+        None
+    }
+
+    /// Whether the step keeps free configurations free and lowers the energy from everywhere in the
+    /// cell, with no more than the allowed rise on the way.
+    fn is_fall(
+        &self,
+        cell: &Cell,
+        step: &Vector3<f64>,
+        cuts: &[Cut],
+        corners: &[[Cut; 2]],
+    ) -> bool {
+        let swept = swept(cell, step);
+        let Some(contacts) = self.possible(&swept) else {
+            return false;
+        };
+        if contacts.iter().any(|c| c.opening(&swept.half, step) < 0.0) {
+            return false;
+        }
+        let known = self.bounds.enclose(&swept);
+        let change = change(&known.form, step);
+        // The greatest change is minus the least of its negative.
+        let negative = Enclosure {
+            form: Quadratic::default().minus(1.0, &change),
+            ..Enclosure::default()
+        };
+        let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts, corners).lower;
+        let slack = known.high - known.low + 2.0 * known.form.rounding(&swept.half);
+        let bend = quadratic(&known.form, step);
+        let risen = (greatest - bend / 2.0).max(0.0) * f64::from(bend < 0.0) + slack;
+        greatest + slack < 0.0 && risen <= self.rise
+    }
+
+    /// Whether a step leads from every free configuration of the cell into a wholly free box.
+    fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<Verdict> {
+        let contacts = self.within_steps(cell, longest)?;
+        let spare = 1e-9;
+        let least = |c: &PossibleContact| spare - c.least(&cell.half);
+        let step = self.opening_step(cell, &contacts, (Vector3::zeros(), longest), least)?;
+        let swept = swept(cell, &step);
+        let on_the_way = self.possible(&swept)?;
+        if on_the_way
+            .iter()
+            .any(|c| c.opening(&swept.half, &step) < 0.0)
+        {
+            return None;
+        }
+        let freed = Cell {
+            centre: cell.centre.moved(step),
+            half: cell.half,
+        };
+        if !self.possible(&freed)?.is_empty() {
+            return None;
+        }
+        let known = self.bounds.enclose(&swept);
+        let highest = known.form.greatest(&swept.half) + known.high;
+        (highest - lowest <= self.rise).then_some(Verdict::Opens {
+            into: freed.centre,
+            lowest,
+        })
+    }
+}
+
+const NO_TOUCH: Touch = Touch {
+    edge_of: EdgeOf::Fixed,
+    edge: 0,
+    vertex: 0,
+};
+
+fn row(contact: &PossibleContact, gap: f64) -> Constraint {
+    Constraint {
+        touch: NO_TOUCH,
+        gap,
+        gradient: contact.gradient,
+    }
+}
+
+/// A direction made so long that its longest component is `most` half sizes.
+fn fitted(direction: &Vector3<f64>, half: &[f64; 3], most: f64) -> Vector3<f64> {
+    let longest = (0..3).map(|i| direction[i].abs() / half[i]);
+    let longest = longest.max_by_key(|&x| OrderedFloat(x)).unwrap_or(1.0);
+    direction * (most / longest)
+}
+
+/// The box around a cell and where a step takes it.
+fn swept(cell: &Cell, step: &Vector3<f64>) -> Cell {
+    Cell {
+        centre: cell.centre.moved(step / 2.0),
+        half: std::array::from_fn(|i| cell.half[i] + step[i].abs() / 2.0),
+    }
+}
+
+/// Gradient of a form at an offset.
+fn slope(form: &Quadratic, at: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::from(form.gradient) + product(form, at)
+}
+
+/// H d.
+fn product(form: &Quadratic, d: &Vector3<f64>) -> Vector3<f64> {
+    let [xx, yy, tt, xy, xt, yt] = form.hessian;
+    Matrix3::new(xx, xy, xt, xy, yy, yt, xt, yt, tt) * d
+}
+
+/// d^T H d.
+fn quadratic(form: &Quadratic, d: &Vector3<f64>) -> f64 {
+    d.dot(&product(form, d))
+}
+
+/// By how much a form about the middle of a step changes along it, as a form of the offset of the
+/// step's start from where it starts at the cell's centre.
+fn change(form: &Quadratic, step: &Vector3<f64>) -> Quadratic {
+    Quadratic {
+        value: Vector3::from(form.gradient).dot(step),
+        gradient: product(form, step).into(),
+        hessian: [0.0; 6],
+    }
+}

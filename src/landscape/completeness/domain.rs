@@ -1,0 +1,70 @@
+//! The part of the space that is searched: its images under the problem's symmetries cover all.
+
+use std::f64::consts::PI;
+
+use crate::cell::Cell;
+use crate::configuration::Configuration;
+use crate::problem::{Problem, Symmetry};
+
+/// Cells along theta at the start.
+const SLICES: u32 = 8;
+/// Rounding of coordinates (m) is less than this.
+const ROUNDING: f64 = 1e-12;
+
+/// A wedge of the plane and a sector of theta. Turns of the moving tile onto itself by a whole
+/// `1/n` leave the n-th part of theta, those of the fixed one the n-th part of the plane.
+pub(super) struct Domain {
+    half_size: [f64; 2],
+    /// Turns of the moving tile onto itself.
+    of_moving: u32,
+    /// Sine and cosine of half the wedge's angle; `None` where it is the whole plane.
+    wedge: Option<(f64, f64)>,
+}
+
+impl Domain {
+    pub fn new(problem: &Problem) -> Self {
+        let count = |unturned: &dyn Fn(&Symmetry) -> f64| {
+            let all = problem.symmetries.iter();
+            all.filter(|s| unturned(s).abs() < 1e-9).count().max(1) as u32
+        };
+        let of_fixed = count(&|s| s.moving);
+        let [x, y] = problem.space.half_size;
+        // A turned table is another one, unless the tiles do not reach its rim.
+        let is_wide = x.min(y) >= problem.space.free_distance;
+        Self {
+            half_size: [x, y],
+            of_moving: count(&|s| s.fixed),
+            wedge: (of_fixed > 1 && is_wide).then(|| (PI / f64::from(of_fixed)).sin_cos()),
+        }
+    }
+
+    /// The cells that the search begins with.
+    pub fn first_cells(&self) -> Vec<Cell> {
+        let slice = PI / f64::from(self.of_moving * SLICES);
+        let [x, y] = self.half_size.map(|size| size / 2.0);
+        let mut cells = Vec::new();
+        for k in 0..SLICES {
+            let theta = f64::from(2 * k + 1) * slice - PI / f64::from(self.of_moving);
+            for [right, up] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+                cells.push(Cell {
+                    centre: Configuration::new(right * x, up * y, theta),
+                    half: [x, y, slice].map(|half| half + ROUNDING),
+                });
+            }
+        }
+        cells.retain(|cell| self.meets(cell));
+        cells
+    }
+
+    /// Whether a cell may reach into the wedge.
+    pub fn meets(&self, cell: &Cell) -> bool {
+        let Some((sin, cos)) = self.wedge else {
+            return true;
+        };
+        // The farthest to the inner side of either of the wedge's lines.
+        [cos, -cos].into_iter().all(|cos| {
+            let centre = sin * cell.centre.x + cos * cell.centre.y;
+            centre + sin * cell.half[0] + cos.abs() * cell.half[1] >= -ROUNDING
+        })
+    }
+}

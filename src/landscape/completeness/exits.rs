@@ -1,0 +1,184 @@
+//! Ways out of the places where no step leads downhill from everywhere: proved pathways to minima.
+
+use rayon::prelude::*;
+
+use ordered_float::OrderedFloat;
+
+use crate::configuration::Configuration;
+use crate::landscape::certificate::upper::PathProof;
+use crate::landscape::minimum::{Outcome, descend};
+use crate::landscape::stationary::Stationary;
+use crate::problem::Problem;
+
+/// Two minima closer than this (m, metric of the space) are the same.
+pub(super) const SAME: f64 = 1e-5;
+/// A descent that got stuck this close (m) to a minimum is led on into it: where corners of both
+/// tiles meet, the last verification may fail beside it.
+const STUCK: f64 = 1e-4;
+/// Exits tried from one place.
+const TRIED: usize = 3;
+/// Descents made at once, before the other places are tried again from where they started.
+const TOGETHER: usize = 16;
+/// A pathway's bound exceeds its highest energy by no more than this share of the allowed rise.
+const SHARP: f64 = 0.1;
+
+/// A wholly free box about `at`: where a step leads from all of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Opened {
+    pub at: Configuration,
+    /// The least energy (J) in the cell.
+    pub lowest: f64,
+}
+
+/// A minimum, as the search needs it.
+#[derive(Clone, Debug)]
+pub(super) struct Ending {
+    pub minimum: Stationary,
+    /// The least energy (J) of the cells from which pathways end here; infinite where none does.
+    pub lowest: f64,
+    /// Whether the survey had not found it.
+    pub is_new: bool,
+}
+
+/// Where a pathway to a minimum starts.
+struct Exit {
+    at: Configuration,
+    /// Proved highest energy (J) on the way.
+    highest: f64,
+    ending: usize,
+}
+
+/// The exits known so far, and the minima in which they end.
+pub(super) struct Exits<'a> {
+    problem: &'a Problem,
+    proof: PathProof<'a>,
+    pub rise: f64,
+    exits: Vec<Exit>,
+    pub endings: Vec<Ending>,
+}
+
+impl<'a> Exits<'a> {
+    pub fn new(
+        problem: &'a Problem,
+        proof: PathProof<'a>,
+        rise: f64,
+        known: impl Iterator<Item = Stationary>,
+    ) -> Self {
+        let ending = |minimum| Ending {
+            minimum,
+            lowest: f64::INFINITY,
+            is_new: false,
+        };
+        Self {
+            problem,
+            proof,
+            rise,
+            exits: Vec::new(),
+            endings: known.map(ending).collect(),
+        }
+    }
+
+    /// For each place whether a way out of it is proved.
+    pub fn find(&mut self, places: &[Opened]) -> Vec<bool> {
+        let mut found = vec![false; places.len()];
+        let mut left: Vec<usize> = (0..places.len()).collect();
+        let mut first = 0;
+        while !left.is_empty() {
+            let joined: Vec<Option<usize>> = left
+                .par_iter()
+                .map(|&k| self.join(&places[k], first))
+                .collect();
+            for (&k, ending) in left.iter().zip(&joined) {
+                if let Some(ending) = *ending {
+                    self.reached(ending, &places[k]);
+                    found[k] = true;
+                }
+            }
+            left.retain(|&k| !found[k]);
+            first = self.exits.len();
+            let rest = left.split_off(left.len().min(TOGETHER));
+            let ways: Vec<_> = left.par_iter().map(|&k| self.descent(&places[k])).collect();
+            for (&k, way) in left.iter().zip(ways) {
+                if let Some((minimum, highest)) = way {
+                    let ending = self.ending(minimum);
+                    self.reached(ending, &places[k]);
+                    self.exits.push(Exit {
+                        at: places[k].at,
+                        highest,
+                        ending,
+                    });
+                    found[k] = true;
+                }
+            }
+            left = rest;
+        }
+        found
+    }
+
+    fn reached(&mut self, ending: usize, from: &Opened) {
+        let lowest = &mut self.endings[ending].lowest;
+        *lowest = lowest.min(from.lowest);
+    }
+
+    /// The minimum that a straight motion to one of the exits from number `first` on leads to.
+    fn join(&self, place: &Opened, first: usize) -> Option<usize> {
+        let highest = place.lowest + self.rise;
+        let mut near: Vec<(f64, &Exit)> = self.exits[first..]
+            .iter()
+            .filter(|exit| exit.highest <= highest)
+            .map(|exit| (self.problem.space.distance(&place.at, &exit.at), exit))
+            .collect();
+        near.sort_by_key(|(distance, _)| OrderedFloat(*distance));
+        near.truncate(TRIED);
+        let leads_there = |exit: &&Exit| self.prove(&[place.at, exit.at], highest).is_some();
+        let exit = near.into_iter().map(|(_, exit)| exit).find(leads_there);
+        exit.map(|exit| exit.ending)
+    }
+
+    /// The minimum in which a descent ends, and the proved highest energy (J) on the way.
+    fn descent(&self, place: &Opened) -> Option<(Stationary, f64)> {
+        let descent = descend(self.problem, &place.at);
+        let mut way: Vec<Configuration> = descent.way.iter().map(|point| point.q).collect();
+        let minimum = match descent.outcome {
+            Outcome::Minimum(minimum) => *minimum,
+            Outcome::Stuck(q) => {
+                let beside = self.near(&q, STUCK)?;
+                self.endings[beside].minimum.clone()
+            }
+            Outcome::Free => return None,
+        };
+        way.push(minimum.point.q);
+        let highest = self.prove(&way, place.lowest + self.rise)?;
+        Some((minimum, highest))
+    }
+
+    /// The proved highest energy (J) of a pathway, where it is not above `allowed`.
+    pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
+        let proved = self.proof.prove(way, SHARP * self.rise, allowed);
+        proved.ok().map(|proved| proved.upper)
+    }
+
+    /// The known minimum within `distance` (m) of a configuration or of one of its images.
+    fn near(&self, q: &Configuration, distance: f64) -> Option<usize> {
+        let images: Vec<Configuration> =
+            self.problem.symmetries.iter().map(|s| s.apply(q)).collect();
+        let is_near = |ending: &Ending| {
+            let at = &ending.minimum.point.q;
+            images
+                .iter()
+                .any(|q| self.problem.space.distance(q, at) <= distance)
+        };
+        self.endings.iter().position(is_near)
+    }
+
+    fn ending(&mut self, minimum: Stationary) -> usize {
+        self.near(&minimum.point.q, SAME).unwrap_or_else(|| {
+            self.endings.push(Ending {
+                minimum,
+                lowest: f64::INFINITY,
+                is_new: true,
+            });
+            self.endings.len() - 1
+        })
+    }
+}

@@ -1,0 +1,105 @@
+//! Cells about which nothing is proved, taken together where they lie close to each other.
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
+use ordered_float::OrderedFloat;
+use petgraph::unionfind::UnionFind;
+
+use crate::cell::Cell;
+use crate::configuration::{Configuration, ConfigurationSpace};
+
+/// A part of the space of which nothing is proved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenRegion {
+    /// Where the lowest energy may be.
+    pub pose: Configuration,
+    /// Of its cells (m^2 rad).
+    pub volume: f64,
+    /// The least energy (J) that it can hide.
+    pub lowest: f64,
+}
+
+/// Cells closer than this share of the distance at which tiles are free belong together.
+const TOGETHER: f64 = 1.0 / 32.0;
+
+/// A region in the making.
+struct Part {
+    region: OpenRegion,
+    /// The box around it.
+    around: Cell,
+}
+
+impl Part {
+    fn of_cell(cell: &Cell, lowest: f64) -> Self {
+        Self {
+            region: OpenRegion {
+                pose: cell.centre,
+                volume: cell.volume(),
+                lowest,
+            },
+            around: *cell,
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        let volume = self.region.volume + other.region.volume;
+        if other.region.lowest < self.region.lowest {
+            self.region = other.region;
+        }
+        self.region.volume = volume;
+        let step = self.around.centre.step_to(&other.around.centre);
+        for (i, half) in self.around.half.iter_mut().enumerate() {
+            *half = half.max(step[i].abs() + other.around.half[i]);
+        }
+    }
+
+    /// Whether the boxes are no farther apart than `gap` (m, m, rad) along each coordinate.
+    fn is_beside(&self, other: &Self, gap: &[f64; 3]) -> bool {
+        let step = self.around.centre.step_to(&other.around.centre);
+        (0..3).all(|i| step[i].abs() <= self.around.half[i] + other.around.half[i] + gap[i])
+    }
+}
+
+/// The regions of some cells with the least energy (J) that each can hide, the lowest first.
+pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec<OpenRegion> {
+    let size = TOGETHER * space.free_distance;
+    let gap = [size, size, size / space.rho];
+    let place = |cell: &Cell| {
+        let at = cell.centre.to_array();
+        [0, 1, 2].map(|i| (at[i] / gap[i]).floor() as i64)
+    };
+    // First what lies in one place, then what lies side by side.
+    let mut places: BTreeMap<[i64; 3], Part> = BTreeMap::new();
+    for (cell, lowest) in cells {
+        let part = Part::of_cell(cell, *lowest);
+        places
+            .entry(place(cell))
+            .and_modify(|known| known.add(&part))
+            .or_insert(part);
+    }
+    let parts: Vec<Part> = places.into_values().collect();
+    let mut joined = UnionFind::<usize>::new(parts.len());
+    for (i, a) in parts.iter().enumerate() {
+        for (j, _) in parts
+            .iter()
+            .enumerate()
+            .skip(i + 1)
+            .filter(|(_, b)| a.is_beside(b, &gap))
+        {
+            joined.union(i, j);
+        }
+    }
+    let mut regions: BTreeMap<usize, Part> = BTreeMap::new();
+    for (i, part) in parts.into_iter().enumerate() {
+        match regions.entry(joined.find(i)) {
+            Entry::Occupied(mut known) => known.get_mut().add(&part),
+            Entry::Vacant(place) => {
+                place.insert(part);
+            }
+        }
+    }
+    let mut regions: Vec<OpenRegion> = regions.into_values().map(|part| part.region).collect();
+    regions.sort_by_key(|region| OrderedFloat(region.lowest));
+    regions
+}

@@ -1,0 +1,95 @@
+//! Siblings of minima: the same meeting of two faces, on all other pairs of faces and in the
+//! mirror.
+
+use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
+
+use crate::configuration::{Configuration, wrap_angle};
+use crate::problem::Problem;
+use crate::tile::{Face, face_to_face};
+
+/// Meetings that differ by less than this (m; rad times a tile's size) are the same.
+const SAME: f64 = 1e-3;
+/// Faces turned away from each other by more than this (rad) do not meet.
+const TURNED: f64 = 0.8;
+
+/// How the moving tile's face stands to the fixed one's: its middle's place along that face and
+/// out of it (m), and by how much it is turned against lying flush (rad).
+#[derive(Clone, Copy, Debug)]
+struct Meeting {
+    slide: f64,
+    gap: f64,
+    tilt: f64,
+}
+
+impl Meeting {
+    fn of(q: &Configuration, fixed: &Face, moving: &Face) -> Self {
+        let way = q.transform(moving.middle()) - fixed.middle();
+        Self {
+            slide: way.dot(&fixed.tangent()),
+            gap: way.dot(&fixed.normal()),
+            tilt: wrap_angle(q.theta - face_to_face(fixed, moving, 0.0, 0.0).theta),
+        }
+    }
+
+    fn mirrored(self) -> Self {
+        Self {
+            slide: -self.slide,
+            tilt: -self.tilt,
+            ..self
+        }
+    }
+
+    /// The configuration in which two faces meet in this way, drawn apart until the tiles do not
+    /// overlap.
+    fn place(&self, problem: &Problem, fixed: &Face, moving: &Face) -> Configuration {
+        let theta = wrap_angle(face_to_face(fixed, moving, 0.0, 0.0).theta + self.tilt);
+        let arm = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
+        let position = fixed.point(self.slide, self.gap) - arm;
+        let at = |p: Vector2<f64>| Configuration::new(p.x, p.y, theta);
+        let lift = problem.lift(&at(position), fixed.normal());
+        at(position + fixed.normal() * lift)
+    }
+
+    fn distance(&self, other: &Self, size: f64) -> f64 {
+        let turn = wrap_angle(self.tilt - other.tilt) * size;
+        (self.slide - other.slide)
+            .hypot(self.gap - other.gap)
+            .hypot(turn)
+    }
+}
+
+/// Where siblings of some minima may be expected, themselves not left out.
+pub(super) fn siblings(problem: &Problem, minima: &[Configuration]) -> Vec<Configuration> {
+    let [of_fixed, of_moving] = problem.faces();
+    let size = problem.space.rho;
+    let pairs = || {
+        of_fixed
+            .iter()
+            .flat_map(|fixed| of_moving.iter().map(move |moving| (fixed, moving)))
+    };
+    let mut meetings: Vec<Meeting> = Vec::new();
+    for q in minima {
+        let closest = pairs()
+            .map(|(fixed, moving)| Meeting::of(q, fixed, moving))
+            .filter(|meeting| meeting.tilt.abs() < TURNED)
+            .min_by_key(|meeting| OrderedFloat(meeting.gap.abs() + size * meeting.tilt.abs()));
+        for meeting in closest
+            .into_iter()
+            .flat_map(|meeting| [meeting, meeting.mirrored()])
+        {
+            if meetings
+                .iter()
+                .all(|known| known.distance(&meeting, size) > SAME)
+            {
+                meetings.push(meeting);
+            }
+        }
+    }
+    let places = pairs().flat_map(|(fixed, moving)| {
+        meetings
+            .iter()
+            .map(|meeting| meeting.place(problem, fixed, moving))
+    });
+    places.filter(|q| problem.is_free(q)).collect()
+}

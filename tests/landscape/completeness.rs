@@ -1,0 +1,234 @@
+//! Proofs that a list of states is complete: they find what was forgotten, claim nothing beside
+//! what was hidden from them, and say where they are open.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tilebind::landscape::completeness::Search;
+use tilebind::landscape::minimum::{Outcome, descend};
+use tilebind::landscape::survey::{Survey, SurveySettings};
+use tilebind::landscape::{Completeness, CompletenessSettings, Inventory};
+use tilebind::observer::Silent;
+use tilebind::roadmap::Roadmap;
+use tilebind::tile::face_to_face;
+use tilebind::{Configuration, Design, Problem, Settings};
+
+use crate::designs::load;
+
+/// Traps deeper than a hundredth of the bond that need half of that to leave.
+const USUAL: CompletenessSettings = CompletenessSettings {
+    below: 0.01,
+    escape: 0.005,
+    cells: 1_000_000,
+    seconds: f64::INFINITY,
+};
+
+fn survey(problem: &Problem, milestones: usize) -> (Survey, SurveySettings) {
+    let settings = Settings {
+        milestones,
+        ..Settings::default()
+    };
+    let roadmap = settings.roadmap(problem);
+    let settings = SurveySettings {
+        edge: roadmap.edges,
+        settled: settings.settled,
+        added_milestones: 100,
+        most_rounds: 8,
+        seed: 1,
+    };
+    let built = Roadmap::build(problem, &roadmap, &mut |_| {});
+    (Survey::new(problem, built, &[], &settings), settings)
+}
+
+fn conclude(problem: &Problem, survey: &Survey, search: Search) -> Completeness {
+    let listed = Inventory::of_survey(problem, survey, 1e-4);
+    search.conclude(problem, survey, &listed)
+}
+
+#[test]
+fn forgotten_traps_are_found_again_and_the_list_is_proved() {
+    let problem = load("shapes/paper-tile.toml").problem();
+    let (mut survey, settings) = survey(&problem, 2000);
+    let energies = |survey: &Survey| -> Vec<f64> {
+        let deep = survey.states.iter().map(|state| state.minimum.point.energy);
+        let mut deep: Vec<f64> = deep.filter(|energy| *energy < -0.7e-3).collect();
+        deep.sort_by(f64::total_cmp);
+        deep
+    };
+    let all = energies(&survey);
+    survey
+        .states
+        .retain(|state| state.minimum.point.energy < -60e-3);
+    assert!(survey.states.len() < all.len());
+    let search = Search::run(&problem, &survey, &USUAL, &Silent).unwrap();
+    assert!(!search.missed().is_empty());
+    survey.add(&problem, &search.missed(), &settings);
+    let found = energies(&survey);
+    assert_eq!(found.len(), all.len());
+    for (found, known) in found.iter().zip(&all) {
+        assert!(
+            (found - known).abs() < 1e-9 * known.abs(),
+            "{found} {known}"
+        );
+    }
+    let complete = conclude(&problem, &survey, search);
+    assert!(complete.is_complete(), "{:?}", complete.open);
+    assert_eq!(complete.share, 0.0);
+    assert!((complete.below / problem.depth() + 0.01).abs() < 1e-12);
+}
+
+#[test]
+fn tilted_traps_behind_a_tab_are_found() {
+    let problem = load("tests/designs/good/square-tab.toml").problem();
+    let (mut survey, settings) = survey(&problem, 500);
+    let deep = CompletenessSettings {
+        below: 0.1,
+        escape: 0.05,
+        ..USUAL
+    };
+    let search = Search::run(&problem, &survey, &deep, &Silent).unwrap();
+    let trap = Configuration::new(0.170439631, -0.046621664, 2.903201968);
+    let is_trap = |q: &Configuration| problem.space.distance(q, &trap) < 1e-5;
+    let missed = search.missed();
+    assert!(
+        survey
+            .states
+            .iter()
+            .any(|state| is_trap(&state.minimum.point.q))
+            || missed.iter().any(|minimum| is_trap(&minimum.point.q)),
+        "{missed:?}"
+    );
+    survey.add(&problem, &missed, &settings);
+    assert!(conclude(&problem, &survey, search).is_complete());
+}
+
+#[test]
+fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
+    let problem = load("shapes/paper-tile.toml").problem();
+    let (survey, _) = survey(&problem, 500);
+    let hasty = CompletenessSettings {
+        cells: 10_000,
+        ..USUAL
+    };
+    let search = Search::run(&problem, &survey, &hasty, &Silent).unwrap();
+    let known = conclude(&problem, &survey, search);
+    assert!(!known.is_complete());
+    assert!(known.share > 0.0 && known.share < 1.0);
+    assert!(known.open.is_sorted_by(|a, b| a.lowest <= b.lowest));
+    assert!(
+        known.open[0].lowest < -60e-3,
+        "the bond's surroundings take longer"
+    );
+}
+
+#[test]
+fn an_energy_without_bounds_or_no_time_proves_nothing() {
+    let problem = load("shapes/shielded-nearest-face.toml").problem();
+    let (survey, _) = survey(&problem, 100);
+    assert!(Search::run(&problem, &survey, &USUAL, &Silent).is_err());
+    let none = CompletenessSettings {
+        seconds: 0.0,
+        ..USUAL
+    };
+    let problem = load("shapes/paper-tile.toml").problem();
+    assert!(Search::run(&problem, &survey, &none, &Silent).is_err());
+}
+
+/// A small square tile with a hole for a peg in a random place of a random face, a magnet behind
+/// its floor and one in the peg's tip; a few random magnets elsewhere. The wanted bond is another
+/// one. And the numbers of the two faces, and how far one is slid along the other where they meet.
+fn planted(rng: &mut ChaCha8Rng) -> (Design, [usize; 2], f64) {
+    let slots = 9;
+    let [fixed, moving] = [0; 2].map(|_| rng.random_range(1..4usize));
+    let slot = rng.random_range(2..slots - 2usize);
+    let half = rng.random_range(2.4e-3..4.5e-3);
+    let depth: f64 = rng.random_range(3e-3..9e-3);
+    let play = rng.random_range(0.1e-3..0.6e-3);
+    let single = |at: usize, pole: char| -> String {
+        (0..slots)
+            .map(|k| if k == at { pole } else { '.' })
+            .collect()
+    };
+    let mut code = |pole: bool| -> String {
+        let letter = |_| match rng.random_range(0..6) {
+            0 if pole => 'N',
+            0 => 'S',
+            _ => '.',
+        };
+        (0..slots).map(letter).collect()
+    };
+    let at = |slot: usize| 5e-3 * (slot as f64 - (slots - 1) as f64 / 2.0);
+    let profile = |slot: usize, half: f64, depth: f64| {
+        let (a, b) = (at(slot) - half, at(slot) + half);
+        format!(
+            "{{ shape = \"points\", points = [[{a}, 0.0], [{a}, {depth}], [{b}, {depth}], [{b}, 0.0]] }}"
+        )
+    };
+    let mirrored = slots - 1 - slot;
+    let text = format!(
+        "name = \"planted\"\n[table]\nsize = [0.5, 0.5]\n\
+         [magnet]\nsize = [0.004, 0.003, 0.003]\nremanence = 1.2\npitch = 0.005\ninset = 0.001\n\
+         [fixed]\nside = 0.06\nthickness = 0.008\nmass = 0.03\n[fixed.faces]\n\
+         0 = {{ code = \"{}\" }}\n{fixed} = {{ code = \"{}\", profile = {} }}\n\
+         [moving]\nside = 0.06\nthickness = 0.008\nmass = 0.03\n[moving.faces]\n\
+         0 = {{ mates = \"0\" }}\n{moving} = {{ code = \"{}\", profile = {} }}\n\
+         [target]\nfixed = \"0\"\nmoving = \"0\"\n",
+        code(true).replace("........", "N......."),
+        single(slot, 'N'),
+        profile(slot, half, -depth),
+        single(mirrored, 'S'),
+        profile(mirrored, half - play, depth - play),
+    );
+    let design = Design::parse(&text, "planted").unwrap_or_else(|error| panic!("{error}\n{text}"));
+    (design, [fixed, moving], play)
+}
+
+#[test]
+fn a_planted_trap_is_found_or_completeness_is_not_claimed() {
+    let mut rng = ChaCha8Rng::seed_from_u64(14);
+    let (mut found, mut claimed) = (0, 0);
+    for number in 0..100 {
+        let (design, [fixed, moving], play) = planted(&mut rng);
+        let problem = design.problem();
+        let faces = problem.faces();
+        let (fixed, moving) = (&faces[0][fixed], &faces[1][moving]);
+        let flush = face_to_face(fixed, moving, 0.0, 0.0);
+        let lifted = flush.position() + fixed.normal() * 0.5 * play;
+        let start = Configuration::new(lifted.x, lifted.y, flush.theta);
+        assert!(problem.is_free(&start), "{number}");
+        let Outcome::Minimum(trap) = descend(&problem, &start).outcome else {
+            continue;
+        };
+        // A survey that knows next to nothing.
+        let settings = Settings {
+            milestones: 20,
+            ..Settings::default()
+        };
+        let roadmap = settings.roadmap(&problem);
+        let survey = Survey::of_roadmap(&problem, Roadmap::build(&problem, &roadmap, &mut |_| {}));
+        let looked_for = CompletenessSettings {
+            below: 0.3,
+            escape: 0.15,
+            cells: 60_000,
+            ..USUAL
+        };
+        let search = Search::run(&problem, &survey, &looked_for, &Silent).unwrap();
+        let is_trap = |q: &Configuration| problem.space.distance(q, &trap.point.q) < 1e-4;
+        let is_found = search
+            .missed()
+            .iter()
+            .any(|minimum| is_trap(&minimum.point.q));
+        let is_deep = trap.point.energy < -0.3 * problem.depth();
+        let is_claimed = search.is_everything_explained();
+        found += usize::from(is_found);
+        claimed += usize::from(is_claimed);
+        assert!(
+            is_found || !is_deep || !is_claimed,
+            "{number}: {:?}",
+            trap.point
+        );
+    }
+    assert!(
+        found > 60 && claimed > 60,
+        "found {found}, claimed {claimed} of 100"
+    );
+}
