@@ -20,6 +20,7 @@ pub mod schema;
 pub mod sweep;
 mod sweep_progress;
 mod word;
+pub mod words;
 
 pub use failure::Failure;
 use failure::WRONG;

@@ -7,6 +7,7 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`words`] - sets of barcodes;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
@@ -33,4 +34,5 @@ pub mod summary;
 pub mod sweep;
 pub mod topsearch;
 mod values;
+pub mod words;
 pub mod writer;
