@@ -171,7 +171,7 @@ impl Words {
         };
         let mut effort = Effort {
             seed: self.work.seed,
-            budget: Budget::seconds(self.seconds, Budget::deadline(2.0 * self.seconds)),
+            budget: Budget::seconds(self.seconds, Budget::deadline(3.0 * self.seconds)),
         };
         let answer = answer(&task, question, &energies, &mut effort);
         let request = Request {

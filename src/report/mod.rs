@@ -7,7 +7,7 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
-//! - [`words`] - sets of barcodes;
+//! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal;
 //! - [`plots`] - pictures;
@@ -20,6 +20,7 @@ pub mod arrays;
 pub mod calibration;
 pub mod columns;
 pub mod comparison;
+pub mod crosstalk;
 pub mod csv;
 pub mod docking;
 pub mod dynamics;

@@ -46,6 +46,8 @@ pub struct Answer {
 const MOST_OF_FRONTIER: usize = 1000;
 /// The gap whose words are told of a whole frontier.
 const MIDDLE: f64 = 0.5;
+/// Share of the work kept back for the words beyond a tie.
+const FOR_BEYOND: f64 = 0.1;
 /// Larger sets are not searched beyond a tie.
 const MOST_BEYOND: f64 = 5000.0;
 
@@ -55,7 +57,12 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
     let judged = |words: &[Word]| Judgement::of(words, energies, &task.rules);
     match question {
         Question::Gap(gap) => {
-            let found = search::largest(task, gap, usize::MAX, effort);
+            let mut part = Effort {
+                seed: effort.seed,
+                budget: effort.budget.share(1.0 - FOR_BEYOND),
+            };
+            let found = search::largest(task, gap, usize::MAX, &mut part);
+            effort.budget.give_back(&part.budget);
             let beyond = beyond(task, gap, effort).map(|point| {
                 let judgement = judged(&point.found.words);
                 (point, judgement)

@@ -79,6 +79,8 @@ fn permuted(row: &FixedBitSet, position: &[usize]) -> FixedBitSet {
     out
 }
 
+/// Units of work that every step takes, however small the graph.
+const OVERHEAD: u64 = 24;
 /// Larger graphs are ordered by the number of neighbours alone.
 const MOST_ORDERED: usize = 4096;
 
@@ -121,7 +123,7 @@ impl Search<'_> {
         if clique.len() > self.best.len() {
             self.best = clique.clone();
         }
-        let blocks = candidates.as_slice().len() as u64;
+        let blocks = candidates.as_slice().len() as u64 + OVERHEAD;
         let least = self.best.len().saturating_sub(clique.len());
         let coloured = self.coloured(&candidates, least);
         for (v, colour) in coloured.into_iter().rev() {
@@ -162,7 +164,7 @@ impl Search<'_> {
                 }
             }
         }
-        self.budget.spend(work * candidates.as_slice().len() as u64);
+        self.budget.spend(work * (candidates.as_slice().len() as u64 + OVERHEAD));
         out
     }
 }

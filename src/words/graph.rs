@@ -53,6 +53,42 @@ impl<'a> Graph<'a> {
         self.rows.len() == self.len()
     }
 
+    /// Units of work that holding it took.
+    pub fn work(&self) -> u64 {
+        match self.is_held() {
+            true => self.judgement() * (self.len() * self.len()) as u64 / 2,
+            false => 0,
+        }
+    }
+
+    /// Units of work that finding out whether two words go together counts as.
+    pub fn judgement(&self) -> u64 {
+        4 + 2 * self.task.rules.meetings(self.task.places) as u64
+    }
+
+    /// The graph of pairs of vertices that a symmetry exchanges, of which both or none are taken:
+    /// half as large, for sets that have the symmetry. With it the vertices of each pair.
+    pub fn folded(&self, image: &[usize]) -> (Self, Vec<[usize; 2]>) {
+        let goes = |v: usize| image[v] == v || self.rows[v].contains(image[v]);
+        let firsts = (0..self.len()).filter(|v| image[image[*v]] == *v && *v <= image[*v]);
+        let pairs: Vec<[usize; 2]> = firsts.filter(|v| goes(*v)).map(|v| [v, image[v]]).collect();
+        let row = |pair: &[usize; 2]| {
+            let both = |other: &[usize; 2]| {
+                self.rows[pair[0]].contains(other[0]) && self.rows[pair[1]].contains(other[0])
+            };
+            let mut row = FixedBitSet::with_capacity(pairs.len());
+            row.extend((0..pairs.len()).filter(|k| both(&pairs[*k])));
+            row
+        };
+        let folded = Self {
+            task: self.task,
+            words: pairs.iter().map(|pair| self.words[pair[0]]).collect(),
+            limit: self.limit,
+            rows: pairs.par_iter().map(row).collect(),
+        };
+        (folded, pairs)
+    }
+
     /// Whether two words go together.
     fn joined(&self, a: usize, b: usize) -> bool {
         a != b && self.task.compatible([self.words[a], self.words[b]], self.limit)

@@ -20,8 +20,8 @@ use super::graph::Graph;
 const WALKS: usize = 4;
 /// Work of a walk (s) before the walks are compared.
 const ROUND: f64 = 0.1;
-/// Units that working out whether two words go together counts as.
-const JUDGEMENT: u64 = 40;
+/// Units that every step takes, however small the graph.
+const STEP: u64 = 24;
 /// Stuck so often, all penalties fall by one.
 const FORGET_AFTER: u32 = 2;
 
@@ -99,43 +99,47 @@ impl<'a> Walk<'a> {
     }
 
     fn go(&mut self, enough: usize, budget: &mut Budget) {
-        let scan = (self.graph.len() / 8 + 1) as u64;
+        let scan = (self.graph.len() / 2) as u64 + STEP;
         let judged = match self.graph.is_held() {
             true => 0,
-            false => JUDGEMENT * self.graph.len() as u64,
+            false => self.graph.judgement() * self.graph.len() as u64,
         };
         while !budget.is_spent() && self.best.len() < enough {
             budget.spend(2 * scan + judged);
-            if let Some(vertex) = self.choose(0) {
-                self.add(vertex);
-                if self.members.len() > self.best.len() {
-                    self.best = self.members.iter().map(|(vertex, _)| *vertex).collect();
+            match self.choose() {
+                [Some(vertex), _] => {
+                    self.add(vertex);
+                    if self.members.len() > self.best.len() {
+                        self.best = self.members.iter().map(|(vertex, _)| *vertex).collect();
+                    }
                 }
-            } else if let Some(vertex) = self.choose(1) {
-                self.drop_conflicting(vertex);
-                self.add(vertex);
-            } else {
-                self.shake();
+                [None, Some(vertex)] => {
+                    self.drop_conflicting(vertex);
+                    self.add(vertex);
+                }
+                [None, None] => self.shake(),
             }
         }
     }
 
-    /// A word with so many conflicts, not used before, of least penalty, at random.
-    fn choose(&mut self, conflicts: u32) -> Option<usize> {
-        let mut chosen = None;
-        let (mut least, mut ties) = (u32::MAX, 0u32);
+    /// Of the words not used before a word with no conflict, and one with a single conflict, each of
+    /// least penalty, at random.
+    fn choose(&mut self) -> [Option<usize>; 2] {
+        let mut chosen = [None; 2];
+        let (mut least, mut ties) = ([u32::MAX; 2], [0u32; 2]);
         for (vertex, count) in self.conflicts.iter().enumerate() {
-            if *count != conflicts || self.used.contains(vertex) {
+            let kind = *count as usize;
+            if kind > 1 || self.used.contains(vertex) {
                 continue;
             }
             let penalty = self.penalties[vertex];
-            if penalty < least {
-                (least, ties) = (penalty, 0);
+            if penalty < least[kind] {
+                (least[kind], ties[kind]) = (penalty, 0);
             }
-            if penalty == least {
-                ties += 1;
-                if self.rng.random_range(0..ties) == 0 {
-                    chosen = Some(vertex);
+            if penalty == least[kind] {
+                ties[kind] += 1;
+                if self.rng.random_range(0..ties[kind]) == 0 {
+                    chosen[kind] = Some(vertex);
                 }
             }
         }

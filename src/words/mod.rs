@@ -12,6 +12,7 @@
 //! - [`clique`], [`local`], [`bound`] - largest sets, with proof; large sets; bounds without search;
 //! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
 //! - [`answer`](mod@answer) - a question answered;
+//! - [`crosstalk`] - attraction of every two words over all poses; [`matching`] - outlines alone;
 //! - [`budget`] - work, counted so that results do not depend on the machine.
 
 pub mod answer;
@@ -20,14 +21,19 @@ pub mod budget;
 pub mod candidates;
 pub mod clique;
 pub mod constraint;
+pub mod crosstalk;
 pub mod frontier;
 pub mod graph;
 pub mod lag;
 pub mod local;
+pub mod matching;
 pub mod rules;
 pub mod search;
 pub mod set;
 pub mod word;
+
+#[cfg(test)]
+mod tests;
 
 pub use answer::{Answer, Question, answer};
 pub use constraint::Constraints;

@@ -100,6 +100,11 @@ impl Rules {
         self.shape == Shape::None
     }
 
+    /// How many meetings two words of so many places have.
+    pub fn meetings(&self, places: usize) -> usize {
+        self.ways().count() * self.slides_of(places).count()
+    }
+
     fn ways(&self) -> impl Iterator<Item = Way> {
         let (words_meet, flip) = (self.words_meet(), self.flip);
         let all = [(true, false), (false, false), (true, true), (false, true)];

@@ -47,11 +47,17 @@ impl Found {
 
 /// Energies that differ by less than this share are the same.
 pub const SAME: f64 = 1e-12;
-/// Work (s) on large sets before proofs are tried: of the whole range of bonds, and of parts.
-const FIRST_LOOK: f64 = 0.5;
-const LATER_LOOK: f64 = 0.02;
-/// Share of the work left that a proof may take.
-const FOR_PROOF: f64 = 0.5;
+/// Work (s) on large sets before proofs are tried, at most, and what it is for each pair of words:
+/// of small graphs the proof is quicker.
+const LOOK: f64 = 3.0;
+const LOOK_A_PAIR: f64 = 2e-7;
+/// Shares of the work left for a first try at a proof, and for a second one where the bound of the
+/// first lies within this factor of what was found.
+const FOR_PROOF: [f64; 2] = [0.15, 0.5];
+const WITHIN_REACH: f64 = 1.5;
+/// Share of the work left for sets that have a symmetry, of large graphs.
+const FOR_SYMMETRIC: f64 = 0.2;
+const LARGE: usize = 1000;
 /// Weakest bonds tried where nothing is proved of the whole range.
 const LADDER: usize = 8;
 
@@ -93,7 +99,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     };
     let mut upper = 0;
     if let Some(last) = search.bonds.len().checked_sub(1) {
-        upper = search.range(0..=last, FIRST_LOOK);
+        upper = search.range(0..=last);
     }
     let mut found = std::mem::take(&mut search.best);
     found.sort_unstable();
@@ -142,21 +148,23 @@ impl<'a> Search<'a> {
 
     /// Searches the sets whose weakest bond is in a range of [`Self::bonds`], and gives an upper
     /// bound of their size where it lies above the best one's.
-    fn range(&mut self, range: RangeInclusive<usize>, look: f64) -> usize {
+    fn range(&mut self, range: RangeInclusive<usize>) -> usize {
         if self.best.len() >= self.enough {
             return self.best.len();
         }
         let (first, last) = (*range.start(), *range.end());
         let graph = self.graph(range);
+        self.effort.budget.spend(graph.work());
         if graph.len() <= self.best.len() {
             return graph.len();
         }
-        let mut found = self.clique(&graph, look);
+        let mut found = self.clique(&graph);
         if found.members.len() <= self.best.len() {
             return found.upper;
         }
+        let settled = found.members.len() == found.upper || found.members.len() >= self.enough;
         if self.accept(&graph, &found.members) {
-            if found.upper > found.members.len() {
+            if !settled {
                 let (enough, seed) = (self.enough.min(found.upper), self.effort.seed);
                 let budget = &mut self.effort.budget;
                 found.members = local::search(&graph, found.members, enough, seed, budget);
@@ -167,13 +175,13 @@ impl<'a> Search<'a> {
         if first == last {
             return found.upper;
         }
-        if found.members.len() < found.upper {
+        if !settled || self.effort.budget.is_spent() {
             self.ladder(first, last);
             return found.upper;
         }
         let middle = first + (last - first) / 2;
-        let deep = self.range(first..=middle, LATER_LOOK);
-        deep.max(self.range(middle + 1..=last, LATER_LOOK))
+        let deep = self.range(first..=middle);
+        deep.max(self.range(middle + 1..=last))
     }
 
     /// The graph of the sets whose weakest bond is in a range.
@@ -189,10 +197,11 @@ impl<'a> Search<'a> {
 
     /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the
     /// proof, then half the rest of the work on larger ones.
-    fn clique(&mut self, graph: &Graph, look: f64) -> Clique {
+    fn clique(&mut self, graph: &Graph) -> Clique {
         let (enough, seed) = (self.enough, self.effort.seed);
         let budget = &mut self.effort.budget;
-        let mut part = budget.part(look);
+        let look = LOOK_A_PAIR * (graph.len() * graph.len()) as f64;
+        let mut part = budget.part(look.min(LOOK));
         let known = local::search(graph, Vec::new(), enough, seed, &mut part);
         budget.give_back(&part);
         let mut found = Clique {
@@ -202,10 +211,23 @@ impl<'a> Search<'a> {
         if found.members.len() >= enough {
             return found;
         }
-        if graph.is_held() {
-            let mut part = budget.share(FOR_PROOF);
-            found = clique::largest(graph, found.members, &mut part);
+        if graph.is_held() && graph.len() >= LARGE {
+            let mut part = budget.share(FOR_SYMMETRIC);
+            found.members = symmetric(graph, found.members, enough, seed, &mut part);
             budget.give_back(&part);
+        }
+        for share in FOR_PROOF {
+            let best = found.members.len().max(self.best.len());
+            let hopeless = found.upper < graph.len()
+                && found.upper as f64 > WITHIN_REACH * best as f64;
+            if graph.is_held() && found.upper > best && !hopeless && best < enough {
+                let mut part = budget.share(share);
+                found = clique::largest(graph, found.members, &mut part);
+                budget.give_back(&part);
+            }
+        }
+        if found.members.len() >= enough {
+            return found;
         }
         if found.upper > found.members.len().max(self.best.len()) {
             let mut part = budget.share(0.5);
@@ -216,14 +238,28 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// Takes a set that is larger than the best one, if it has the gap.
+    /// Takes a set that is larger than the best one, if it has the gap; else what is left of it when
+    /// it has. Whether all of it has.
     fn accept(&mut self, graph: &Graph, members: &[usize]) -> bool {
-        let set: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
+        let mut set: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
         let accepted = self.has_gap(&set);
-        if accepted && set.len() > self.best.len() {
+        while set.len() > self.best.len() && !self.has_gap(&set) {
+            self.drop_worst(&mut set);
+        }
+        if set.len() > self.best.len() {
             self.best = set;
         }
         accepted
+    }
+
+    /// Takes a word of the strongest wrong meeting out of a set.
+    fn drop_worst(&self, set: &mut Vec<Word>) {
+        let worst = self.task.judge(set).and_then(|set| set.worst);
+        let in_worst = |word: &Word| {
+            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
+        };
+        let at = set.iter().position(in_worst).unwrap_or(set.len() - 1);
+        set.remove(at);
     }
 
     /// Tries single weakest bonds of a range of which nothing is proved.
@@ -238,4 +274,28 @@ impl<'a> Search<'a> {
             self.accept(&graph, &members);
         }
     }
+}
+
+/// A large clique of those that keep a symmetry of the graph, from a known one on.
+fn symmetric(
+    graph: &Graph,
+    mut best: Vec<usize>,
+    enough: usize,
+    seed: u64,
+    budget: &mut Budget,
+) -> Vec<usize> {
+    let symmetries = graph.symmetries();
+    for (number, image) in symmetries.iter().enumerate() {
+        let mut part = budget.share(1.0 / (symmetries.len() - number) as f64);
+        let (folded, pairs) = graph.folded(image);
+        let found = local::search(&folded, Vec::new(), enough.div_ceil(2), seed, &mut part);
+        let mut members: Vec<usize> = found.iter().flat_map(|k| pairs[*k]).collect();
+        members.sort_unstable();
+        members.dedup();
+        if members.len() > best.len() {
+            best = members;
+        }
+        budget.give_back(&part);
+    }
+    best
 }

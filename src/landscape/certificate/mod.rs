@@ -39,7 +39,7 @@
 mod certifier;
 mod flood;
 mod landscape;
-mod lower;
+pub(crate) mod lower;
 mod query;
 mod store;
 mod upper;
