@@ -38,6 +38,11 @@ impl<'a> Graph<'a> {
         graph
     }
 
+    /// The graph of some of its words, ascending.
+    pub fn among(&self, words: Vec<Word>) -> Self {
+        Self::new(self.task, words, self.limit)
+    }
+
     /// Number of vertices.
     pub fn len(&self) -> usize {
         self.words.len()
@@ -63,7 +68,12 @@ impl<'a> Graph<'a> {
 
     /// Units of work that finding out whether two words go together counts as.
     pub fn judgement(&self) -> u64 {
-        4 + 2 * self.task.rules.meetings(self.task.places) as u64
+        let meetings = self.task.rules.meetings(self.task.places) as u64;
+        match self.task.magnets == self.task.places {
+            // Most pairs that conflict do so at once.
+            true => 8 + meetings / 4,
+            false => 8 + 2 * meetings,
+        }
     }
 
     /// The graph of pairs of vertices that a symmetry exchanges, of which both or none are taken:

@@ -61,7 +61,11 @@ impl Bar {
 
 /// J(d) (J) for d = 0, 1, 2 ... places: of two north poles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lags(Vec<f64>);
+pub struct Lags {
+    energies: Vec<f64>,
+    /// The sum of their magnitudes but for the first (J).
+    beside: f64,
+}
 
 impl Lags {
     /// Of real magnets, for words of so many places.
@@ -73,33 +77,39 @@ impl Lags {
         };
         let apart = bar.size[0] + 2.0 * bar.inset;
         let energy = |d| potential.energy(&Configuration::new(apart, d as f64 * bar.pitch, 0.0));
-        Self((0..2 * places - 1).map(energy).collect())
+        Self::of((0..2 * places - 1).map(energy).collect())
     }
 
     /// Facing magnets count 1 and all others nothing.
     pub fn contacts(places: usize) -> Self {
         let mut energies = vec![0.0; 2 * places - 1];
         energies[0] = 1.0;
-        Self(energies)
+        Self::of(energies)
+    }
+
+    fn of(energies: Vec<f64>) -> Self {
+        Self {
+            beside: energies[1..].iter().map(|energy| energy.abs()).sum(),
+            energies,
+        }
     }
 
     /// J(0) (J).
     pub fn contact(&self) -> f64 {
-        self.0[0]
+        self.energies[0]
     }
 
     /// The most (J) that all pairs but the facing ones add to the energy of two words, of which one
     /// has so many magnets.
     pub fn rest(&self, magnets: u32) -> f64 {
-        let beside: f64 = self.0[1..].iter().map(|energy| energy.abs()).sum();
-        2.0 * f64::from(magnets) * beside
+        2.0 * f64::from(magnets) * self.beside
     }
 
     /// `sum_d J(d) c(s + d)` (J).
     pub fn energy(&self, correlations: &Correlations, s: i32) -> f64 {
         let last = correlations.places as i32 - 1;
         (-last..=last)
-            .map(|l| self.0[(l - s).unsigned_abs() as usize] * f64::from(correlations.at(l)))
+            .map(|l| self.energies[(l - s).unsigned_abs() as usize] * f64::from(correlations.at(l)))
             .sum()
     }
 }

@@ -40,6 +40,9 @@ pub struct Rules {
     pub flip: bool,
 }
 
+/// Contacts that differ by less than this are as many.
+const ROUNDED: f64 = 1e-9;
+
 /// One way in which a face meets another word's faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Way {
@@ -127,25 +130,35 @@ impl Rules {
     /// Whether no wrong meeting of two words and their mates attracts by more than `limit` (J).
     pub fn within(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
         let same = u == v;
-        let rest = lags.rest(u.magnets().min(v.magnets()));
+        let (places, magnets) = (u.places() as i32, u.magnets().min(v.magnets()));
+        let full = magnets as i32 == places;
+        // The facing magnets nearly always decide: so many are fine whatever the others add, and
+        // more than so many are too many.
+        let (contact, rest) = (lags.contact(), lags.rest(magnets));
+        let fine = ((limit - rest) / contact - ROUNDED).floor() as i32;
+        let most = ((limit + rest) / contact + ROUNDED).floor() as i32;
+        let last = if self.slides() { places - fine.max(0) - 1 } else { 0 };
         self.ways().all(|way| {
             let facing = way.facing(v);
+            let sign = if way.mate { 1 } else { -1 };
             let mut all_lags = None;
-            self.slides_of(u.places())
-                .filter(|s| !Self::is_bond(way, *s, same))
-                .all(|s| {
-                    // The facing magnets nearly always decide.
-                    let facing_alone =
-                        way.sign() * f64::from(u.correlation(facing, s)) * lags.contact();
-                    if facing_alone + rest <= limit {
-                        return true;
-                    }
-                    if facing_alone - rest > limit {
-                        return false;
-                    }
-                    let all = all_lags.get_or_insert_with(|| Correlations::new(u, facing));
-                    way.sign() * lags.energy(all, s) <= limit
-                })
+            let mut is_within = |s: i32| {
+                let facing_alone = sign
+                    * match full {
+                        true => u.full_correlation(facing, s),
+                        false => u.correlation(facing, s),
+                    };
+                if facing_alone <= fine || Self::is_bond(way, s, same) {
+                    return true;
+                }
+                if facing_alone > most {
+                    return false;
+                }
+                let all = all_lags.get_or_insert_with(|| Correlations::new(u, facing));
+                way.sign() * lags.energy(all, s) <= limit
+            };
+            // Slid farther fewer face than are fine.
+            (last < 0 || is_within(0)) && (1..=last).all(|s| is_within(s) && is_within(-s))
         })
     }
 

@@ -8,6 +8,10 @@
 
 use std::ops::RangeInclusive;
 
+use rand::SeedableRng;
+use rand::seq::index::sample;
+use rand_chacha::ChaCha8Rng;
+
 use super::budget::Budget;
 use super::candidates::Candidates;
 use super::clique::{self, Clique};
@@ -60,6 +64,11 @@ const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
 /// Weakest bonds tried where nothing is proved of the whole range.
 const LADDER: usize = 8;
+/// Where the words are too many for a graph to be held: so many of them are looked at first, at so
+/// many weakest bonds, each with this share of the work left.
+const SAMPLED: usize = 8000;
+const SAMPLED_BONDS: usize = 2;
+const FOR_A_SAMPLE: f64 = 0.35;
 
 /// The largest set of words with at least this gap; one of `enough` words will do.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
@@ -158,6 +167,10 @@ impl<'a> Search<'a> {
         if graph.len() <= self.best.len() {
             return graph.len();
         }
+        if !graph.is_held() {
+            self.sampled(first, last);
+            return graph.len();
+        }
         let mut found = self.clique(&graph);
         if found.members.len() <= self.best.len() {
             return found.upper;
@@ -211,7 +224,7 @@ impl<'a> Search<'a> {
         if found.members.len() >= enough {
             return found;
         }
-        if graph.is_held() && graph.len() >= LARGE {
+        if graph.len() >= LARGE {
             let mut part = budget.share(FOR_SYMMETRIC);
             found.members = symmetric(graph, found.members, enough, seed, &mut part);
             budget.give_back(&part);
@@ -220,7 +233,7 @@ impl<'a> Search<'a> {
             let best = found.members.len().max(self.best.len());
             let hopeless = found.upper < graph.len()
                 && found.upper as f64 > WITHIN_REACH * best as f64;
-            if graph.is_held() && found.upper > best && !hopeless && best < enough {
+            if found.upper > best && !hopeless && best < enough {
                 let mut part = budget.share(share);
                 found = clique::largest(graph, found.members, &mut part);
                 budget.give_back(&part);
@@ -273,6 +286,39 @@ impl<'a> Search<'a> {
             self.effort.budget.give_back(&Budget::none(part.is_late()));
             self.accept(&graph, &members);
         }
+    }
+
+    /// Searches where the words are too many for a graph to be held: among some of them, at a few
+    /// weakest bonds; then the best set grows and is exchanged among all.
+    fn sampled(&mut self, first: usize, last: usize) {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.effort.seed);
+        let mut best: Option<(Vec<Word>, Graph<'a>)> = None;
+        for step in (1..=SAMPLED_BONDS).rev() {
+            let at = first + (last - first) * step / SAMPLED_BONDS;
+            let graph = self.graph(at..=at);
+            let most = graph.len().min(SAMPLED);
+            let mut chosen = sample(&mut rng, graph.len(), most).into_vec();
+            chosen.sort_unstable();
+            let words = chosen.iter().map(|v| graph.words[*v]).collect();
+            let part_graph = graph.among(words);
+            let mut part = self.effort.budget.share(FOR_A_SAMPLE);
+            part.spend(part_graph.work());
+            let (enough, seed) = (self.enough, self.effort.seed);
+            let members = local::search(&part_graph, Vec::new(), enough, seed, &mut part);
+            self.effort.budget.give_back(&part);
+            let set: Vec<Word> = members.iter().map(|v| part_graph.words[*v]).collect();
+            if best.as_ref().is_none_or(|(words, _)| set.len() > words.len()) {
+                best = Some((set, graph));
+            }
+        }
+        let Some((set, graph)) = best else {
+            return;
+        };
+        let known = set.iter().filter_map(|word| graph.words.binary_search(word).ok());
+        let known: Vec<usize> = known.collect();
+        let (enough, seed) = (self.enough, self.effort.seed);
+        let members = local::search(&graph, known, enough, seed, &mut self.effort.budget);
+        self.accept(&graph, &members);
     }
 }
 

@@ -104,6 +104,18 @@ impl Word {
         equal.count_ones() as i32 - unequal.count_ones() as i32
     }
 
+    /// The correlation of words with a magnet in every place, quicker.
+    #[inline]
+    pub(super) fn full_correlation(self, other: Self, lag: i32) -> i32 {
+        let overlap = i32::from(self.places) - lag.abs();
+        let mask = u64::MAX >> (MOST_PLACES as i32 - overlap);
+        let (own, others) = match lag {
+            0.. => (self.north, other.north >> lag),
+            _ => (self.north >> -lag, other.north),
+        };
+        overlap - 2 * ((own ^ others) & mask).count_ones() as i32
+    }
+
     /// The places k at which `self[k]` and `other[k + lag]` are equal poles, and unequal ones.
     #[inline]
     pub fn facing(self, other: Self, lag: i32) -> [u64; 2] {
@@ -221,6 +233,10 @@ mod tests {
                 .map(|k| u.at(k as usize) * v.at((k + lag) as usize))
                 .sum();
             assert_eq!(u.correlation(v, lag), plain);
+        }
+        let (u, v) = (Word::parse("NNSNSN").unwrap(), Word::parse("SNSNNS").unwrap());
+        for lag in -5..=5 {
+            assert_eq!(u.full_correlation(v, lag), u.correlation(v, lag));
         }
     }
 
