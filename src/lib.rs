@@ -26,6 +26,7 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
@@ -69,6 +70,7 @@ pub mod roadmap;
 pub mod sweep;
 pub mod tile;
 pub mod units;
+pub mod words;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

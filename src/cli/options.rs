@@ -87,14 +87,19 @@ impl WorkOptions {
 
     /// Has the library work on the number of threads asked for.
     pub fn use_threads(&self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else {
-            return Ok(());
-        };
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global()
-            .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
+        use_threads(self.threads)
     }
+}
+
+/// Has the library work on so many threads, or on all cores.
+pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build_global()
+        .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }
 
 /// What is printed.

@@ -48,12 +48,14 @@ mod source;
 mod svg;
 mod target;
 mod tile;
+mod word_set;
 
 pub use crate::potential::MagnetModel;
 pub use drawings::Drawing;
 pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
 pub use schema::{SCHEMA, STARTER};
+pub use word_set::WordSet;
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -8,7 +8,7 @@ use crate::potential::bounds::{CellBounds, Enclosure};
 
 /// What is known of a cell that is not proved blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Assessment {
+pub(crate) struct Assessment {
     /// No free configuration of the cell has a lower energy (J).
     pub lower: f64,
     /// A guess of the energy (J) at the free configuration nearest to the centre; it steers the
@@ -55,31 +55,43 @@ pub(super) fn assess(
     cell: &Cell,
 ) -> Option<Assessment> {
     let verdict = contact.map_or_else(CellContact::open, |contact| contact.classify(cell));
+    match verdict {
+        CellContact::Blocked => None,
+        _ => assess_open(&bounds.enclose(cell), &verdict, lever, cell),
+    }
+}
+
+/// Assesses a cell of whose energy and contact this is known.
+pub(crate) fn assess_open(
+    enclosure: &Enclosure,
+    contact: &CellContact,
+    lever: f64,
+    cell: &Cell,
+) -> Option<Assessment> {
     let CellContact::Open {
         cuts,
         corners,
         depth,
-    } = verdict
+    } = contact
     else {
         return None;
     };
-    let enclosure = bounds.enclose(cell);
-    let tight = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners);
+    let tight = Lagrangian::tightest(enclosure, &cell.half, cuts, corners);
     let deepest = cuts
         .iter()
         .map(|cut| cut.form.value)
         .chain(corners.iter().map(|[a, b]| a.form.value.max(b.form.value)))
-        .fold(depth, |deepest, gap| deepest.max(-gap));
-    let estimate = if depth > 0.0 {
+        .fold(*depth, |deepest, gap| deepest.max(-gap));
+    let estimate = if *depth > 0.0 {
         OVERLAPPING * (1.0 + depth / cell.reach(lever))
     } else {
-        enclosure.form.value + pushed_out(&enclosure.form, &cuts, &corners, lever)
+        enclosure.form.value + pushed_out(&enclosure.form, cuts, corners, lever)
     };
     Some(Assessment {
         lower: tight.lower,
         estimate,
         overlap: deepest / cell.reach(lever) + cell.reach(lever) / lever,
-        axis: widest(&tight.form, &enclosure, cell, lever),
+        axis: widest(&tight.form, enclosure, cell, lever),
     })
 }
 

@@ -39,7 +39,7 @@
 mod certifier;
 mod flood;
 mod landscape;
-pub(super) mod lower;
+pub(crate) mod lower;
 mod query;
 mod store;
 pub(super) mod upper;

@@ -13,6 +13,7 @@ mod packed;
 mod pathways;
 mod tables;
 mod tree;
+mod words;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -11,6 +11,7 @@ mod kept;
 mod mistakes;
 mod shields;
 mod starting;
+mod words;
 #[cfg(unix)]
 mod terminal;
 
@@ -43,6 +44,9 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "analyse",
         "energy",
         "barrier",
+        "words",
+        "crosstalk",
+        "match",
         "init",
         "schema",
         "completions",

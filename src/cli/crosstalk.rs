@@ -1,0 +1,100 @@
+//! `tilebind crosstalk`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::design::{MagnetModel, WordSet};
+use tilebind::report::crosstalk as report;
+use tilebind::report::writer;
+use tilebind::words::crosstalk::Stage;
+
+use super::options::PrintOptions;
+use super::{Failure, input, interrupt, tell};
+
+/// The strongest attraction of every two words of a set over all poses, with their mates
+#[derive(Args)]
+#[command(
+    after_help = "\
+The set is a TOML file: words = [\"NNSN\", ...], without their mates, and if they are not the paper's
+[magnet] and [tile] side; `tilebind words --out DIR` writes one. Two square tiles carry a word each
+on one face; every pose is looked at: slid, tilted, drawn back. Rows and columns are the words, then
+their mates; a pose is of the tile whose west face carries the column's word, in the frame of the
+one whose east face carries the row's.
+
+Examples:
+  tilebind crosstalk target/words/words.toml
+  tilebind crosstalk target/words/words.toml --certify --json"
+)]
+pub struct Crosstalk {
+    /// The set of words
+    set: PathBuf,
+
+    /// Prove that no attraction is stronger, to within E_J [default: a hundredth of a contact]
+    #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
+          value_parser = input::positive)]
+    certify: Option<Option<f64>>,
+
+    /// Cells spent on the proof at most
+    #[arg(long, value_name = "N", default_value_t = 2_000_000, value_parser = input::count)]
+    certify_cells: usize,
+
+    /// Model of the magnets, dipole or cuboid [default: the set's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
+    model: Option<MagnetModel>,
+
+    /// Folder for crosstalk.csv and report.json
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Threads [default: all cores]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+/// The default width of bounds, as a share of two magnets' energy.
+const TOLERANCE: f64 = 0.01;
+
+impl Crosstalk {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        let set = WordSet::load(&self.set, self.model)?;
+        if let Some(folder) = &self.out {
+            input::check_folder(folder)?;
+        }
+        super::options::use_threads(self.threads)?;
+        let stage = Stage::new(
+            set.stage.pair.as_ref().clone(),
+            set.stage.interaction.clone(),
+        );
+        let certify = self.certify.map(|tolerance| {
+            let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * stage.contact_energy());
+            (tolerance, self.certify_cells)
+        });
+        let found = stage.crosstalk(&set.words, certify);
+        if !found.settled {
+            tell(
+                "note: the cells were spent before all bounds were as close as asked for; they \
+                 hold, and --certify-cells makes them closer",
+            );
+        }
+        let json = report::json(&found);
+        if let Some(folder) = &self.out {
+            let files = report::files(&found);
+            let kept = interrupt::without(|| writer::write(folder, &files))?;
+            for path in kept {
+                tell(format!("note: kept what was there as {}", path.display()));
+            }
+        }
+        self.print.results(&json, || {
+            let mut text = report::summary(&found);
+            if let Some(folder) = &self.out {
+                text += &format!("results in {}: crosstalk.csv, report.json\n", folder.display());
+            }
+            text
+        })
+    }
+}

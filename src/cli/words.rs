@@ -1,0 +1,351 @@
+//! `tilebind words`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::design::MagnetModel;
+use tilebind::report::words::{self as report, Request};
+use tilebind::report::writer;
+use tilebind::words::budget::Budget;
+use tilebind::words::search::Effort;
+use tilebind::words::word::MOST_PLACES;
+use tilebind::words::{Bar, Constraints, Faces, Lags, Question, Rules, Shape, Task, answer};
+
+use super::options::{PrintOptions, WorkOptions};
+use super::word::Word;
+use super::{Failure, input, interrupt, tell};
+
+/// Find sets of barcodes that bind their mates and nothing else
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+The gap of a set of words is 1 less the strongest wrong attraction over the weakest right bond, in
+energies of flush faces at contact, at every slide by whole places, magnets at all lags. It judges
+aligned and slid faces, not tilted ones: `tilebind crosstalk` does those. Wrong is every meeting but
+that of a word and its own mate at slide 0. With --gap the answer is the largest set, with --count
+the widest gap, with neither the number of words for every number of contacts. Where counted
+contacts make a tie, energies decide it; --contacts counts instead.
+
+Examples:
+  tilebind words --length 8 --gap 0.45
+  tilebind words --length 8 --count 5 --out target/words
+  tilebind words --length 8                                # gap against number of words
+  tilebind words --length 12 --gap 0.8 --shape polar
+  tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
+  tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2"
+)]
+pub struct Words {
+    /// The design file from whose target face magnets and pitch are taken [default: the paper's
+    /// tile]
+    design: Option<PathBuf>,
+
+    /// Magnets of a word
+    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present = "slots")]
+    length: Option<usize>,
+
+    /// Least gap, from 0 to 1
+    #[arg(long, value_name = "G", value_parser = gap)]
+    gap: Option<f64>,
+
+    /// Words wanted: with the widest gap
+    #[arg(long, value_name = "M", value_parser = input::count, conflicts_with = "gap")]
+    count: Option<usize>,
+
+    /// Judge by counted contacts: wrong meetings have at most T matches more than mismatches
+    #[arg(long, value_name = "T", value_parser = input::count_or_none,
+          conflicts_with_all = ["gap", "count"])]
+    contacts: Option<usize>,
+
+    /// Which faces can meet: all, or words mates only
+    #[arg(long, value_name = "WHICH", default_value = "all", value_parser = faces(),
+          hide_possible_values = true)]
+    faces: Faces,
+
+    /// Complementary shapes: none; shared, one that any two faces have and that forbids slides;
+    /// polar, knobs on words and slots on mates
+    #[arg(long, value_name = "KIND", default_value = "none", value_parser = shape(),
+          hide_possible_values = true)]
+    shape: Shape,
+
+    /// Tiles may lie upside down: every face may also be turned over
+    #[arg(long)]
+    flip: bool,
+
+    /// Spacing is code: words have N places, most of them empty
+    #[arg(long, value_name = "N", value_parser = input::count)]
+    slots: Option<usize>,
+
+    /// Magnets of a word with --slots [default: --length]
+    #[arg(long, value_name = "K", value_parser = input::count, requires = "slots")]
+    magnets: Option<usize>,
+
+    /// From place to place (m) [default: the design's, or 0.04]
+    #[arg(long, value_name = "M", value_parser = input::positive)]
+    pitch: Option<f64>,
+
+    /// As many north as south poles, or one more
+    #[arg(long)]
+    balanced: bool,
+
+    /// Longest run of equal poles
+    #[arg(long, value_name = "N", value_parser = input::count)]
+    max_run: Option<usize>,
+
+    /// Least mismatches of two words aligned, of a word and a complement aligned, and of either
+    /// over every slide (what hangs over counts)
+    #[arg(long, value_name = "A,C,S", value_parser = mismatches)]
+    min_mismatch: Option<[usize; 3]>,
+
+    /// Longest run of consecutive matches of two words over all slides, from A to B
+    #[arg(long, value_name = "A:B", value_parser = whole_range)]
+    consecutive: Option<[usize; 2]>,
+
+    /// Least depth of a bond (J)
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    min_bond: Option<f64>,
+
+    /// Range of the lowest energy (J) of two words over all slides
+    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
+    word_word: Option<[f64; 2]>,
+
+    /// Range of the lowest energy (J) of a word and another's mate
+    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
+    word_mate: Option<[f64; 2]>,
+
+    /// Range of the lowest energy (J) of two mates
+    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
+    mate_mate: Option<[f64; 2]>,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
+    model: Option<MagnetModel>,
+
+    /// Work to spend, as what takes about so many seconds of a core; it is counted, so that the
+    /// same work gives the same words everywhere
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = input::positive)]
+    seconds: f64,
+
+    /// Folder for report.html, report.json, words.csv, crosstalk.csv and words.toml
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    work: WorkOptions,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+impl Words {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        let (places, magnets) = self.places()?;
+        let (bar, design) = self.bar()?;
+        if let Some(folder) = &self.out {
+            input::check_folder(folder)?;
+        }
+        self.work.use_threads()?;
+        let energies = Lags::new(&bar, places);
+        let rules = Rules {
+            faces: self.faces,
+            shape: self.shape,
+            flip: self.flip,
+        };
+        let (question, lags) = match (self.contacts, self.gap, self.count) {
+            (Some(most), _, _) => {
+                let gap = 1.0 - (most as f64 + 0.5) / magnets as f64;
+                (Question::Gap(gap.max(0.0)), Lags::contacts(places))
+            }
+            (_, Some(gap), _) => (Question::Gap(gap), energies.clone()),
+            (_, _, Some(count)) => (Question::Count(count), energies.clone()),
+            _ => (Question::Frontier, energies.clone()),
+        };
+        let task = Task {
+            places,
+            magnets,
+            lags,
+            rules,
+            constraints: self.constraints(&bar, places, magnets)?,
+        };
+        let mut effort = Effort {
+            seed: self.work.seed,
+            budget: Budget::seconds(self.seconds, Budget::deadline(3.0 * self.seconds)),
+        };
+        let answer = answer(&task, question, &energies, &mut effort);
+        let request = Request {
+            design,
+            bar,
+            task,
+            question,
+            contacts: self.contacts,
+            seed: self.work.seed,
+            seconds: self.seconds,
+            energies,
+        };
+        if answer.late {
+            tell("note: the clock ended the search; the same command may find other words");
+        }
+        let json = report::json(&request, &answer);
+        if let Some(folder) = &self.out {
+            let files = report::files(&request, &answer);
+            let kept = interrupt::without(|| writer::write(folder, &files))?;
+            for path in kept {
+                tell(format!("note: kept what was there as {}", path.display()));
+            }
+        }
+        self.print.results(&json, || {
+            let mut text = report::summary(&request, &answer);
+            if let Some(folder) = &self.out {
+                text += &format!("results in {}: {}\n", folder.display(), report::FILES);
+            }
+            text
+        })
+    }
+
+    /// Places and magnets of a word.
+    fn places(&self) -> Result<(usize, usize), Failure> {
+        let wrong = |message: String| Err(Failure::Usage(message));
+        let (places, magnets) = match (self.slots, self.length) {
+            (Some(slots), length) => match (self.magnets, length) {
+                (Some(magnets), Some(length)) if length != magnets && length != slots => {
+                    return wrong(format!(
+                        "--length {length} is neither --magnets {magnets} nor --slots {slots}: \
+                         leave it out"
+                    ));
+                }
+                (Some(magnets), _) => (slots, magnets),
+                (None, Some(length)) => (slots, length),
+                (None, None) => {
+                    return wrong("say how many of the slots hold magnets: --magnets 4".to_owned());
+                }
+            },
+            (None, Some(length)) => (length, length),
+            (None, None) => return wrong("say how long words are: --length 8".to_owned()),
+        };
+        if places > MOST_PLACES {
+            return wrong(format!(
+                "a word of {places} places is too long: give at most {MOST_PLACES}"
+            ));
+        }
+        if magnets > places {
+            return wrong(format!(
+                "{magnets} magnets do not fit into {places} slots: give --slots {magnets} or more"
+            ));
+        }
+        if let Some(most) = self.contacts.filter(|most| *most >= magnets) {
+            return wrong(format!(
+                "--contacts {most} forbids nothing: words of {magnets} magnets have at most \
+                 {magnets}; give fewer"
+            ));
+        }
+        Ok((places, magnets))
+    }
+
+    /// The magnets, and the name of the design that they are of.
+    fn bar(&self) -> Result<(Bar, Option<String>), Failure> {
+        let Some(path) = &self.design else {
+            let paper = Bar::paper();
+            return Ok((
+                Bar {
+                    pitch: self.pitch.unwrap_or(paper.pitch),
+                    model: self.model.unwrap_or(paper.model),
+                    ..paper
+                },
+                None,
+            ));
+        };
+        let design = input::load_as(path, self.model)?;
+        let usage = |message: String| Failure::Usage(format!("{}: {message}", path.display()));
+        let pitch = self.pitch.or(design.pitch).ok_or_else(|| {
+            usage("it gives no pitch; say it: --pitch 0.04".to_owned())
+        })?;
+        let pair = &design.pair;
+        let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch)
+            .map_err(|error| {
+                usage(format!(
+                    "{error}; words need equal magnets behind a flat face, as in \
+                     shapes/paper-tile.toml"
+                ))
+            })?;
+        Ok((bar, Some(design.name)))
+    }
+
+    fn constraints(
+        &self,
+        bar: &Bar,
+        places: usize,
+        magnets: usize,
+    ) -> Result<Constraints, Failure> {
+        let width = bar.size[1];
+        let least_spacing = (width / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
+        if (magnets - 1) * least_spacing >= places {
+            return Err(Failure::Usage(format!(
+                "magnets {} mm wide do not fit side by side {} mm apart: give --pitch {width} or \
+                 more, or more --slots",
+                1e3 * width,
+                1e3 * bar.pitch
+            )));
+        }
+        let [mismatches, complement_mismatches, slide_mismatches] =
+            self.min_mismatch.unwrap_or_default();
+        let range = |range: Option<[f64; 2]>| range.map(|[low, high]| low..=high);
+        Ok(Constraints {
+            balanced: self.balanced,
+            longest_run: self.max_run,
+            least_spacing,
+            mismatches,
+            complement_mismatches,
+            slide_mismatches,
+            consecutive: self.consecutive.map(|[low, high]| low..=high),
+            least_bond: self.min_bond,
+            ranges: [self.word_word, self.word_mate, self.mate_mate].map(range),
+        })
+    }
+}
+
+/// A gap.
+fn gap(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|gap: &f64| (0.0..=1.0).contains(gap))
+        .ok_or_else(|| "a gap lies between 0 (wrong as strong as right) and 1".to_owned())
+}
+
+fn faces() -> Word<Faces> {
+    let names = [("all", Faces::All), ("mates", Faces::Mates)];
+    Word::new(&names, "faces are all or mates".to_owned())
+}
+
+fn shape() -> Word<Shape> {
+    let names = [
+        ("none", Shape::None),
+        ("shared", Shape::Shared),
+        ("polar", Shape::Polar),
+    ];
+    Word::new(&names, "a shape is none, shared or polar".to_owned())
+}
+
+fn mismatches(text: &str) -> Result<[usize; 3], String> {
+    let parts: Option<Vec<usize>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    parts
+        .and_then(|parts| parts.try_into().ok())
+        .ok_or_else(|| "three whole numbers are needed, such as 2,2,0".to_owned())
+}
+
+fn whole_range(text: &str) -> Result<[usize; 2], String> {
+    let wrong = || "a range is A:B in whole numbers, such as 0:3".to_owned();
+    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
+    let [low, high] = [low, high].map(|part| part.trim().parse().ok());
+    let range = low.zip(high).filter(|(low, high)| low <= high);
+    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
+}
+
+fn range(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || "a range is E:E in J, from the lower to the higher, such as -0.02:0".to_owned();
+    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
+    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| !x.is_nan());
+    let range = number(low).zip(number(high)).filter(|(low, high)| low <= high);
+    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
+}

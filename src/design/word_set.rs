@@ -1,0 +1,238 @@
+//! Files of words: `words.toml`, and sets from elsewhere.
+//!
+//! ```toml
+//! words = ["NNSN", "NSSN"]       # without their mates
+//! [magnet]                       # as in a design; what is not given is the paper's
+//! pitch = 0.040
+//! [tile]
+//! side = 0.43                    # of the square tiles; as long as a word if it is not given
+//! [potential]
+//! model = "cuboid"
+//! [faces]                        # in place of `words`: names with codes; mates (A*) are left out
+//! A = { code = "NNSN" }
+//! ```
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use super::{Design, DesignError, MagnetModel, Place, file};
+use crate::tile::{Magnet, Tile};
+use crate::words::Word;
+
+/// A set of words and what carries them.
+#[derive(Clone, Debug)]
+pub struct WordSet {
+    /// The words, in the order of the file, of one length.
+    pub words: Vec<Word>,
+    /// Two square tiles whose target faces, east and west, carry a north pole in every place, and
+    /// nothing elsewhere.
+    pub stage: Design,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entries {
+    #[allow(dead_code)]
+    name: Option<String>,
+    #[allow(dead_code)]
+    description: Option<String>,
+    words: Option<Vec<String>>,
+    #[serde(default)]
+    magnet: MagnetEntry,
+    #[serde(default)]
+    tile: TileEntry,
+    #[serde(default)]
+    potential: PotentialEntry,
+    #[serde(default)]
+    faces: BTreeMap<String, FaceEntry>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MagnetEntry {
+    size: Option<[f64; 3]>,
+    remanence: Option<f64>,
+    moment: Option<f64>,
+    surface_field: Option<f64>,
+    pitch: Option<f64>,
+    inset: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TileEntry {
+    side: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PotentialEntry {
+    model: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FaceEntry {
+    code: String,
+}
+
+/// Most words of a set.
+const MOST_WORDS: usize = 500;
+
+impl WordSet {
+    /// Reads a set; magnets as `model` says, if it says so.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or is no set of words.
+    pub fn load(path: &Path, model: Option<MagnetModel>) -> Result<Self, DesignError> {
+        let name = path.display().to_string();
+        let error = |message: String, help: &str| DesignError {
+            file: name.clone(),
+            place: None,
+            message,
+            help: help.to_owned(),
+        };
+        let text = file::read_text(path).map_err(|found| {
+            error(
+                format!("cannot read the set of words: {found}"),
+                "check the path; `tilebind words --out DIR` writes one",
+            )
+        })?;
+        Self::parse(&text, &name, model)
+    }
+
+    /// Reads a set from the text of its file.
+    ///
+    /// # Errors
+    /// Where it is no set of words.
+    pub fn parse(text: &str, name: &str, model: Option<MagnetModel>) -> Result<Self, DesignError> {
+        let error = |at: Option<Range<usize>>, message: String, help: &str| DesignError {
+            file: name.to_owned(),
+            place: at.map(|span| Place::new(text, span.into()).into()),
+            message,
+            help: help.to_owned(),
+        };
+        let entries: Entries = toml::from_str(text).map_err(|found| {
+            let help = "write words = [\"NNSN\", ...], with [magnet] and [tile] below";
+            error(found.span(), found.message().trim().to_owned(), help)
+        })?;
+        let place_of = |code: &str| {
+            let at = text.find(&format!("\"{code}\""))?;
+            Some(at + 1..at + 1 + code.len())
+        };
+        let codes = match &entries.words {
+            Some(words) => words.clone(),
+            None => {
+                let named = entries.faces.iter().filter(|(name, _)| !name.ends_with('*'));
+                named.map(|(_, face)| face.code.clone()).collect()
+            }
+        };
+        let mut words: Vec<Word> = Vec::new();
+        for code in &codes {
+            let word = Word::parse(code).map_err(|found| {
+                error(place_of(code), format!("`{code}`: {found}"), "write it of N, S and .")
+            })?;
+            let first = words.first().copied().unwrap_or(word);
+            if first.places() != word.places() {
+                let message = format!(
+                    "`{code}` has {} places and `{first}` {}",
+                    word.places(),
+                    first.places()
+                );
+                let help = "words of a set are of one length; fill up with . (no magnet)";
+                return Err(error(place_of(code), message, help));
+            }
+            if word.magnets() == 0 {
+                let message = format!("`{code}` has no magnets");
+                return Err(error(place_of(code), message, "write it of N, S and ."));
+            }
+            if words.contains(&word) {
+                let message = format!("`{code}` is there twice");
+                return Err(error(place_of(code), message, "take one away"));
+            }
+            words.push(word);
+        }
+        let Some(first) = words.first() else {
+            let help = "list them: words = [\"NNSN\", \"NSSN\"]";
+            return Err(error(None, "it holds no words".to_owned(), help));
+        };
+        if words.len() > MOST_WORDS {
+            let message = format!("it holds {} words, more than {MOST_WORDS}", words.len());
+            return Err(error(None, message, "split the set"));
+        }
+        let design = stage(&entries, first.places(), model);
+        // What is wrong with magnets or tile is told of the design made of them.
+        let mut stage = Design::parse(&design, name).map_err(|found| DesignError {
+            place: None,
+            ..found
+        })?;
+        let pitch = stage.pitch.unwrap_or_default();
+        let (fixed, moving) = stage.pair.target;
+        let pair = Arc::make_mut(&mut stage.pair);
+        fill(&mut pair.fixed, fixed, first.places(), pitch);
+        fill(&mut pair.moving, moving, first.places(), pitch);
+        Ok(Self { words, stage })
+    }
+}
+
+/// Puts a magnet like the one of a face's first place into every place, `pitch` (m) apart: slots may
+/// be narrower than magnets.
+fn fill(tile: &mut Tile, face: usize, places: usize, pitch: f64) {
+    let Some(first) = tile.magnets.first().cloned() else {
+        return;
+    };
+    let along = tile.faces[face].tangent() * pitch;
+    let magnet = |k: usize| Magnet {
+        position: first.position + along * k as f64,
+        ..first.clone()
+    };
+    tile.magnets = (0..places).map(magnet).collect();
+}
+
+/// The design of two tiles with a magnet in the first of so many places of their target faces.
+fn stage(entries: &Entries, places: usize, model: Option<MagnetModel>) -> String {
+    let magnet = &entries.magnet;
+    let pitch = magnet.pitch.unwrap_or(0.040);
+    let size = magnet.size.unwrap_or([0.010, 0.010, 0.003]);
+    let side = entries.tile.side.unwrap_or(pitch * places as f64);
+    let strength = match (magnet.remanence, magnet.moment, magnet.surface_field) {
+        (None, None, None) => "remanence = 1.2".to_owned(),
+        (remanence, moment, surface) => {
+            let keys = [("remanence", remanence), ("moment", moment), ("surface_field", surface)];
+            let lines = keys.iter().filter_map(|(key, value)| Some(format!("{key} = {:?}", (*value)?)));
+            lines.collect::<Vec<_>>().join("\n")
+        }
+    };
+    let model = match (model, &entries.potential.model) {
+        (Some(model), _) => model.name().to_owned(),
+        (None, Some(model)) => model.replace(['"', '\\', '\n'], " "),
+        (None, None) => MagnetModel::default().name().to_owned(),
+    };
+    let code = format!("N{}", ".".repeat(places - 1));
+    let table = 8.0 * side.abs();
+    let mut text = format!(
+        "name = \"words\"\n[table]\nsize = [{table:?}, {table:?}]\n[magnet]\nsize = [{:?}, {:?}, \
+         {:?}]\n{strength}\npitch = {pitch:?}\ninset = {:?}\n",
+        size[0],
+        size[1],
+        size[2],
+        magnet.inset.unwrap_or(0.0)
+    );
+    for (tile, face) in [("fixed", "east"), ("moving", "west")] {
+        let _ = write!(
+            text,
+            "[{tile}]\nside = {side:?}\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n{face} = {{ \
+             code = \"{code}\" }}\n"
+        );
+    }
+    let _ = write!(
+        text,
+        "[target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"{model}\"\n"
+    );
+    text
+}

@@ -1,0 +1,147 @@
+//! What is asked about words, and answered in one go.
+
+use super::frontier::{self, Point};
+use super::search::{self, Effort, Found};
+use super::{Judgement, Lags, Task, Word};
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Question {
+    /// As many words as have this gap together.
+    Gap(f64),
+    /// The widest gap of so many words.
+    Count(usize),
+    /// Both, one against the other.
+    Frontier,
+}
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The words, ascending, without their mates. Of a frontier: of its point nearest to half a
+    /// gap.
+    pub words: Vec<Word>,
+    /// How many there can be at most.
+    pub upper: usize,
+    /// Whether there are no more, or the gap cannot be wider.
+    pub proved: bool,
+    /// What they are worth, by energies; `None` of no words.
+    pub judgement: Option<Judgement>,
+    /// Where a number of words was asked for: no so many have a wider gap than this.
+    pub gap_upper: Option<f64>,
+    /// Where a frontier was asked for: its points, from the widest gap on.
+    pub frontier: Vec<(Point, Option<Judgement>)>,
+    /// Where contacts leave the gap asked for undecided: how many words there are just beyond the
+    /// tie.
+    pub beyond: Option<(Point, Option<Judgement>)>,
+    /// How many words there were to choose from, and whether they were all.
+    pub candidates: usize,
+    /// See there.
+    pub complete: bool,
+    /// Whether the clock ended the search, so that another run may end elsewhere.
+    pub late: bool,
+}
+
+/// Words on one page of a frontier at most: it ends where there are more.
+const MOST_OF_FRONTIER: usize = 1000;
+/// The gap whose words are told of a whole frontier.
+const MIDDLE: f64 = 0.5;
+/// Share of the work kept back for the words beyond a tie.
+const FOR_BEYOND: f64 = 0.1;
+/// Larger sets are not searched beyond a tie.
+const MOST_BEYOND: f64 = 5000.0;
+
+/// Answers a question. Words are searched by the energies of `task`; what they are worth is told in
+/// `energies`, which are others where contacts are only counted.
+pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Effort) -> Answer {
+    let judged = |words: &[Word]| Judgement::of(words, energies, &task.rules);
+    match question {
+        Question::Gap(gap) => {
+            let mut part = Effort {
+                seed: effort.seed,
+                budget: effort.budget.share(1.0 - FOR_BEYOND),
+            };
+            let found = search::largest(task, gap, usize::MAX, &mut part);
+            effort.budget.give_back(&part.budget);
+            let beyond = beyond(task, gap, effort).map(|point| {
+                let judgement = judged(&point.found.words);
+                (point, judgement)
+            });
+            Answer {
+                judgement: judged(&found.words),
+                beyond,
+                ..of(found, effort)
+            }
+        }
+        Question::Count(count) => {
+            let widest = frontier::widest(task, count, effort);
+            let found = widest.found;
+            let upper = match widest.proved {
+                true => widest.words.len(),
+                false => found.upper.max(count),
+            };
+            Answer {
+                judgement: judged(&widest.words),
+                words: widest.words,
+                upper,
+                proved: widest.proved,
+                gap_upper: Some(widest.upper),
+                ..of(Found { words: Vec::new(), ..found }, effort)
+            }
+        }
+        Question::Frontier => {
+            let points = frontier::frontier(task, MOST_OF_FRONTIER, effort);
+            let points: Vec<(Point, Option<Judgement>)> = points
+                .into_iter()
+                .map(|point| {
+                    let judgement = judged(&point.found.words);
+                    (point, judgement)
+                })
+                .collect();
+            let distance = |point: &Point| (point.asked - MIDDLE).abs();
+            let middle = points
+                .iter()
+                .min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)))
+                .cloned();
+            let Some((point, judgement)) = middle else {
+                return of(search::largest(task, MIDDLE, usize::MAX, effort), effort);
+            };
+            Answer {
+                judgement,
+                frontier: points,
+                ..of(point.found, effort)
+            }
+        }
+    }
+}
+
+fn of(found: Found, effort: &Effort) -> Answer {
+    Answer {
+        upper: found.upper,
+        proved: found.is_proved(),
+        judgement: None,
+        gap_upper: None,
+        frontier: Vec::new(),
+        beyond: None,
+        candidates: found.candidates,
+        complete: found.complete,
+        late: effort.budget.is_late(),
+        words: found.words,
+    }
+}
+
+/// The words of a gap half a contact narrower, where contacts make a tie of the gap asked for that
+/// only neighbours' lags decide.
+fn beyond(task: &Task, gap: f64, effort: &mut Effort) -> Option<Point> {
+    let magnets = task.magnets as f64;
+    let contacts = (1.0 - gap) * magnets;
+    let rest = task.lags.rest(task.magnets as u32) / task.lags.contact();
+    let tied = (contacts - contacts.round()).abs() < 1e-6 && rest > 0.0 && rest < 0.5;
+    let few = super::candidates::number(task.places, task.magnets) <= MOST_BEYOND;
+    if !tied || !few || contacts.round() >= magnets {
+        return None;
+    }
+    let asked = 1.0 - (contacts.round() + 0.5) / magnets;
+    let found = search::largest(task, asked, usize::MAX, effort);
+    Some(Point { asked, found })
+}

@@ -1,0 +1,119 @@
+//! The words that may be in a set at all: each sound by itself, one of a word and its mate where
+//! the two are interchangeable.
+
+use rand::seq::index::sample;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::Task;
+use super::word::Word;
+
+/// Up to so many words are looked at one and all; of more a sample of this size is drawn.
+const MOST_ENUMERATED: f64 = (1u64 << 23) as f64;
+const SAMPLE: usize = 1 << 19;
+/// Words of a sample share a random stream.
+const CHUNK: usize = 1 << 12;
+
+/// Words to choose from.
+#[derive(Clone, Debug)]
+pub struct Candidates {
+    /// In order.
+    pub words: Vec<Word>,
+    /// Whether these are all there are.
+    pub complete: bool,
+}
+
+impl Candidates {
+    /// The words that satisfy a task's constraints and attract nothing wrong of their own by more
+    /// than `limit` (J).
+    pub fn new(task: &Task, limit: f64, seed: u64) -> Self {
+        let complete = number(task.places, task.magnets) <= MOST_ENUMERATED;
+        let sound = |word: &Word| {
+            let (lags, rules) = (&task.lags, &task.rules);
+            (!task.exchangeable() || *word <= word.mate())
+                && task.constraints.allow(lags, rules, *word)
+                && rules.within(lags, *word, *word, limit)
+        };
+        let mut words: Vec<Word> = match (complete, task.magnets) {
+            (true, magnets) if magnets == task.places => (0..1u64 << task.places)
+                .into_par_iter()
+                .map(|set| Word::new(set, !set, task.places))
+                .filter(sound)
+                .collect(),
+            (true, _) => places_of(task.places, task.magnets)
+                .into_par_iter()
+                .flat_map_iter(|places| with_poles(places, task.places))
+                .filter(sound)
+                .collect(),
+            (false, _) => (0..SAMPLE / CHUNK)
+                .into_par_iter()
+                .flat_map_iter(|chunk| drawn(task, seed, chunk))
+                .map(|word| match task.exchangeable() {
+                    true => word.min(word.mate()),
+                    false => word,
+                })
+                .filter(sound)
+                .collect(),
+        };
+        words.par_sort_unstable();
+        words.dedup();
+        Self { words, complete }
+    }
+}
+
+/// How many words there are of so many places and magnets.
+pub fn number(places: usize, magnets: usize) -> f64 {
+    let choose = (0..magnets).map(|k| (places - k) as f64 / (k + 1) as f64);
+    choose.map(|factor| 2.0 * factor).product()
+}
+
+/// All sets of so many places, ascending (Gosper's hack).
+fn places_of(places: usize, magnets: usize) -> Vec<u64> {
+    let mut all = Vec::new();
+    let mut set: u128 = (1 << magnets) - 1;
+    while set < 1 << places {
+        all.push(set as u64);
+        let (low, ripple) = (set & set.wrapping_neg(), set + (set & set.wrapping_neg()));
+        set = (((ripple ^ set) >> 2) / low) | ripple;
+    }
+    all
+}
+
+/// All words with magnets in these places.
+fn with_poles(set: u64, places: usize) -> impl Iterator<Item = Word> {
+    let mut north = Some(0u64);
+    std::iter::from_fn(move || {
+        let now = north?;
+        // The next subset.
+        let next = now.wrapping_sub(set) & set;
+        north = (next != 0).then_some(next);
+        Some(Word::new(now, set & !now, places))
+    })
+}
+
+/// Words at random.
+fn drawn(task: &Task, seed: u64, chunk: usize) -> impl Iterator<Item = Word> {
+    let (places, magnets) = (task.places, task.magnets);
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(chunk as u64);
+    (0..CHUNK).map(move |_| {
+        let chosen = sample(&mut rng, places, magnets).into_iter();
+        let set = chosen.fold(0u64, |set, k| set | 1 << k);
+        let north = rng.random::<u64>() & set;
+        Word::new(north, set & !north, places)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_of_places_are_all_there() {
+        assert_eq!(places_of(6, 3).len(), 20);
+        assert_eq!(number(28, 4), 327_600.0);
+        assert_eq!(with_poles(0b1011, 4).count(), 8);
+        assert_eq!(places_of(64, 1).len(), 64);
+    }
+}

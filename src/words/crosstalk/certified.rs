@@ -1,0 +1,247 @@
+//! What no energy of a couple falls below, over all poses whatever, by cells.
+//!
+//! A cell of configurations is looked at once for all couples: contact says what of it is free, and
+//! each pair of magnets has an enclosure. A couple's enclosure is their sum with its signs; bounded
+//! over the free part of the cell it either lies above what is to be proved, and the couple is done
+//! with there, or the cell is halved. What is to be proved of a couple is its sampled minimum less
+//! the tolerance.
+
+use std::collections::BinaryHeap;
+
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::{Couple, Stage};
+use crate::cell::{Cell, Quadratic};
+use crate::configuration::Configuration;
+use crate::contact::cells::{CellContact, ContactCells};
+use crate::landscape::certificate::lower::{Assessment, assess_open};
+use crate::potential::bounds::Enclosure;
+use crate::tile::Magnet;
+use crate::units::MU0_OVER_4PI;
+
+/// Lower bounds of couples.
+pub(super) struct Bounds {
+    /// J, by couple.
+    pub lower: Vec<f64>,
+    /// Whether all are within the tolerance.
+    pub settled: bool,
+    /// Cells looked at.
+    pub cells: usize,
+}
+
+/// Cells looked at at the same time; not by how many threads, so that these decide nothing.
+const BATCH: usize = 64;
+
+/// A cell and the couples that may have low energies in it.
+struct Open {
+    cell: Cell,
+    /// Numbers of couples, with the best bound (J) so far.
+    couples: Vec<(usize, f64)>,
+    /// The lowest of these bounds less what is to be proved (J): what lacks most goes first.
+    lack: OrderedFloat<f64>,
+    /// In the order of their making, so that ties are broken.
+    number: usize,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+impl Eq for Open {}
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        // The heap gives the greatest first.
+        (other.lack, other.number).cmp(&(self.lack, self.number))
+    }
+}
+
+impl Stage {
+    /// Bounds within `tolerance` (J) of what was found, as far as so many cells give them.
+    pub(super) fn certified(
+        &self,
+        couples: &[Couple],
+        found: &[(f64, Configuration)],
+        tolerance: f64,
+        most_cells: usize,
+    ) -> Bounds {
+        // Far apart no energy lies below zero by more than the tolerance.
+        let wanted: Vec<f64> = found.iter().map(|(energy, _)| energy.min(0.0) - tolerance).collect();
+        let contact = ContactCells::new(&self.contact);
+        let mut heap = BinaryHeap::new();
+        let mut made = 0;
+        let all: Vec<(usize, f64)> =
+            (0..couples.len()).map(|number| (number, f64::NEG_INFINITY)).collect();
+        for cell in self.first_cells(tolerance) {
+            heap.push(Open {
+                cell,
+                couples: all.clone(),
+                lack: OrderedFloat(f64::NEG_INFINITY),
+                number: made,
+            });
+            made += 1;
+        }
+        let mut cells = 0;
+        while cells < most_cells && !heap.is_empty() {
+            let batch: Vec<Open> = (0..BATCH).map_while(|_| heap.pop()).collect();
+            cells += batch.len();
+            let halves: Vec<Vec<Open>> = batch
+                .par_iter()
+                .map(|open| self.look_at(open, couples, &wanted, &contact))
+                .collect();
+            for mut open in halves.into_iter().flatten() {
+                open.number = made;
+                made += 1;
+                heap.push(open);
+            }
+        }
+        let settled = heap.is_empty();
+        let mut lower = wanted;
+        for open in heap {
+            for (couple, bound) in open.couples {
+                lower[couple] = lower[couple].min(bound);
+            }
+        }
+        Bounds {
+            lower,
+            settled,
+            cells,
+        }
+    }
+
+    /// Boxes that cover all configurations in which the tiles are near enough to matter: outside
+    /// them all magnets of the one are `far` from all of the other, where two of them attract by
+    /// `2 mu0 m1 m2 / (4 pi far^3)` at most, and blocks of a size far below that by not twice as
+    /// much; together by less than the tolerance.
+    fn first_cells(&self, tolerance: f64) -> Vec<Cell> {
+        const ACROSS: i32 = 8;
+        const TURNS: i32 = 16;
+        let moments = |magnets: &[Magnet]| magnets.iter().map(|magnet| magnet.moment).sum::<f64>();
+        let product = moments(&self.pair.fixed.magnets) * moments(&self.pair.moving.magnets);
+        let size = self.pair.fixed.magnets.iter().flat_map(|magnet| magnet.size);
+        let far = (4.0 * MU0_OVER_4PI * product / tolerance).cbrt();
+        let far = far.max(10.0 * size.fold(0.0, f64::max));
+        let half = self.pair.free_distance() + far;
+        let (width, turn) = (2.0 * half / f64::from(ACROSS), std::f64::consts::TAU / f64::from(TURNS));
+        let middle = |k: i32, step: f64, count: i32| step * (f64::from(k) + 0.5 - f64::from(count) / 2.0);
+        let mut cells = Vec::new();
+        for i in 0..ACROSS {
+            for j in 0..ACROSS {
+                for k in 0..TURNS {
+                    cells.push(Cell {
+                        centre: Configuration::new(
+                            middle(i, width, ACROSS),
+                            middle(j, width, ACROSS),
+                            middle(k, turn, TURNS),
+                        ),
+                        // Neighbours overlap by more than rounding.
+                        half: [width, width, turn].map(|size| size / 2.0 * (1.0 + 1e-12)),
+                    });
+                }
+            }
+        }
+        cells
+    }
+
+    /// The halves of a cell, with the couples that are not done with there.
+    fn look_at(
+        &self,
+        open: &Open,
+        couples: &[Couple],
+        wanted: &[f64],
+        contact: &ContactCells,
+    ) -> Vec<Open> {
+        let cell = &open.cell;
+        let lever = self.pair.moving.radius_of_gyration();
+        let verdict = contact.classify(cell);
+        if verdict == CellContact::Blocked {
+            return Vec::new();
+        }
+        let by_magnets: Vec<Enclosure> = self
+            .magnets
+            .iter()
+            .map(|energy| match &energy.bounds {
+                Ok(bounds) => bounds.enclose(cell),
+                Err(_) => Enclosure::unknown(),
+            })
+            .collect();
+        let mut left = Vec::new();
+        let mut worst: Option<(f64, Assessment)> = None;
+        for (number, before) in &open.couples {
+            let known = self.sum(&by_magnets, &couples[*number]);
+            // The cheap bound over the whole cell first.
+            let box_bound = known.form.least(&cell.half) + known.low;
+            if box_bound >= wanted[*number] {
+                continue;
+            }
+            let Some(found) = assess_open(&known, &verdict, lever, cell) else {
+                return Vec::new();
+            };
+            let bound = found.lower.max(*before);
+            if bound >= wanted[*number] {
+                continue;
+            }
+            left.push((*number, bound));
+            let lack = bound - wanted[*number];
+            if worst.is_none_or(|(least, _)| lack < least) {
+                worst = Some((lack, found));
+            }
+        }
+        let Some((lack, found)) = worst else {
+            return Vec::new();
+        };
+        let mut half = cell.half;
+        half[found.axis] /= 2.0;
+        let shift = half[found.axis];
+        [-shift, shift]
+            .map(|shift| {
+                let mut centre = cell.centre.to_array();
+                centre[found.axis] += shift;
+                let mut half = half;
+                half[found.axis] *= 1.0 + 1e-12;
+                Open {
+                    cell: Cell {
+                        centre: centre.into(),
+                        half,
+                    },
+                    couples: left.clone(),
+                    lack: OrderedFloat(lack),
+                    number: 0,
+                }
+            })
+            .into()
+    }
+
+    /// The enclosure of a couple.
+    fn sum(&self, by_magnets: &[Enclosure], couple: &Couple) -> Enclosure {
+        let mut out = Enclosure::default();
+        for (number, one) in by_magnets.iter().enumerate() {
+            let sign = couple.sign(number / self.places, number % self.places);
+            if sign == 0.0 {
+                continue;
+            }
+            out.form = out.form.minus(-sign, &one.form);
+            let [low, high] = if sign > 0.0 { [one.low, one.high] } else { [-one.high, -one.low] };
+            out.low += low;
+            out.high += high;
+        }
+        // What the sums lose to rounding, generously.
+        let size = by_magnets.iter().map(|one| magnitude(&one.form)).sum::<f64>();
+        out.low -= SUMMED * size;
+        out.high += SUMMED * size;
+        out
+    }
+}
+
+/// Relative rounding of a sum of up to a few thousand terms.
+const SUMMED: f64 = 1e-12;
+
+fn magnitude(form: &Quadratic) -> f64 {
+    form.value.abs()
+}

@@ -1,0 +1,198 @@
+//! How strongly every two faces of a set attract, over all poses: tilted, slid, drawn back.
+//!
+//! One tile carries the first word on its target face, the other the second on its own; their other
+//! faces are empty. The energy is bilinear in the two words, so that what is known of every two
+//! magnets in a pose, or in a cell of poses, is known of every two words: [`sampled`] finds the
+//! strongest attraction of all pairs from one grid of poses, [`certified`] bounds it from one
+//! subdivision.
+//!
+//! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So of
+//! two words and their mates two pairs are worked out, and the others follow.
+
+mod certified;
+mod sampled;
+
+use nalgebra::Vector2;
+use rayon::prelude::*;
+
+use super::Word;
+use crate::configuration::{Configuration, wrap_angle};
+use crate::contact::Contact;
+use crate::potential::{Energy, Interaction};
+use crate::problem::Problem;
+use crate::tile::{Magnet, Pair, Tile};
+
+/// Two tiles whose target faces carry a magnet in every place, north poles out, in the order of the
+/// places. The target faces must be each other's mirror images, as a square's east and west are.
+pub struct Stage {
+    pair: Pair,
+    interaction: Interaction,
+    contact: Contact,
+    places: usize,
+    /// The energy of magnet k of the fixed tile and magnet j of the moving one, at k places + j.
+    magnets: Vec<Energy>,
+}
+
+/// What is known of every two faces: rows and columns are words, then their mates.
+#[derive(Clone, Debug)]
+pub struct Crosstalk {
+    /// The words, without their mates.
+    pub words: Vec<Word>,
+    /// Lowest energy (J) found.
+    pub strongest: Vec<Vec<f64>>,
+    /// Where: of the tile with the second word, in the frame of that with the first.
+    pub poses: Vec<Vec<Configuration>>,
+    /// What no energy falls below (J).
+    pub lower: Option<Vec<Vec<f64>>>,
+    /// Whether all lower bounds are as close as asked for.
+    pub settled: bool,
+    /// Cells looked at for them.
+    pub cells: usize,
+}
+
+/// Two words as two tiles carry them.
+#[derive(Clone, Copy, Debug)]
+struct Couple {
+    first: Word,
+    second: Word,
+}
+
+impl Couple {
+    /// What the energy of magnets k and j, both with their north poles out, counts.
+    fn sign(&self, k: usize, j: usize) -> f64 {
+        f64::from(self.first.at(k) * self.second.at(j))
+    }
+}
+
+impl Stage {
+    /// For tiles with as many magnets on their target faces as words have places, and none
+    /// elsewhere.
+    pub fn new(pair: Pair, interaction: Interaction) -> Self {
+        let places = pair.fixed.magnets.len();
+        let alone = |tile: &Tile, magnet: &Magnet| Tile {
+            magnets: vec![magnet.clone()],
+            ..tile.clone()
+        };
+        let mut magnets = Vec::new();
+        for first in &pair.fixed.magnets {
+            let fixed = alone(&pair.fixed, first);
+            for second in &pair.moving.magnets {
+                magnets.push(interaction.between(&fixed, &alone(&pair.moving, second)));
+            }
+        }
+        Self {
+            contact: Contact::new(&pair.fixed.outline, &pair.moving.outline),
+            places,
+            magnets,
+            interaction,
+            pair,
+        }
+    }
+
+    /// The depth (J) of a magnet's contact with the one it faces.
+    pub fn contact_energy(&self) -> f64 {
+        let last = self.places - 1;
+        let facing = self.magnets.get(last);
+        facing.map_or(0.0, |energy| energy.potential.energy(&self.pair.bound).abs())
+    }
+
+    /// The crosstalk of words; bounds closer than `tolerance` (J) where it is given, from at most
+    /// so many `cells`.
+    pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {
+        let m = words.len();
+        let couples: Vec<Couple> = couples_of(m)
+            .map(|(i, j, mate)| Couple {
+                first: words[i],
+                second: if mate { words[j].mate() } else { words[j] },
+            })
+            .collect();
+        let found = self.sampled(&couples);
+        let bounds = certify.map(|(tolerance, cells)| {
+            self.certified(&couples, &found, tolerance, cells)
+        });
+        let mut crosstalk = Crosstalk {
+            words: words.to_vec(),
+            strongest: vec![vec![0.0; 2 * m]; 2 * m],
+            poses: vec![vec![Configuration::new(0.0, 0.0, 0.0); 2 * m]; 2 * m],
+            lower: bounds.as_ref().map(|_| vec![vec![0.0; 2 * m]; 2 * m]),
+            settled: bounds.as_ref().is_none_or(|bounds| bounds.settled),
+            cells: bounds.as_ref().map_or(0, |bounds| bounds.cells),
+        };
+        for (number, (i, j, mate)) in couples_of(m).enumerate() {
+            let (energy, pose) = found[number];
+            let second = if mate { m + j } else { j };
+            let other = |face: usize| if face < m { face + m } else { face - m };
+            let places = [
+                (i, second, pose),
+                (second, i, exchanged(&pose)),
+                (other(i), other(second), mirrored(&pose)),
+                (other(second), other(i), exchanged(&mirrored(&pose))),
+            ];
+            for (row, column, pose) in places {
+                crosstalk.strongest[row][column] = energy;
+                crosstalk.poses[row][column] = pose;
+                if let (Some(lower), Some(bounds)) = (&mut crosstalk.lower, &bounds) {
+                    lower[row][column] = bounds.lower[number];
+                }
+            }
+        }
+        crosstalk
+    }
+
+    /// The problem of two words.
+    fn problem(&self, couple: &Couple) -> Problem {
+        let mut pair = self.pair.clone();
+        for (tile, word) in [(&mut pair.fixed, couple.first), (&mut pair.moving, couple.second)] {
+            let magnets = tile.magnets.iter().enumerate();
+            tile.magnets = magnets
+                .filter(|(k, _)| word.at(*k) != 0)
+                .map(|(k, magnet)| Magnet {
+                    angle: match word.at(k) {
+                        1 => magnet.angle,
+                        _ => wrap_angle(magnet.angle + std::f64::consts::PI),
+                    },
+                    ..magnet.clone()
+                })
+                .collect();
+        }
+        let space = crate::ConfigurationSpace {
+            half_size: [2.0 * pair.free_distance(); 2],
+            rho: pair.moving.radius_of_gyration(),
+            free_distance: pair.free_distance(),
+        };
+        Problem::new(space, pair.into(), &self.interaction)
+    }
+}
+
+/// Words i <= j, as they are and with j's mate.
+fn couples_of(m: usize) -> impl Iterator<Item = (usize, usize, bool)> {
+    (0..m).flat_map(move |i| (i..m).flat_map(move |j| [(i, j, false), (i, j, true)]))
+}
+
+
+/// The same meeting as the other tile sees it, its target face to the east again: the inverse
+/// pose, turned by half a turn.
+fn exchanged(q: &Configuration) -> Configuration {
+    let p = q.rotation().inverse() * q.position();
+    Configuration::new(p.x, p.y, wrap_angle(-q.theta))
+}
+
+/// The same meeting in a mirror along the target face's normal.
+fn mirrored(q: &Configuration) -> Configuration {
+    Configuration::new(q.x, -q.y, wrap_angle(-q.theta))
+}
+
+/// Energies of all pairs of magnets in a pose (J).
+fn energies(magnets: &[Energy], q: &Configuration) -> Vec<f64> {
+    magnets.iter().map(|energy| energy.potential.energy(q)).collect()
+}
+
+/// Work in order on all threads.
+fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+    items.par_iter().map(work).collect()
+}
+
+/// The outward normal of the fixed tile's target face.
+fn normal(pair: &Pair) -> Vector2<f64> {
+    pair.target_face().normal()
+}

@@ -1,0 +1,144 @@
+//! The strongest attraction of all couples from one grid of poses, each polished.
+//!
+//! A pose is a tilt of the second tile about the middle of its face, a slide along the first face,
+//! and how far the tile is drawn back from contact. Of the grid every couple keeps its lowest pose
+//! in each of some ranges of the tilt; compass search brings these to their minima. A sample: what
+//! lies between the poses of the grid may be lower.
+
+use ordered_float::OrderedFloat;
+
+use super::{Couple, Stage, energies, in_parallel, normal};
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+use crate::tile::face_to_face;
+
+/// Slides within a place.
+const SLIDES_A_PLACE: f64 = 8.0;
+/// Distances drawn back from contact, in lengths of a magnet.
+const DRAWN_BACK: [f64; 2] = [0.0, 0.5];
+/// Tilts (rad): fine where faces are nearly flush, coarse beyond.
+const FINE: (f64, f64) = (0.01, 0.1);
+const COARSE: (f64, f64) = (0.05, 1.6);
+/// Poses of a couple that are polished.
+const POLISHED: usize = 4;
+/// Where compass search ends (m).
+const FINEST: f64 = 1e-6;
+
+/// Tilt (rad), slide (m), and how far drawn back (m).
+type Setting = [f64; 3];
+
+impl Stage {
+    /// The lowest energy (J) found of each couple, and its pose.
+    pub(super) fn sampled(&self, couples: &[Couple]) -> Vec<(f64, Configuration)> {
+        let tilts = tilts();
+        let best_by_tilt = in_parallel(&tilts, |tilt| self.best_at(*tilt, couples));
+        let numbers: Vec<usize> = (0..couples.len()).collect();
+        in_parallel(&numbers, |&number| {
+            let couple = &couples[number];
+            let mut starts: Vec<(f64, Setting)> =
+                best_by_tilt.iter().map(|best| best[number]).collect();
+            // The best of every few neighbouring tilts, so that one deep place is not all.
+            let mut chosen = Vec::new();
+            while chosen.len() < POLISHED && !starts.is_empty() {
+                let lowest = (0..starts.len()).min_by_key(|i| OrderedFloat(starts[*i].0));
+                let at = lowest.unwrap_or(0);
+                chosen.push(starts[at]);
+                let tilt = starts[at].1[0];
+                starts.retain(|(_, setting)| (setting[0] - tilt).abs() > 2.5 * FINE.0);
+            }
+            let problem = self.problem(couple);
+            chosen
+                .into_iter()
+                .filter_map(|(_, setting)| self.polished(&problem, setting))
+                .min_by_key(|(energy, _)| OrderedFloat(*energy))
+                .unwrap_or((0.0, self.pair.bound))
+        })
+    }
+
+    /// For each couple the lowest energy at a tilt, and where.
+    fn best_at(&self, tilt: f64, couples: &[Couple]) -> Vec<(f64, Setting)> {
+        let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
+        let signs: Vec<Vec<f64>> = couples.iter().map(|couple| self.signs(couple)).collect();
+        let face = self.pair.target_face().length();
+        let step = face / self.places as f64 / SLIDES_A_PLACE;
+        let count = (face / step).round() as i64;
+        for number in -count..=count {
+            for back in DRAWN_BACK {
+                let back = back * self.magnet_length();
+                let setting = [tilt, number as f64 * step, back];
+                let Some(q) = self.placed(setting) else {
+                    continue;
+                };
+                let by_magnets = energies(&self.magnets, &q);
+                for (signs, best) in signs.iter().zip(&mut best) {
+                    let terms = signs.iter().zip(&by_magnets);
+                    let energy: f64 = terms.map(|(sign, energy)| sign * energy).sum();
+                    if energy < best.0 {
+                        *best = (energy, setting);
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    fn signs(&self, couple: &Couple) -> Vec<f64> {
+        let n = self.places;
+        (0..n * n).map(|kj| couple.sign(kj / n, kj % n)).collect()
+    }
+
+    fn magnet_length(&self) -> f64 {
+        self.pair.fixed.magnets.first().map_or(0.0, |magnet| magnet.size[0])
+    }
+
+    /// The pose of a setting; `None` where the tile passes by.
+    fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
+        let pair = &self.pair;
+        let moving = &pair.moving.faces[pair.target.1];
+        let flush = face_to_face(pair.target_face(), moving, slide, tilt);
+        let normal = normal(pair);
+        let out = self.contact.landing(&flush, normal)? + back;
+        let at = flush.position() + normal * out;
+        Some(Configuration::new(at.x, at.y, flush.theta))
+    }
+
+    /// Compass search from a setting on.
+    fn polished(&self, problem: &Problem, start: Setting) -> Option<(f64, Configuration)> {
+        let value = |setting: Setting| {
+            let q = self.placed(setting)?;
+            Some((problem.energy(&q), q))
+        };
+        let lever = self.pair.target_face().length() / 2.0;
+        let mut here = start;
+        let mut best = value(here)?;
+        let mut step = lever / self.places as f64 / SLIDES_A_PLACE;
+        while step > FINEST {
+            let steps = [step / lever, step, step];
+            let moves = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)));
+            let tried = moves.filter_map(|(axis, sign)| {
+                let mut there = here;
+                there[axis] += sign * steps[axis];
+                there[2] = there[2].max(0.0);
+                value(there).map(|found| (found, there))
+            });
+            let lowest = tried.min_by_key(|((energy, _), _)| OrderedFloat(*energy));
+            match lowest {
+                Some((found, there)) if found.0 < best.0 => (best, here) = (found, there),
+                _ => step /= 2.0,
+            }
+        }
+        Some(best)
+    }
+}
+
+/// Tilts from the fine to the coarse, either way.
+fn tilts() -> Vec<f64> {
+    let steps = |(step, end): (f64, f64)| {
+        let count = (end / step).round() as i32;
+        (1..=count).map(move |k| f64::from(k) * step)
+    };
+    let coarse = steps(COARSE).filter(|tilt| *tilt > FINE.1);
+    let one_way: Vec<f64> = steps(FINE).chain(coarse).collect();
+    let other = one_way.iter().map(|tilt| -tilt);
+    std::iter::once(0.0).chain(one_way.iter().copied()).chain(other).collect()
+}

@@ -1,0 +1,141 @@
+//! Gap against number: the widest gap of so many words, and the number of words at every gap.
+
+use super::Task;
+use super::search::{self, Effort, Found};
+use super::word::Word;
+
+/// The widest gap of so many words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Widest {
+    /// The words, ascending; none where none so many have a gap above zero.
+    pub words: Vec<Word>,
+    /// Their gap; 0 of none.
+    pub gap: f64,
+    /// No set of so many words has a wider gap than this.
+    pub upper: f64,
+    /// Whether both are the same.
+    pub proved: bool,
+    /// What was found of sets with this gap.
+    pub found: Found,
+}
+
+/// Gaps within this are told apart by searching at the better one.
+const BISECTED: f64 = 1e-3;
+/// Gaps closer to each other than this are the same.
+const SAME_GAP: f64 = 1e-9;
+/// Share of the work left for one question.
+const FOR_A_STEP: f64 = 0.25;
+
+/// The widest gap that `count` words can have: halving, then from the best set to the next better
+/// one until there is none.
+pub fn widest(task: &Task, count: usize, effort: &mut Effort) -> Widest {
+    let mut best = ask(task, 0.0, count, effort);
+    let mut widest = Widest {
+        words: Vec::new(),
+        gap: 0.0,
+        upper: 1.0,
+        proved: false,
+        found: best.clone(),
+    };
+    if best.words.len() < count {
+        widest.proved = best.upper < count;
+        widest.upper = if widest.proved { 0.0 } else { 1.0 };
+        return widest;
+    }
+    let (mut low, mut high, mut proved_high) = (0.0, 1.0, 1.0f64);
+    loop {
+        best.words = chosen(task, &best.words, count);
+        low = task.judge(&best.words).map_or(low, |set| set.gap.max(low));
+        if low >= 1.0 {
+            proved_high = 1.0;
+            break;
+        }
+        let next = loop {
+            let gap = match high - low > BISECTED {
+                true => (low + high) / 2.0,
+                false => low + SAME_GAP,
+            };
+            let found = ask(task, gap, count, effort);
+            if found.words.len() >= count {
+                break Some(found);
+            }
+            high = gap;
+            if found.upper < count {
+                proved_high = proved_high.min(gap);
+            }
+            if gap <= low + SAME_GAP {
+                break None;
+            }
+        };
+        match next {
+            Some(found) => best = found,
+            None => break,
+        }
+    }
+    Widest {
+        words: best.words.clone(),
+        gap: low,
+        proved: proved_high <= low + SAME_GAP || low >= 1.0,
+        upper: if proved_high <= low + SAME_GAP { low } else { proved_high },
+        found: best,
+    }
+}
+
+fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> Found {
+    let mut part = Effort {
+        seed: effort.seed,
+        budget: effort.budget.share(FOR_A_STEP),
+    };
+    let found = search::largest(task, gap, count, &mut part);
+    effort.budget.give_back(&part.budget);
+    found
+}
+
+/// So many of the words, those taken away whose loss widens the gap most.
+fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
+    let mut words = words.to_vec();
+    while words.len() > count {
+        let worst = task.judge(&words).and_then(|set| set.worst);
+        let in_worst = |word: &Word| {
+            worst.is_some_and(|it| {
+                [it.first, it.second, it.second.mate()].contains(word)
+            })
+        };
+        let gone = words.iter().position(in_worst).unwrap_or(words.len() - 1);
+        words.remove(gone);
+    }
+    words
+}
+
+/// A point of the frontier.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The gap asked for: half a contact from those that contacts decide.
+    pub asked: f64,
+    /// What was found.
+    pub found: Found,
+}
+
+/// The number of words for every number of net contacts t that wrong meetings may have, from the
+/// widest gap on: at gaps halfway between those of t and t + 1 contacts, so that neighbours' lags
+/// decide nothing. Ends where more than `most` words are found.
+pub fn frontier(task: &Task, most: usize, effort: &mut Effort) -> Vec<Point> {
+    let magnets = task.magnets;
+    let mut points = Vec::new();
+    for contacts in 0..magnets {
+        let asked = 1.0 - (contacts as f64 + 0.5) / magnets as f64;
+        let mut part = Effort {
+            seed: effort.seed,
+            budget: effort.budget.share(1.0 / (magnets - contacts) as f64),
+        };
+        let found = search::largest(task, asked, usize::MAX, &mut part);
+        effort.budget.give_back(&part.budget);
+        let enough = found.words.len() > most;
+        points.push(Point { asked, found });
+        if enough {
+            break;
+        }
+    }
+    points
+}
+

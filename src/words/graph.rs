@@ -1,0 +1,193 @@
+//! Which words go together: a graph with a word at each vertex.
+
+use std::borrow::Cow;
+
+use fixedbitset::FixedBitSet;
+use rayon::prelude::*;
+
+use super::Task;
+use super::word::Word;
+
+/// Up to so many vertices the whole graph is held.
+const MOST_HELD: usize = 20_000;
+
+/// The words of a task that may be in a set, and which of them may be in one together: two words
+/// and their mates with no wrong meeting that attracts by more than a limit.
+pub struct Graph<'a> {
+    task: &'a Task,
+    /// The word at each vertex.
+    pub words: Vec<Word>,
+    /// Strongest wrong attraction (J).
+    limit: f64,
+    /// Neighbours of each vertex; empty where they are worked out as they are needed.
+    rows: Vec<FixedBitSet>,
+}
+
+impl<'a> Graph<'a> {
+    /// Of words that are sound by themselves.
+    pub fn new(task: &'a Task, words: Vec<Word>, limit: f64) -> Self {
+        let mut graph = Self {
+            task,
+            words,
+            limit,
+            rows: Vec::new(),
+        };
+        if graph.len() <= MOST_HELD {
+            graph.rows = graph.all_rows();
+        }
+        graph
+    }
+
+    /// The graph of some of its words, ascending.
+    pub fn among(&self, words: Vec<Word>) -> Self {
+        Self::new(self.task, words, self.limit)
+    }
+
+    /// Number of vertices.
+    pub fn len(&self) -> usize {
+        self.words.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// Whether the whole graph is held.
+    pub fn is_held(&self) -> bool {
+        self.rows.len() == self.len()
+    }
+
+    /// Units of work that holding it took.
+    pub fn work(&self) -> u64 {
+        match self.is_held() {
+            true => self.judgement() * (self.len() * self.len()) as u64 / 2,
+            false => 0,
+        }
+    }
+
+    /// Units of work that finding out whether two words go together counts as.
+    pub fn judgement(&self) -> u64 {
+        let meetings = self.task.rules.meetings(self.task.places) as u64;
+        match self.task.magnets == self.task.places {
+            // Most pairs that conflict do so at once.
+            true => 8 + meetings / 4,
+            false => 8 + 2 * meetings,
+        }
+    }
+
+    /// The graph of pairs of vertices that a symmetry exchanges, of which both or none are taken:
+    /// half as large, for sets that have the symmetry. With it the vertices of each pair.
+    pub fn folded(&self, image: &[usize]) -> (Self, Vec<[usize; 2]>) {
+        let goes = |v: usize| image[v] == v || self.rows[v].contains(image[v]);
+        let firsts = (0..self.len()).filter(|v| image[image[*v]] == *v && *v <= image[*v]);
+        let pairs: Vec<[usize; 2]> = firsts.filter(|v| goes(*v)).map(|v| [v, image[v]]).collect();
+        let row = |pair: &[usize; 2]| {
+            let both = |other: &[usize; 2]| {
+                self.rows[pair[0]].contains(other[0]) && self.rows[pair[1]].contains(other[0])
+            };
+            let mut row = FixedBitSet::with_capacity(pairs.len());
+            row.extend((0..pairs.len()).filter(|k| both(&pairs[*k])));
+            row
+        };
+        let folded = Self {
+            task: self.task,
+            words: pairs.iter().map(|pair| self.words[pair[0]]).collect(),
+            limit: self.limit,
+            rows: pairs.par_iter().map(row).collect(),
+        };
+        (folded, pairs)
+    }
+
+    /// Whether two words go together.
+    fn joined(&self, a: usize, b: usize) -> bool {
+        a != b && self.task.compatible([self.words[a], self.words[b]], self.limit)
+    }
+
+    /// The words that go with one.
+    pub fn row(&self, vertex: usize) -> Cow<'_, FixedBitSet> {
+        match self.rows.get(vertex) {
+            Some(row) => Cow::Borrowed(row),
+            None => Cow::Owned(self.worked_out(vertex)),
+        }
+    }
+
+    /// Neighbours of a vertex where the whole graph is held.
+    pub fn neighbours(&self, vertex: usize) -> &FixedBitSet {
+        &self.rows[vertex]
+    }
+
+    fn worked_out(&self, vertex: usize) -> FixedBitSet {
+        let blocks: Vec<usize> = (0..self.len().div_ceil(BITS))
+            .into_par_iter()
+            .with_min_len(16)
+            .map(|block| self.block(vertex, block, 0))
+            .collect();
+        FixedBitSet::with_capacity_and_blocks(self.len(), blocks)
+    }
+
+    /// Whether the vertices of a block, from `from` on, are joined to a vertex.
+    fn block(&self, vertex: usize, block: usize, from: usize) -> usize {
+        let first = block * BITS;
+        (first.max(from)..(first + BITS).min(self.len()))
+            .filter(|other| self.joined(vertex, *other))
+            .fold(0, |bits, other| bits | 1 << (other - first))
+    }
+
+    /// All rows: what lies above the diagonal worked out, the rest mirrored.
+    fn all_rows(&self) -> Vec<FixedBitSet> {
+        let n = self.len();
+        let mut rows: Vec<FixedBitSet> = (0..n)
+            .into_par_iter()
+            .map(|a| {
+                let blocks = (0..n.div_ceil(BITS)).map(|block| match (block + 1) * BITS <= a {
+                    true => 0,
+                    false => self.block(a, block, a + 1),
+                });
+                FixedBitSet::with_capacity_and_blocks(n, blocks)
+            })
+            .collect();
+        for a in 0..n {
+            let (before, rest) = rows.split_at_mut(a + 1);
+            for b in before[a].ones().filter(|b| *b > a) {
+                rest[b - a - 1].insert(a);
+            }
+        }
+        rows
+    }
+
+    /// Permutations of the vertices that keep the graph, the identity left out: poles exchanged,
+    /// words reversed, both.
+    pub fn symmetries(&self) -> Vec<Vec<usize>> {
+        let class = |word: Word| match self.task.exchangeable() {
+            true => word.min(word.mate()),
+            false => word,
+        };
+        let maps: [fn(Word) -> Word; 3] = [
+            Word::negated,
+            Word::reversed,
+            |word| word.negated().reversed(),
+        ];
+        let image = |map: fn(Word) -> Word| -> Option<Vec<usize>> {
+            let images = self.words.iter().map(|word| class(map(*word)));
+            images.map(|word| self.words.binary_search(&word).ok()).collect()
+        };
+        let mut found: Vec<Vec<usize>> = maps.into_iter().filter_map(image).collect();
+        found.retain(|image| image.iter().enumerate().any(|(a, b)| a != *b) && self.keeps(image));
+        found.sort();
+        found.dedup();
+        found
+    }
+
+    /// Whether a permutation keeps the graph: energies of mirrored words may differ in their last
+    /// bits.
+    fn keeps(&self, image: &[usize]) -> bool {
+        (0..self.len()).all(|a| {
+            let row = &self.rows[image[a]];
+            row.count_ones(..) == self.rows[a].count_ones(..)
+                && self.rows[a].ones().all(|b| row.contains(image[b]))
+        })
+    }
+}
+
+const BITS: usize = usize::BITS as usize;

@@ -1,0 +1,104 @@
+//! Sets of words: barcodes of which each binds its mate strongly and all else weakly.
+//!
+//! A [`Task`] says what a word is (places, magnets, energies, constraints) and which meetings are
+//! wrong; [`search::largest`] finds a largest set with a given gap, [`frontier::widest`] the widest
+//! gap of a given number of words, both with a proof where the work asked for suffices. The gap of a
+//! set is 1 less the strongest wrong attraction over the weakest bond, in energies of flush faces at
+//! contact over all slides.
+//!
+//! - [`word`] - words as bits; [`lag`] - energies of magnets so many places apart;
+//! - [`rules`] - which meetings are wrong; [`constraint`] - what else is asked of words;
+//! - [`candidates`], [`graph`] - words that will do, and which go together;
+//! - [`clique`], [`local`], [`bound`] - largest sets, with proof; large sets; bounds without search;
+//! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
+//! - [`answer`](mod@answer) - a question answered;
+//! - [`crosstalk`] - attraction of every two words over all poses; [`matching`] - outlines alone;
+//! - [`budget`] - work, counted so that results do not depend on the machine.
+
+pub mod answer;
+pub mod bound;
+pub mod budget;
+pub mod candidates;
+pub mod clique;
+pub mod constraint;
+pub mod crosstalk;
+pub mod frontier;
+pub mod graph;
+pub mod lag;
+pub mod local;
+pub mod matching;
+pub mod rules;
+pub mod search;
+pub mod set;
+pub mod word;
+
+#[cfg(test)]
+mod tests;
+
+pub use answer::{Answer, Question, answer};
+pub use constraint::Constraints;
+pub use lag::{Bar, BarError, Lags};
+pub use rules::{Faces, Meeting, Rules, Shape};
+pub use set::Judgement;
+pub use word::Word;
+
+/// What words are wanted.
+#[derive(Clone, Debug)]
+pub struct Task {
+    /// Places of a word.
+    pub places: usize,
+    /// Magnets of a word: as many as places, or fewer where spacing is part of the code.
+    pub magnets: usize,
+    /// Energies of magnets.
+    pub lags: Lags,
+    /// Which meetings are wrong.
+    pub rules: Rules,
+    /// What else words must satisfy.
+    pub constraints: Constraints,
+}
+
+impl Task {
+    /// Whether a word and its mate may be exchanged for one another: then one of the two is enough.
+    fn exchangeable(&self) -> bool {
+        self.rules.exchangeable() && self.constraints.exchangeable()
+    }
+
+    /// Whether two different words, each sound by itself, go together.
+    fn compatible(&self, [u, v]: [Word; 2], limit: f64) -> bool {
+        // Two names of the same two faces are no two words.
+        (!self.rules.words_meet() || u != v.mate())
+            && self.rules.within(&self.lags, u, v, limit)
+            && self.constraints.allow_both(&self.lags, &self.rules, u, v)
+    }
+
+    /// What a set of words is worth; `None` of no words.
+    pub fn judge(&self, words: &[Word]) -> Option<Judgement> {
+        Judgement::of(words, &self.lags, &self.rules)
+    }
+
+    /// The deepest bond (J) that any word may have.
+    fn deepest_bond(&self) -> f64 {
+        let magnets = self.magnets as f64;
+        magnets * self.lags.contact() + self.lags.rest(self.magnets as u32)
+    }
+
+    /// An upper bound of the number of words with wrong attractions up to `limit` (J), from codes;
+    /// the largest number there is where codes say nothing.
+    fn code_bound(&self, limit: f64) -> usize {
+        if self.magnets < self.places {
+            return usize::MAX;
+        }
+        let rest = self.lags.rest(self.magnets as u32);
+        let contacts = ((limit + rest) / self.lags.contact() + 1e-9).floor().max(-1.0);
+        // Equal less unequal poles are as even or odd as their number.
+        let differ = (self.places as f64 - contacts) / 2.0;
+        if differ <= 0.0 {
+            return usize::MAX;
+        }
+        let code = bound::binary_code(self.places, differ.ceil() as usize);
+        match self.rules.words_meet() {
+            true => code / 2,
+            false => code,
+        }
+    }
+}

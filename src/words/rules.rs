@@ -1,0 +1,207 @@
+//! Which meetings of two words are wrong, and how strongly they attract.
+//!
+//! A face carries a word u or its mate u*. Slid by s places, u meets v with the correlations of u
+//! and the reverse of v, and v* with those of u and -v. A face turned over carries its word
+//! reversed. So all meetings of two words and their mates come down to four correlations at most.
+
+use super::lag::{Correlations, Lags};
+use super::word::Word;
+
+/// Which faces can meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Faces {
+    /// Every face can meet every face.
+    #[default]
+    All,
+    /// Words meet mates only.
+    Mates,
+}
+
+/// What complementary shapes the faces have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// None: faces slide.
+    #[default]
+    None,
+    /// One that any two faces share and that forbids slides.
+    Shared,
+    /// Knobs on words, slots on mates: words meet mates only, and do not slide.
+    Polar,
+}
+
+/// Which meetings are wrong.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rules {
+    /// Which faces can meet, where there is no shape.
+    pub faces: Faces,
+    /// Their shapes.
+    pub shape: Shape,
+    /// Tiles may lie upside down.
+    pub flip: bool,
+}
+
+/// Contacts that differ by less than this are as many.
+const ROUNDED: f64 = 1e-9;
+
+/// One way in which a face meets another word's faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Way {
+    /// The second face is a mate.
+    mate: bool,
+    /// It is turned over.
+    flipped: bool,
+}
+
+impl Way {
+    /// The second face as it faces the first one, up to the sign.
+    fn facing(self, word: Word) -> Word {
+        if self.mate == self.flipped {
+            word.reversed()
+        } else {
+            word
+        }
+    }
+
+    /// What attraction is in terms of the energy of [`Self::facing`].
+    fn sign(self) -> f64 {
+        if self.mate { 1.0 } else { -1.0 }
+    }
+}
+
+/// The strongest wrong meeting of two faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Of the first face.
+    pub first: Word,
+    /// Of the second face, as it is when not turned over.
+    pub second: Word,
+    /// Whether the second face is turned over.
+    pub flipped: bool,
+    /// By how many places the second face lies farther along the first one (counter-clockwise).
+    pub slide: i32,
+    /// J.
+    pub energy: f64,
+}
+
+impl Rules {
+    /// Whether a word and its mate may be exchanged without changing who meets whom.
+    pub fn exchangeable(&self) -> bool {
+        self.words_meet()
+    }
+
+    /// Whether words meet words.
+    pub fn words_meet(&self) -> bool {
+        match self.shape {
+            Shape::None => self.faces == Faces::All,
+            Shape::Shared => true,
+            Shape::Polar => false,
+        }
+    }
+
+    /// Whether faces slide along each other.
+    pub fn slides(&self) -> bool {
+        self.shape == Shape::None
+    }
+
+    /// How many meetings two words of so many places have.
+    pub fn meetings(&self, places: usize) -> usize {
+        self.ways().count() * self.slides_of(places).count()
+    }
+
+    fn ways(&self) -> impl Iterator<Item = Way> {
+        let (words_meet, flip) = (self.words_meet(), self.flip);
+        let all = [(true, false), (false, false), (true, true), (false, true)];
+        all.into_iter()
+            .filter(move |(mate, flipped)| (*mate || words_meet) && (!flipped || flip))
+            .map(|(mate, flipped)| Way { mate, flipped })
+    }
+
+    /// The slides at which two words of so many places have places that face, from the middle.
+    fn slides_of(&self, places: usize) -> impl Iterator<Item = i32> {
+        let last = if self.slides() { places as i32 - 1 } else { 0 };
+        (0..=last).flat_map(|s| [s, -s].into_iter().take(if s == 0 { 1 } else { 2 }))
+    }
+
+    /// Whether a meeting is the bond: of a word and its own mate, at slide 0.
+    fn is_bond(way: Way, s: i32, same: bool) -> bool {
+        same && s == 0 && way.mate && !way.flipped
+    }
+
+    /// Whether no wrong meeting of two words and their mates attracts by more than `limit` (J).
+    pub fn within(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
+        let same = u == v;
+        let (places, magnets) = (u.places() as i32, u.magnets().min(v.magnets()));
+        let full = magnets as i32 == places;
+        // The facing magnets nearly always decide: so many are fine whatever the others add, and
+        // more than so many are too many.
+        let (contact, rest) = (lags.contact(), lags.rest(magnets));
+        let fine = ((limit - rest) / contact - ROUNDED).floor() as i32;
+        let most = ((limit + rest) / contact + ROUNDED).floor() as i32;
+        let last = if self.slides() { places - fine.max(0) - 1 } else { 0 };
+        self.ways().all(|way| {
+            let facing = way.facing(v);
+            let sign = if way.mate { 1 } else { -1 };
+            let mut all_lags = None;
+            let mut is_within = |s: i32| {
+                let facing_alone = sign
+                    * match full {
+                        true => u.full_correlation(facing, s),
+                        false => u.correlation(facing, s),
+                    };
+                if facing_alone <= fine || Self::is_bond(way, s, same) {
+                    return true;
+                }
+                if facing_alone > most {
+                    return false;
+                }
+                let all = all_lags.get_or_insert_with(|| Correlations::new(u, facing));
+                way.sign() * lags.energy(all, s) <= limit
+            };
+            // Slid farther fewer face than are fine.
+            (last < 0 || is_within(0)) && (1..=last).all(|s| is_within(s) && is_within(-s))
+        })
+    }
+
+    /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None`
+    /// where they never meet.
+    pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
+        let same = u == v;
+        let mut strongest: Option<Meeting> = None;
+        for way in self.ways() {
+            let all = Correlations::new(u, way.facing(v));
+            for s in self.slides_of(u.places()) {
+                let energy = -way.sign() * lags.energy(&all, s);
+                if !Self::is_bond(way, s, same) && strongest.is_none_or(|it| energy < it.energy) {
+                    strongest = Some(Meeting {
+                        first: u,
+                        second: if way.mate { v.mate() } else { v },
+                        flipped: way.flipped,
+                        // u[k] faces place k + s of the second, counted from its end.
+                        slide: -s,
+                        energy,
+                    });
+                }
+            }
+        }
+        strongest
+    }
+
+    /// All energies (J) of wrong meetings of two faces, the second a mate or not, neither turned
+    /// over.
+    pub fn energies(&self, lags: &Lags, [u, v]: [Word; 2], mate: bool) -> Vec<f64> {
+        let way = Way {
+            mate,
+            flipped: false,
+        };
+        let all = Correlations::new(u, way.facing(v));
+        self.slides_of(u.places())
+            .filter(|s| !Self::is_bond(way, *s, u == v))
+            .map(|s| -way.sign() * lags.energy(&all, s))
+            .collect()
+    }
+}
+
+/// The depth (J) of the bond of a word and its mate, flush.
+pub fn bond(lags: &Lags, word: Word) -> f64 {
+    lags.energy(&Correlations::new(word, word), 0)
+}

@@ -1,0 +1,347 @@
+//! Largest sets of words with a given gap.
+//!
+//! The gap compares the strongest wrong attraction with the weakest bond of the same set. So for
+//! every weakest bond B there is a graph of its own: of words with bonds of at least B, joined where
+//! no wrong meeting attracts by more than (1 - gap) B. The graphs of a whole range of bonds lie in
+//! one, of words that the least B admits and limits that the largest one allows; where its largest
+//! clique has the gap asked for the range is settled, and else it is halved.
+
+use std::ops::RangeInclusive;
+
+use rand::SeedableRng;
+use rand::seq::index::sample;
+use rand_chacha::ChaCha8Rng;
+
+use super::budget::Budget;
+use super::candidates::Candidates;
+use super::clique::{self, Clique};
+use super::graph::Graph;
+use super::rules::bond;
+use super::word::Word;
+use super::{Task, local};
+
+/// How hard to search.
+#[derive(Clone, Debug)]
+pub struct Effort {
+    /// Of all random numbers.
+    pub seed: u64,
+    /// Work to do at most.
+    pub budget: Budget,
+}
+
+/// A set of words, and what is known of larger ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Ascending.
+    pub words: Vec<Word>,
+    /// There are no more words than this.
+    pub upper: usize,
+    /// How many words were to choose from, and whether these were all that there are.
+    pub candidates: usize,
+    /// See there.
+    pub complete: bool,
+}
+
+impl Found {
+    /// Whether no larger set exists.
+    pub fn is_proved(&self) -> bool {
+        self.words.len() == self.upper
+    }
+}
+
+/// Energies that differ by less than this share are the same.
+pub const SAME: f64 = 1e-12;
+/// Work (s) on large sets before proofs are tried, at most, and what it is for each pair of words:
+/// of small graphs the proof is quicker.
+const LOOK: f64 = 3.0;
+const LOOK_A_PAIR: f64 = 2e-7;
+/// Shares of the work left for a first try at a proof, and for a second one where the bound of the
+/// first lies within this factor of what was found.
+const FOR_PROOF: [f64; 2] = [0.15, 0.5];
+const WITHIN_REACH: f64 = 1.5;
+/// Share of the work left for sets that have a symmetry, of large graphs.
+const FOR_SYMMETRIC: f64 = 0.2;
+const LARGE: usize = 1000;
+/// Weakest bonds tried where nothing is proved of the whole range.
+const LADDER: usize = 8;
+/// Where the words are too many for a graph to be held: so many of them are looked at first, at so
+/// many weakest bonds, each with this share of the work left.
+const SAMPLED: usize = 8000;
+const SAMPLED_BONDS: usize = 2;
+const FOR_A_SAMPLE: f64 = 0.35;
+
+/// The largest set of words with at least this gap; one of `enough` words will do.
+pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
+    let limit = |bond: f64| (1.0 - gap) * bond * (1.0 + SAME);
+    let first = Candidates::new(task, limit(task.deepest_bond()), effort.seed);
+    let mut words: Vec<(f64, Word)> = first
+        .words
+        .iter()
+        .map(|word| (bond(&task.lags, *word), *word))
+        .filter(|(bond, _)| *bond > 0.0)
+        .collect();
+    // The deepest bond that there is allows less than the deepest one thinkable.
+    if let (true, Some(deepest)) = (first.complete, words.iter().map(|it| it.0).reduce(f64::max)) {
+        let sound = |word| task.rules.within(&task.lags, word, word, limit(deepest));
+        words.retain(|(_, word)| sound(*word));
+    }
+    let candidates = words.len();
+    let mut bonds: Vec<f64> = words.iter().map(|(bond, _)| *bond).collect();
+    bonds.sort_by(|a, b| b.total_cmp(a));
+    bonds.dedup_by(|a, b| (*a - *b).abs() <= SAME * b.abs());
+    let deepest = match first.complete {
+        true => bonds.first().copied().unwrap_or_default(),
+        false => task.deepest_bond(),
+    };
+    let code_bound = match first.complete && words.is_empty() {
+        true => 0,
+        false => task.code_bound(limit(deepest)),
+    };
+    let mut search = Search {
+        task,
+        gap,
+        words,
+        bonds,
+        best: Vec::new(),
+        enough: enough.min(code_bound),
+        effort,
+    };
+    let mut upper = 0;
+    if let Some(last) = search.bonds.len().checked_sub(1) {
+        upper = search.range(0..=last);
+    }
+    let mut found = std::mem::take(&mut search.best);
+    found.sort_unstable();
+    let upper = match first.complete {
+        true => upper.min(code_bound),
+        false => code_bound.min(all_classes(task)),
+    };
+    Found {
+        upper: upper.max(found.len()),
+        words: found,
+        candidates,
+        complete: first.complete,
+    }
+}
+
+/// How many words there are, of a word and its mate one where they are interchangeable.
+fn all_classes(task: &Task) -> usize {
+    let all = super::candidates::number(task.places, task.magnets);
+    // At most all words are their own mates' mates; half of them, those that are their own mates
+    // and cannot be in a set left out.
+    (if task.exchangeable() { all / 2.0 } else { all }) as usize
+}
+
+struct Search<'a> {
+    task: &'a Task,
+    gap: f64,
+    /// Bonds (J) and words, the words ascending.
+    words: Vec<(f64, Word)>,
+    /// Bonds that differ (J), deepest first.
+    bonds: Vec<f64>,
+    best: Vec<Word>,
+    enough: usize,
+    effort: &'a mut Effort,
+}
+
+impl<'a> Search<'a> {
+    fn limit(&self, bond: f64) -> f64 {
+        (1.0 - self.gap) * bond * (1.0 + SAME)
+    }
+
+    /// Whether a set has the gap.
+    fn has_gap(&self, words: &[Word]) -> bool {
+        let gap = self.task.judge(words).map_or(1.0, |set| set.gap);
+        gap >= self.gap - 2.0 * SAME
+    }
+
+    /// Searches the sets whose weakest bond is in a range of [`Self::bonds`], and gives an upper
+    /// bound of their size where it lies above the best one's.
+    fn range(&mut self, range: RangeInclusive<usize>) -> usize {
+        if self.best.len() >= self.enough {
+            return self.best.len();
+        }
+        let (first, last) = (*range.start(), *range.end());
+        let graph = self.graph(range);
+        self.effort.budget.spend(graph.work());
+        if graph.len() <= self.best.len() {
+            return graph.len();
+        }
+        if !graph.is_held() {
+            self.sampled(first, last);
+            return graph.len();
+        }
+        let mut found = self.clique(&graph);
+        if found.members.len() <= self.best.len() {
+            return found.upper;
+        }
+        let settled = found.members.len() == found.upper || found.members.len() >= self.enough;
+        if self.accept(&graph, &found.members) {
+            if !settled {
+                let (enough, seed) = (self.enough.min(found.upper), self.effort.seed);
+                let budget = &mut self.effort.budget;
+                found.members = local::search(&graph, found.members, enough, seed, budget);
+                self.accept(&graph, &found.members);
+            }
+            return found.upper;
+        }
+        if first == last {
+            return found.upper;
+        }
+        if !settled || self.effort.budget.is_spent() {
+            self.ladder(first, last);
+            return found.upper;
+        }
+        let middle = first + (last - first) / 2;
+        let deep = self.range(first..=middle);
+        deep.max(self.range(middle + 1..=last))
+    }
+
+    /// The graph of the sets whose weakest bond is in a range.
+    fn graph(&self, range: RangeInclusive<usize>) -> Graph<'a> {
+        let task = self.task;
+        let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
+        let limit = self.limit(deepest);
+        let sound = |word| task.rules.within(&task.lags, word, word, limit);
+        let words = self.words.iter();
+        let words = words.filter(|(bond, word)| *bond >= weakest * (1.0 - SAME) && sound(*word));
+        Graph::new(task, words.map(|(_, word)| *word).collect(), limit)
+    }
+
+    /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the
+    /// proof, then half the rest of the work on larger ones.
+    fn clique(&mut self, graph: &Graph) -> Clique {
+        let (enough, seed) = (self.enough, self.effort.seed);
+        let budget = &mut self.effort.budget;
+        let look = LOOK_A_PAIR * (graph.len() * graph.len()) as f64;
+        let mut part = budget.part(look.min(LOOK));
+        let known = local::search(graph, Vec::new(), enough, seed, &mut part);
+        budget.give_back(&part);
+        let mut found = Clique {
+            upper: graph.len(),
+            members: known,
+        };
+        if found.members.len() >= enough {
+            return found;
+        }
+        if graph.len() >= LARGE {
+            let mut part = budget.share(FOR_SYMMETRIC);
+            found.members = symmetric(graph, found.members, enough, seed, &mut part);
+            budget.give_back(&part);
+        }
+        for share in FOR_PROOF {
+            let best = found.members.len().max(self.best.len());
+            let hopeless = found.upper < graph.len()
+                && found.upper as f64 > WITHIN_REACH * best as f64;
+            if found.upper > best && !hopeless && best < enough {
+                let mut part = budget.share(share);
+                found = clique::largest(graph, found.members, &mut part);
+                budget.give_back(&part);
+            }
+        }
+        if found.members.len() >= enough {
+            return found;
+        }
+        if found.upper > found.members.len().max(self.best.len()) {
+            let mut part = budget.share(0.5);
+            let enough = enough.min(found.upper);
+            found.members = local::search(graph, found.members, enough, seed, &mut part);
+            budget.give_back(&part);
+        }
+        found
+    }
+
+    /// Takes a set that is larger than the best one, if it has the gap; else what is left of it when
+    /// it has. Whether all of it has.
+    fn accept(&mut self, graph: &Graph, members: &[usize]) -> bool {
+        let mut set: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
+        let accepted = self.has_gap(&set);
+        while set.len() > self.best.len() && !self.has_gap(&set) {
+            self.drop_worst(&mut set);
+        }
+        if set.len() > self.best.len() {
+            self.best = set;
+        }
+        accepted
+    }
+
+    /// Takes a word of the strongest wrong meeting out of a set.
+    fn drop_worst(&self, set: &mut Vec<Word>) {
+        let worst = self.task.judge(set).and_then(|set| set.worst);
+        let in_worst = |word: &Word| {
+            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
+        };
+        let at = set.iter().position(in_worst).unwrap_or(set.len() - 1);
+        set.remove(at);
+    }
+
+    /// Tries single weakest bonds of a range of which nothing is proved.
+    fn ladder(&mut self, first: usize, last: usize) {
+        for step in 1..=LADDER {
+            let at = first + (last - first) * step / LADDER;
+            let graph = self.graph(at..=at);
+            let mut part = self.effort.budget.share(1.0 / (LADDER + 1 - step) as f64);
+            let (enough, seed) = (self.enough, self.effort.seed);
+            let members = local::search(&graph, Vec::new(), enough, seed, &mut part);
+            self.effort.budget.give_back(&Budget::none(part.is_late()));
+            self.accept(&graph, &members);
+        }
+    }
+
+    /// Searches where the words are too many for a graph to be held: among some of them, at a few
+    /// weakest bonds; then the best set grows and is exchanged among all.
+    fn sampled(&mut self, first: usize, last: usize) {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.effort.seed);
+        let mut best: Option<(Vec<Word>, Graph<'a>)> = None;
+        for step in (1..=SAMPLED_BONDS).rev() {
+            let at = first + (last - first) * step / SAMPLED_BONDS;
+            let graph = self.graph(at..=at);
+            let most = graph.len().min(SAMPLED);
+            let mut chosen = sample(&mut rng, graph.len(), most).into_vec();
+            chosen.sort_unstable();
+            let words = chosen.iter().map(|v| graph.words[*v]).collect();
+            let part_graph = graph.among(words);
+            let mut part = self.effort.budget.share(FOR_A_SAMPLE);
+            part.spend(part_graph.work());
+            let (enough, seed) = (self.enough, self.effort.seed);
+            let members = local::search(&part_graph, Vec::new(), enough, seed, &mut part);
+            self.effort.budget.give_back(&part);
+            let set: Vec<Word> = members.iter().map(|v| part_graph.words[*v]).collect();
+            if best.as_ref().is_none_or(|(words, _)| set.len() > words.len()) {
+                best = Some((set, graph));
+            }
+        }
+        let Some((set, graph)) = best else {
+            return;
+        };
+        let known = set.iter().filter_map(|word| graph.words.binary_search(word).ok());
+        let known: Vec<usize> = known.collect();
+        let (enough, seed) = (self.enough, self.effort.seed);
+        let members = local::search(&graph, known, enough, seed, &mut self.effort.budget);
+        self.accept(&graph, &members);
+    }
+}
+
+/// A large clique of those that keep a symmetry of the graph, from a known one on.
+fn symmetric(
+    graph: &Graph,
+    mut best: Vec<usize>,
+    enough: usize,
+    seed: u64,
+    budget: &mut Budget,
+) -> Vec<usize> {
+    let symmetries = graph.symmetries();
+    for (number, image) in symmetries.iter().enumerate() {
+        let mut part = budget.share(1.0 / (symmetries.len() - number) as f64);
+        let (folded, pairs) = graph.folded(image);
+        let found = local::search(&folded, Vec::new(), enough.div_ceil(2), seed, &mut part);
+        let mut members: Vec<usize> = found.iter().flat_map(|k| pairs[*k]).collect();
+        members.sort_unstable();
+        members.dedup();
+        if members.len() > best.len() {
+            best = members;
+        }
+        budget.give_back(&part);
+    }
+    best
+}

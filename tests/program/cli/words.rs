@@ -1,0 +1,157 @@
+//! `tilebind words`, `crosstalk` and `match`.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{json, numbers, tilebind};
+use crate::folder::contents;
+use crate::program::{stderr, stdout};
+
+fn words(found: &Value) -> Vec<&str> {
+    let list = found["words"].as_array().expect("a list");
+    list.iter().map(|word| word.as_str().expect("a text")).collect()
+}
+
+#[test]
+fn eight_magnets_carry_seven_words() {
+    let found = json(&["words", "--length", "8", "--gap", "0.45", "--json"]);
+    assert_eq!(words(&found).len(), 7);
+    assert_eq!((&found["count"], &found["upper_bound"]), (&7.into(), &7.into()));
+    assert_eq!(found["proved"], true);
+    assert!(found["gap"].as_f64().unwrap() >= 0.45);
+    assert!(found["bond_J"].as_f64().unwrap() > 0.0);
+    for key in ["first", "second", "slide", "energy_J"] {
+        assert!(!found["worst"][key].is_null(), "{key}");
+    }
+}
+
+#[test]
+fn what_cannot_be_is_no_error() {
+    let none = json(&["words", "--length", "4", "--gap", "0.99", "--json"]);
+    assert_eq!((&none["count"], &none["proved"]), (&0.into(), &true.into()));
+    assert!(none["gap"].is_null() && none["worst"].is_null());
+    let none = json(&["words", "--length", "3", "--count", "1000", "--json"]);
+    assert_eq!((&none["count"], &none["proved"]), (&0.into(), &true.into()));
+    let told = stdout(&tilebind(&["words", "--length", "4", "--gap", "0.99"]));
+    assert!(told.starts_with("none exists, proved"), "{told}");
+}
+
+#[test]
+fn nonsense_is_refused_with_the_mend() {
+    for arguments in [
+        &["words"][..],
+        &["words", "--length", "0"],
+        &["words", "--length", "1000000"],
+        &["words", "--length", "8", "--gap", "2"],
+        &["words", "--length", "8", "--gap", "-0.1"],
+        &["words", "--length", "8", "--count", "0"],
+        &["words", "--length", "8", "--gap", "0.5", "--count", "3"],
+        &["words", "--slots", "4", "--magnets", "9"],
+        &["words", "--slots", "8"],
+        &["words", "--length", "8", "--pitch", "0.001"],
+        &["words", "--length", "8", "--faces", "some"],
+        &["words", "--length", "8", "--seconds", "0"],
+        &["words", "missing.toml", "--length", "8"],
+        &["crosstalk", "missing.toml"],
+        &["match", "missing.toml"],
+    ] {
+        let output = tilebind(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stdout(&output).is_empty() && !stderr(&output).is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_design_gives_its_magnets() {
+    let of = |more: &[&str]| {
+        let mut arguments = vec!["words", "--length", "6", "--gap", "0.45", "--json"];
+        arguments.extend(more);
+        json(&arguments)
+    };
+    let (paper, design) = (of(&[]), of(&["shapes/paper-tile.toml"]));
+    assert_eq!(paper["words"], design["words"]);
+    assert_eq!(paper["bond_J"], design["bond_J"]);
+    let blocks = of(&["--model", "cuboid"]);
+    assert!(blocks["bond_J"].as_f64() > paper["bond_J"].as_f64());
+}
+
+#[test]
+fn a_set_is_written_read_and_judged_over_all_poses() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str, name: &str| {
+        let out = folder.path().join(name);
+        let arguments = ["words", "--length", "4", "--gap", "0.3", "--out"];
+        let mut arguments = arguments.to_vec();
+        arguments.extend([out.to_str().unwrap(), "--threads", threads, "--quiet"]);
+        assert_eq!(tilebind(&arguments).status.code(), Some(0));
+        contents(&out)
+    };
+    let (one, two) = (run("1", "one"), run("2", "two"));
+    assert!(one == two, "the same bytes on any number of threads");
+    for name in ["words.csv", "crosstalk.csv", "words.toml", "report.json", "report.html"] {
+        assert!(one.contains_key(name), "{name}");
+    }
+    judged(&folder.path().join("one/words.toml"));
+}
+
+/// Crosstalk is symmetric, holds the bonds, lies above its bounds and below what slides tell.
+fn judged(set: &Path) {
+    let set = set.to_str().unwrap();
+    let found = json(&["crosstalk", set, "--certify=2e-3", "--certify-cells", "20000", "--json"]);
+    let m = words(&found).len();
+    let rows = |key: &str| -> Vec<Vec<f64>> {
+        found[key].as_array().expect("a matrix").iter().map(numbers).collect()
+    };
+    let (strongest, lower) = (rows("strongest_J"), rows("lower_J"));
+    assert_eq!(strongest.len(), 2 * m);
+    for i in 0..2 * m {
+        for j in 0..2 * m {
+            assert_eq!(strongest[i][j], strongest[j][i]);
+            assert!(lower[i][j] <= strongest[i][j], "{i} {j}");
+        }
+        let mate = if i < m { i + m } else { i - m };
+        // Four contacts of 16.4 mJ, less what neighbours take.
+        assert!(strongest[i][mate] < -0.06, "{}", strongest[i][mate]);
+    }
+    assert_eq!(found["poses"].as_array().unwrap().len(), 2 * m);
+}
+
+#[test]
+fn sets_from_elsewhere_are_judged_and_faults_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("kit.toml");
+    let path = file.to_str().unwrap();
+    std::fs::write(&file, "[faces]\nA = { code = \"NN.S\" }\n\"A*\" = { code = \"N.SS\" }\n").unwrap();
+    let found = json(&["crosstalk", path, "--json"]);
+    assert_eq!(words(&found), ["NN.S"]);
+    assert!(found["lower_J"].is_null());
+    for (text, told) in [
+        ("words = []", "no words"),
+        ("words = [\"NNS\", \"NN\"]", "2 places"),
+        ("words = [\"NNX\"]", "no pole"),
+        ("words = [\"NNS\", \"NNS\"]", "twice"),
+        ("words = [\"NNS\"]\nside = 3", "side"),
+        ("words = [\"NNS\"]\n[tile]\nside = -1.0", "above zero"),
+        ("words = ", "kit.toml:1"),
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let output = tilebind(&["crosstalk", path]);
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(stderr(&output).contains(told), "{text}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn outlines_match_longest_contact_first() {
+    let found = json(&["match", "shapes/tab-20mm.toml", "--json"]);
+    let lengths: Vec<f64> =
+        found.as_array().unwrap().iter().map(|one| one["contact_m"].as_f64().unwrap()).collect();
+    assert!(lengths.is_sorted_by(|a, b| *a >= b - 1e-6), "{lengths:?}");
+    // The tab in its slot touches along more than a plain side.
+    assert!(lengths[0] > 0.43, "{}", lengths[0]);
+    for one in found.as_array().unwrap() {
+        assert_eq!(numbers(&one["pose"]).len(), 3);
+        assert!(one["gap_m2"].as_f64().unwrap() >= 0.0);
+    }
+}
