@@ -21,5 +21,5 @@ pub use certification::{Claims, Uncertified};
 pub use inventory::{Inventory, Kind};
 pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
-    State, StateKind, Uncaptured, highest_point,
+    State, StateKind, Uncaptured, highest_point, work,
 };

@@ -286,10 +286,10 @@ impl Reader<'_> {
             self.problem,
             network,
             &route,
-            f64::NEG_INFINITY,
+            None,
             2e-3 * depth,
         );
-        Some(Alternative {
+        (!pathway.is_empty()).then_some(Alternative {
             from: from.0,
             to: to.0,
             by,
