@@ -47,11 +47,13 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 pub fn ends(problem: &Problem, starts: &FarStarts) -> Vec<Option<Configuration>> {
     (0..starts.count)
         .into_par_iter()
-        .map(|number| match drift(problem, &start(problem, starts, number)) {
-            Outcome::Minimum(found) => Some(found.point.q),
-            Outcome::Stuck(q) => Some(q),
-            Outcome::Free => None,
-        })
+        .map(
+            |number| match drift(problem, &start(problem, starts, number)) {
+                Outcome::Minimum(found) => Some(found.point.q),
+                Outcome::Stuck(q) => Some(q),
+                Outcome::Free => None,
+            },
+        )
         .collect()
 }
 

@@ -13,8 +13,8 @@ use crate::landscape::capture::FarStarts;
 use crate::landscape::certificate::End;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::descend;
-use crate::landscape::survey::Survey;
 use crate::landscape::pathway::{self, Limits};
+use crate::landscape::survey::Survey;
 use crate::landscape::{Pathway, capture, highest_point};
 use crate::observer::Observer;
 use crate::pipeline::{self, Clock};
@@ -31,7 +31,7 @@ const PEAKS: usize = 8;
 const PASSING: f64 = 2e-3;
 
 /// Far starts of which those are followed that end where a way to `free` starts.
-const FAR_STARTS: usize = 200;
+const FAR_STARTS: usize = 100;
 
 /// Looks for ways between the two ends of a query.
 pub(super) struct Search<'a> {

@@ -14,17 +14,15 @@ use crate::pipeline::Analysis;
 const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
 
 /// How far (m, and rad) a point left out of a pathway's file may lie from the straight motion between
-/// its neighbours: the file, joined by straight motions, is the pathway.
-const SAME_MOTION: f64 = 1e-8;
+/// its neighbours, and how far the energy may be off there, as a fraction of the range of energies on
+/// the pathway: the file, joined by straight motions, is the pathway.
+const SAME_MOTION: [f64; 2] = [1e-8, 1e-4];
 /// The same for pictures.
-pub(super) const SEEN: f64 = 1e-5;
+pub(super) const SEEN: [f64; 2] = [1e-5, 1e-3];
 /// How far the clearance may be off there.
 const CLEARANCE_TOLERANCE: f64 = 1e-5;
 /// How far it may be off beyond that, as a fraction of itself.
 const RELATIVE_CLEARANCE: f64 = 1e-3;
-/// How far the energy may be off there, as a fraction of the range of energies on the pathway.
-const ENERGY_TOLERANCE: f64 = 1e-3;
-
 /// The table of states. Where magnets are point dipoles its last two columns hold the energy of the
 /// blocks they stand for, and how much higher the dipoles' is.
 pub fn states(design: &Design, analysis: &Analysis) -> String {
@@ -91,9 +89,9 @@ pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
     String::from_utf8(bytes).expect("cells are text")
 }
 
-/// The points of a pathway that are not on the straight line between their neighbours, to within a
-/// tolerance (m, and rad).
-pub(super) fn thinned(pathway: &Pathway, tolerance: f64) -> Vec<PathwayPoint> {
+/// The points of a pathway that are not on the straight line between their neighbours, to within
+/// tolerances of the pose (m, and rad) and of the energy (a fraction of its range).
+pub(super) fn thinned(pathway: &Pathway, [pose, energy]: [f64; 2]) -> Vec<PathwayPoint> {
     let Some(highest) = (0..pathway.len()).max_by_key(|&k| OrderedFloat(pathway[k].energy)) else {
         return Vec::new();
     };
@@ -101,10 +99,7 @@ pub(super) fn thinned(pathway: &Pathway, tolerance: f64) -> Vec<PathwayPoint> {
         .iter()
         .map(|p| p.energy)
         .fold(f64::INFINITY, f64::min);
-    let allowed = [
-        tolerance,
-        ENERGY_TOLERANCE * (pathway[highest].energy - lowest),
-    ];
+    let allowed = [pose, energy * (pathway[highest].energy - lowest)];
     let mut kept = vec![pathway[0]];
     let mut here = 0;
     while here + 1 < pathway.len() {

@@ -52,7 +52,10 @@ fn check(file: &str) {
             for k in 0..=count {
                 let q = leg[0].interpolate(&leg[1], k as f64 / count as f64);
                 let clearance = problem.clearance(&q);
-                assert!(clearance >= -OVERLAP, "{file} {ends:?}: {clearance} at {q:?}");
+                assert!(
+                    clearance >= -OVERLAP,
+                    "{file} {ends:?}: {clearance} at {q:?}"
+                );
                 highest = highest.max(problem.energy(&q));
             }
         }
@@ -93,7 +96,10 @@ fn the_papers_tile_docks_downhill_past_no_trap() {
     for state in analysis.inventory.states.iter().skip(1) {
         let passes = |q: &Configuration| problem.space.distance(q, &state.configuration) < 0.01;
         let pathway = &way_out.pathway;
-        assert!(!pathway.iter().any(|p| passes(&p.configuration)), "{state:?}");
+        assert!(
+            !pathway.iter().any(|p| passes(&p.configuration)),
+            "{state:?}"
+        );
     }
     // No farther than it has to go.
     let length = way_out.length().unwrap();

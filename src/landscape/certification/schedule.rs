@@ -43,7 +43,9 @@ pub fn rounds(
     let [first, rest] = by_rank(inventory, settings);
     if let Some(wanted) = settings.tolerance {
         let all = [first, rest].concat();
-        return widths(depth, wanted).map(|width| (width, all.clone())).collect();
+        return widths(depth, wanted)
+            .map(|width| (width, all.clone()))
+            .collect();
     }
     let group = |group: Vec<usize>| [(FIRST * depth, group.clone()), (0.0, group)];
     [group(first), group(rest)].concat()
@@ -60,7 +62,10 @@ fn by_rank(inventory: &Inventory, settings: &CertificationSettings) -> [Vec<usiz
     let deepest = ranked.first().map(|trap| trap.1);
     ranked.sort();
     let foremost = ranked.iter().take(FOREMOST).map(|trap| trap.1);
-    let foremost: Vec<usize> = foremost.chain(deepest).chain(inventory.bound_state).collect();
+    let foremost: Vec<usize> = foremost
+        .chain(deepest)
+        .chain(inventory.bound_state)
+        .collect();
     let is_foremost = |barrier: &Barrier| match barrier.from {
         Place::State(id) => foremost.contains(&inventory.states[id].class),
         Place::Free => false,
@@ -107,6 +112,10 @@ mod tests {
         let [wide, narrow] = [4e-3, 1e-5].map(|wanted| widths(2.0, wanted).collect::<Vec<f64>>());
         assert_eq!(wide, [2e-2, 1e-2, 5e-3, 2.5e-3]);
         assert_eq!(narrow[..wide.len()], wide);
-        assert!(narrow.last().is_some_and(|width| (5e-6..=1e-5).contains(width)));
+        assert!(
+            narrow
+                .last()
+                .is_some_and(|width| (5e-6..=1e-5).contains(width))
+        );
     }
 }

@@ -160,7 +160,10 @@ impl Leg<'_> {
     fn pushed_out(&self, before: &Configuration, q: &Configuration) -> Option<Configuration> {
         let pushed = constrained::settle(self.problem, q, 4.0 * OVERLAP)?;
         let is_free = |end| self.problem.motion_overlaps_at_most(end, &pushed, OVERLAP);
-        [before, &self.to].into_iter().all(is_free).then_some(pushed)
+        [before, &self.to]
+            .into_iter()
+            .all(is_free)
+            .then_some(pushed)
     }
 
     /// The middle one of three knots where it is a summit, or a dip that counts: the share of the leg

@@ -7,7 +7,7 @@ mod shortcut;
 use std::collections::HashSet;
 
 use super::network::{Cost, Network, Route, Way};
-use super::results::{Pathway, PathwayPoint};
+use super::results::{Pathway, PathwayPoint, highest_point};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
 
@@ -21,6 +21,10 @@ const SAME: f64 = 1e-7;
 /// How much higher a way to `free` may rise than the lowest one, as a fraction of the barrier and not
 /// above 0: far configurations are all free, but their energies differ a little.
 pub(super) const AMONG_FAR: f64 = 0.01;
+
+/// A pathway with shortcuts that rises higher by this fraction of the depth than the network holds
+/// is not taken unseen.
+const HIGHER: f64 = 1e-7;
 
 /// The best way between two nodes.
 #[derive(Clone, Debug)]
@@ -49,18 +53,20 @@ pub fn lowest(
         per_metre: limits.per_metre,
     };
     let (end, _, route) = network.cheapest(from, ends, cost)?;
-    let pathway = along(problem, network, &route, Some(&limits), bend);
+    let peak = |way: &Pathway| highest_point(way).map_or(f64::INFINITY, |point| point.energy);
+    let mut pathway = along(problem, network, &route, Some(&limits), bend);
+    if peak(&pathway) > limits.highest + HIGHER * depth {
+        let plain = along(problem, network, &route, None, bend);
+        pathway = [pathway, plain]
+            .into_iter()
+            .min_by(|a, b| peak(a).total_cmp(&peak(b)))?;
+    }
     (!pathway.is_empty()).then_some(Lowest { end, pathway })
 }
 
 /// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
 /// possible, but for rounding.
-fn highest(
-    network: &Network,
-    from: usize,
-    goals: &HashSet<usize>,
-    depth: f64,
-) -> Option<f64> {
+fn highest(network: &Network, from: usize, goals: &HashSet<usize>, depth: f64) -> Option<f64> {
     let least = network.minimax(from, goals)?;
     let rounding = 1e-12 * depth;
     let is_free = |node: &usize| network.nodes[*node].is_none();

@@ -13,6 +13,8 @@ const STEP: f64 = 0.02;
 const PASSES: usize = 2;
 /// So often each point is pulled towards the middle between its neighbours.
 const PULLS: usize = 2;
+/// A point nearer (m, metric of the space) to that middle is left where it is.
+const KINK: f64 = 1e-3;
 
 /// What a metre of the way counts as much as, as a fraction of the depth by which energies are
 /// measured: of ways with as little work the shorter one is taken.
@@ -61,8 +63,8 @@ pub fn shortened(
     let mut points = points.to_vec();
     for _ in 0..PASSES {
         points = cut_short(problem, &subdivided(problem, &points), limits);
-        tighten(problem, &mut points, limits);
     }
+    tighten(problem, &mut points, limits);
     points
 }
 
@@ -81,6 +83,9 @@ fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
             let [before, here, after] = [points[k - 1], points[k], points[k + 1]];
             let middle = before.interpolate(&after, 0.5);
             let aside = problem.space.distance(&middle, &here);
+            if aside < KINK {
+                continue;
+            }
             let Some(pulled) = constrained::settle(problem, &middle, aside) else {
                 continue;
             };

@@ -38,7 +38,8 @@ impl Survey {
             *count += 1;
             *count <= self.most_followed(problem, state)
         };
-        let starts: Vec<Configuration> = far.iter().filter(wanted).map(|(start, _)| *start).collect();
+        let starts: Vec<Configuration> =
+            far.iter().filter(wanted).map(|(start, _)| *start).collect();
         let descents: Vec<_> = starts.par_iter().map(|q| approach(problem, q)).collect();
         for mut descent in descents {
             // What lies behind is free as well.
@@ -64,6 +65,10 @@ impl Survey {
         let q = self.states[state].minimum.point.q;
         let pair = problem.pair.as_ref();
         let is_bond = pair.is_some_and(|pair| problem.space.distance(&q, &pair.bound) < BOUND);
-        if is_bond { FOLLOWED_INTO_BOND } else { FOLLOWED }
+        if is_bond {
+            FOLLOWED_INTO_BOND
+        } else {
+            FOLLOWED
+        }
     }
 }
