@@ -53,7 +53,8 @@ pub struct Barrier {
           value_parser = input::count)]
     milestones: usize,
 
-    /// File for the pathway (CSV)
+    /// File for the pathway (CSV); from line to line the motion is straight in x, y and theta, the
+    /// shorter way round
     #[arg(long, value_name = "FILE")]
     pathway: Option<PathBuf>,
 

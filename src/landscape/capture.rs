@@ -28,26 +28,43 @@ pub fn ring(problem: &Problem) -> [f64; 2] {
     [inner, x.min(y).max(inner)]
 }
 
+/// The far start of this number.
+pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configuration {
+    let [inner, outer] = ring(problem);
+    let mut rng = ChaCha8Rng::seed_from_u64(starts.seed);
+    rng.set_stream((1 << 40) + number as u64);
+    let area = rng.random_range(inner * inner..=outer * outer);
+    let direction = rng.random_range(-PI..=PI);
+    let (y, x) = direction.sin_cos();
+    let radius = area.sqrt();
+    let theta = rng.random_range(-PI..=PI);
+    Configuration::new(radius * x, radius * y, theta)
+}
+
 /// Where each far start comes to rest by overdamped motion (mass metric, sliding along contact);
 /// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
 /// corners of both tiles meet, the last check may fail a micrometre from one.
 pub fn ends(problem: &Problem, starts: &FarStarts) -> Vec<Option<Configuration>> {
-    let [inner, outer] = ring(problem);
     (0..starts.count)
         .into_par_iter()
-        .map(|i| {
-            let mut rng = ChaCha8Rng::seed_from_u64(starts.seed);
-            rng.set_stream((1 << 40) + i as u64);
-            let area = rng.random_range(inner * inner..=outer * outer);
-            let direction = rng.random_range(-PI..=PI);
-            let (y, x) = direction.sin_cos();
-            let radius = area.sqrt();
-            let theta = rng.random_range(-PI..=PI);
-            match drift(problem, &Configuration::new(radius * x, radius * y, theta)) {
+        .map(
+            |number| match drift(problem, &start(problem, starts, number)) {
                 Outcome::Minimum(found) => Some(found.point.q),
                 Outcome::Stuck(q) => Some(q),
                 Outcome::Free => None,
-            }
-        })
+            },
+        )
+        .collect()
+}
+
+/// The far starts that come to rest, each with where it does.
+pub fn arrivals(
+    problem: &Problem,
+    starts: &FarStarts,
+    ends: &[Option<Configuration>],
+) -> Vec<(Configuration, Configuration)> {
+    let numbered = ends.iter().enumerate();
+    numbered
+        .filter_map(|(number, end)| Some((start(problem, starts, number), (*end)?)))
         .collect()
 }

@@ -51,10 +51,16 @@ pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
     Descent { way, outcome }
 }
 
-/// Overdamped motion from `start`, until a minimum or over the table's rim.
+/// Where overdamped motion from `start` leads: into a minimum or over the table's rim.
 pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
+    approach(problem, start).outcome
+}
+
+/// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim.
+pub fn approach(problem: &Problem, start: &Configuration) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    follow(problem, &mut way, |q| !problem.space.contains(q))
+    let outcome = follow(problem, &mut way, |q| !problem.space.contains(q));
+    Descent { way, outcome }
 }
 
 fn follow(

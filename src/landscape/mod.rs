@@ -23,5 +23,5 @@ pub use completeness::{Completeness, CompletenessSettings};
 pub use inventory::{Inventory, Kind};
 pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
-    State, StateKind, Uncaptured, highest_point,
+    State, StateKind, Uncaptured, highest_point, work,
 };

@@ -138,9 +138,21 @@ pub struct PathwayPoint {
     pub clearance: f64,
 }
 
-/// A continuous free motion, as points so close that U and the clearance between two of them are
-/// as good as linear.
+/// A continuous free motion: from point to point it is straight in x, y and theta (the shorter way
+/// round), proved free to half a micrometre, and rises nowhere above its highest point. The points are so close
+/// that U between two of them is as good as linear.
 pub type Pathway = Vec<PathwayPoint>;
+
+/// Mechanical work against the energy along a pathway, forwards and backwards (J): the sums of its
+/// climbs and of its falls.
+pub fn work(pathway: &Pathway) -> [f64; 2] {
+    let mut work = [0.0; 2];
+    for pair in pathway.windows(2) {
+        let climb = pair[1].energy - pair[0].energy;
+        work[usize::from(climb < 0.0)] += climb.abs();
+    }
+    work
+}
 
 /// What is proved of the highest energy on the best way between two places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -254,6 +266,17 @@ impl Barrier {
     /// energy of tiles far apart.
     pub fn reverse(&self) -> f64 {
         (self.saddle_energy - self.to_energy).max(0.0)
+    }
+
+    /// Work against the energy along the pathway (J), from start to end and back; `None` where no
+    /// way is known.
+    pub fn work(&self) -> Option<[f64; 2]> {
+        self.has_way().then(|| work(&self.pathway))
+    }
+
+    /// Length (m) of the pathway in the metric of the space; `None` where no way is known.
+    pub fn length(&self) -> Option<f64> {
+        self.pathway.last().map(|last| last.s)
     }
 
     /// Takes a pathway between the same ends over, with its highest point.

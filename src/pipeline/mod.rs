@@ -17,7 +17,7 @@ use crate::dynamics::Body;
 use crate::dynamics::check::{self, BarrierCheck};
 use crate::landscape::completeness::Search;
 use crate::landscape::survey::Survey;
-use crate::landscape::{Barrier, Inventory, capture, certification};
+use crate::landscape::{Barrier, Claims, Inventory, Uncertified, capture, certification};
 use crate::observer::Observer;
 use crate::potential::{Interaction, MagnetModel};
 use crate::problem::Problem;
@@ -37,10 +37,13 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     if !missed.is_empty() {
         survey.add(&problem, &missed, &settings.survey(&roadmap));
     }
-    clock.start("states and barriers", 0.6);
+    clock.start("capture shares", 0.6);
+    let far_starts = settings.far_starts();
+    let ends = capture::ends(&problem, &far_starts);
+    let arrivals = capture::arrivals(&problem, &far_starts, &ends);
+    survey.add_arrivals(&problem, &arrivals, &roadmap.edges);
+    clock.start("states and barriers", 0.7);
     let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
-    clock.start("capture shares", 0.7);
-    let ends = capture::ends(&problem, &settings.far_starts());
     for repeat in 1..settings.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
@@ -49,13 +52,10 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         inventory.widen_spread(&problem, &other);
     }
     weigh_blocks(design, &mut inventory);
+    // What captures most is certified first.
+    inventory.count_captures(&problem, &ends);
     clock.start("certificate", 0.75);
-    let certified = certification::certify(
-        &problem,
-        &mut inventory,
-        &settings.certification(),
-        observer,
-    );
+    let certified = certify(&problem, &mut inventory, settings, observer);
     inventory.leave_out_shallow(&problem, settings.least_depth);
     let completeness = search.map(|search| search.conclude(&problem, &survey, &inventory));
     let uncaptured = inventory.count_captures(&problem, &ends);
@@ -78,6 +78,25 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
         },
         stages,
         problem,
+    }
+}
+
+/// Certifies the barriers that are claimed, and leaves out what that shows to be no trap; of what is
+/// left another trap may be the deepest, whose barriers are then claimed.
+fn certify(
+    problem: &Problem,
+    inventory: &mut Inventory,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Result<usize, Uncertified> {
+    let mut cells = 0;
+    loop {
+        cells += certification::certify(problem, inventory, &settings.certification(), observer)?;
+        let count = inventory.states.len();
+        inventory.leave_out_shallow(problem, settings.least_depth);
+        if settings.claims == Claims::All || inventory.states.len() == count {
+            return Ok(cells);
+        }
     }
 }
 

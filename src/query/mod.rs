@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::certificate::{Certifier, Effort, End};
-use crate::landscape::{Barrier, Place, Uncertified};
+use crate::landscape::{Barrier, Place, Uncertified, certification};
 use crate::observer::Observer;
 use crate::pipeline::Settings;
 use crate::potential::CellBounds;
@@ -92,11 +92,23 @@ pub fn barrier(
         Ok(bounds) => {
             let mut certificate = Certificate::new(&problem, bounds, query, &search);
             observer.stage("certificate", 0.0);
-            certificate.narrow(&mut barrier, CELLS_BEFORE_ROADMAP);
-            if !certificate.is_done(&barrier) {
-                barrier.lead_lower(search.through_roadmap(observer));
-                observer.stage("certificate", 0.8);
-                certificate.narrow(&mut barrier, usize::MAX);
+            let mut is_searched = false;
+            for width in certification::widths(problem.depth(), certificate.tolerance) {
+                if !is_searched {
+                    certificate.narrow(&mut barrier, width, CELLS_BEFORE_ROADMAP);
+                }
+                if barrier.bounds.width() <= width {
+                    continue;
+                }
+                if !is_searched {
+                    is_searched = true;
+                    barrier.lead_lower(search.through_roadmap(observer));
+                    observer.stage("certificate", 0.8);
+                }
+                certificate.narrow(&mut barrier, width, usize::MAX);
+                if barrier.bounds.width() > width {
+                    break;
+                }
             }
         }
         Err(_) => barrier.lead_lower(search.through_roadmap(observer)),
@@ -164,13 +176,13 @@ impl<'a> Certificate<'a> {
         }
     }
 
-    /// Narrows the bounds with about so many cells, and takes over the certificate's pathway, made
-    /// finer, where it is lower.
-    fn narrow(&mut self, barrier: &mut Barrier, cells: usize) {
+    /// Narrows the bounds to a width (J), until about so many cells have been assessed altogether,
+    /// and takes over the certificate's pathway, made finer, where it is lower.
+    fn narrow(&mut self, barrier: &mut Barrier, width: f64, cells: usize) {
         let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
         let effort = Effort {
-            tolerance: self.tolerance,
-            cells,
+            tolerance: width,
+            cells: cells.saturating_sub(self.certifier.assessed()),
             time: Some(self.query.certify.saturating_sub(self.since.elapsed())),
         };
         let Query { from, to, .. } = self.query;
@@ -183,10 +195,5 @@ impl<'a> Certificate<'a> {
         if bracket.improved && bracket.bounds.upper.is_some_and(lower) {
             barrier.lead_lower(self.search.near(&bracket.pathway));
         }
-    }
-
-    /// Whether the bounds are as narrow as asked for.
-    fn is_done(&self, barrier: &Barrier) -> bool {
-        barrier.bounds.width() <= self.tolerance
     }
 }

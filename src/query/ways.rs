@@ -1,6 +1,7 @@
 //! Ways between the ends of a query: from a roadmap, or from a certificate's pathway.
 
 use ordered_float::OrderedFloat;
+use std::cell::OnceCell;
 use std::cmp::Reverse;
 use std::collections::HashSet;
 
@@ -8,11 +9,13 @@ use nalgebra::Vector3;
 
 use super::Query;
 use crate::configuration::Configuration;
+use crate::landscape::capture::FarStarts;
 use crate::landscape::certificate::End;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::descend;
+use crate::landscape::pathway::{self, Limits};
 use crate::landscape::survey::Survey;
-use crate::landscape::{Pathway, pathway};
+use crate::landscape::{Pathway, capture, highest_point};
 use crate::observer::Observer;
 use crate::pipeline::{self, Clock};
 use crate::problem::{Problem, Symmetry};
@@ -27,11 +30,16 @@ const PEAKS: usize = 8;
 /// The direction in which a peak is passed is that between the points so far (m) from it.
 const PASSING: f64 = 2e-3;
 
+/// Far starts of which those are followed that end where a way to `free` starts.
+const FAR_STARTS: usize = 100;
+
 /// Looks for ways between the two ends of a query.
 pub(super) struct Search<'a> {
     problem: &'a Problem,
     query: &'a Query,
     roadmap: RoadmapSettings,
+    /// Far starts, each with where it comes to rest; made when they are first asked for.
+    arrivals: OnceCell<Vec<(Configuration, Configuration)>>,
 }
 
 impl<'a> Search<'a> {
@@ -40,7 +48,25 @@ impl<'a> Search<'a> {
             problem,
             query,
             roadmap: query.settings.roadmap(problem),
+            arrivals: OnceCell::new(),
         }
+    }
+
+    /// Adds the ways in which far starts come to rest, where the way that is asked for leads to
+    /// `free`.
+    fn add_arrivals(&self, survey: &mut Survey) {
+        if self.query.to != End::Free {
+            return;
+        }
+        let arrivals = self.arrivals.get_or_init(|| {
+            let far_starts = FarStarts {
+                count: FAR_STARTS,
+                seed: self.query.settings.seed,
+            };
+            let ends = capture::ends(self.problem, &far_starts);
+            capture::arrivals(self.problem, &far_starts, &ends)
+        });
+        survey.add_arrivals(self.problem, arrivals, &self.roadmap.edges);
     }
 
     /// The minimax pathway that a roadmap holds; empty where it holds none.
@@ -59,6 +85,7 @@ impl<'a> Search<'a> {
             End::At(to) => self.attach(&mut survey, to),
             End::Free => survey.free,
         };
+        self.add_arrivals(&mut survey);
         self.lowest(&survey, from, to)
     }
 
@@ -66,13 +93,19 @@ impl<'a> Search<'a> {
     /// along the descents from the transition states at its peaks, where these lead from end to
     /// end, and nowhere higher than the proved one.
     pub fn near(&self, proved: &[Configuration]) -> Pathway {
-        let proved = pathway::of_configurations(self.problem, proved, BEND * self.problem.depth());
+        let depth = self.problem.depth();
+        let proved = pathway::of_configurations(self.problem, proved, BEND * depth);
+        let highest = highest_point(&proved).map_or(f64::INFINITY, |point| point.energy);
+        let proved: Vec<Configuration> = proved.iter().map(|p| p.configuration).collect();
+        let limits = Limits::below(highest + 1e-9 * depth, depth);
+        let proved = pathway::shortened(self.problem, &proved, &limits);
+        let proved = pathway::of_configurations(self.problem, &proved, BEND * depth);
         let points: Vec<Point> = proved
             .iter()
             .map(|p| Point::new(self.problem, p.configuration))
             .collect();
         let Some(last) = points.last().copied() else {
-            return proved;
+            return Pathway::new();
         };
         let peaks = peaks(self.problem, &points);
         let mut survey = Survey::of_roadmap(self.problem, Roadmap::default());
@@ -94,6 +127,7 @@ impl<'a> Search<'a> {
             &[Symmetry::IDENTITY],
             &self.roadmap.edges,
         );
+        self.add_arrivals(&mut survey);
         let goal = match self.query.to {
             End::At(_) => to,
             End::Free => survey.free,

@@ -228,6 +228,10 @@ fn barrier_columns() -> Vec<Column<Barrier>> {
         // Null where no way is known, as is the file of the pathway, relative to the report.
         c([ 0,  0,  4,  0], "saddle_pose", "", "saddle", |b| value(passable(b).map(saddle))),
         c([13,  0, 11,  0], "pathway", "", "pathway", |b| value(passable(b).map(pathway_file))),
+        // Work against the energy along the pathway and back, and its length.
+        c([15,  9, 12,  9], "work", "J", "work", |b| real(b.work().map(|work| work[0]))),
+        c([16, 10, 13,  0], "reverse_work", "J", "back", |b| real(b.work().map(|work| work[1]))),
+        c([17, 11, 14, 10], "length", "m", "length", |b| real(b.length())),
     ]
 }
 

@@ -61,6 +61,9 @@ impl Comparison {
         for line in self.orders() {
             let _ = writeln!(out, "{line}");
         }
+        if self.designs.iter().any(has_estimates) {
+            let _ = writeln!(out, "({ESTIMATES})");
+        }
         if self.designs.iter().any(misses_head_on) {
             let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
         }
@@ -92,6 +95,9 @@ impl Comparison {
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
         );
+        if self.designs.iter().any(has_estimates) {
+            let _ = write!(note, " (The {ESTIMATES}.)");
+        }
         if self.designs.iter().any(misses_head_on) {
             let _ = write!(note, " \u{201c}{NOT_HEAD_ON}\u{201d}: {WHY_NOT_HEAD_ON}.");
         }
@@ -217,6 +223,20 @@ impl Comparison {
         }
         Value::Object(all)
     }
+}
+
+/// What barriers are of which nothing is proved.
+const ESTIMATES: &str = "barriers without brackets are estimates of a roadmap: too high where \
+                         it misses a passage";
+
+/// Whether nothing is proved of a barrier that is shown.
+fn has_estimates(design: &Assessment) -> bool {
+    let is_estimate = |quantity: &&Quantity| {
+        let estimate = quantity.of(design);
+        quantity.bounds == CERTIFIED
+            && estimate.is_some_and(|e| e.low.is_none() && e.value.is_finite())
+    };
+    QUANTITIES.iter().any(|quantity| is_estimate(&quantity))
 }
 
 /// A line on what moving tiles say of all barriers that they checked; empty where they were not

@@ -13,14 +13,16 @@ use crate::pipeline::Analysis;
 /// Lengths are in m, theta is in rad.
 const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
 
-/// How far (m, and rad) a dropped point of a pathway may lie from the straight motion between its
-/// neighbours in the file.
-const POSE_TOLERANCE: f64 = 1e-5;
-/// How far the clearance may be off there beyond that, as a fraction of itself.
-const CLEARANCE_TOLERANCE: f64 = 1e-3;
-/// How far the energy may be off there, as a fraction of the range of energies on the pathway.
-const ENERGY_TOLERANCE: f64 = 1e-3;
-
+/// How far (m, and rad) a point left out of a pathway's file may lie from the straight motion between
+/// its neighbours, and how far the energy may be off there, as a fraction of the range of energies on
+/// the pathway: the file, joined by straight motions, is the pathway.
+const SAME_MOTION: [f64; 2] = [1e-8, 1e-4];
+/// The same for pictures.
+pub(super) const SEEN: [f64; 2] = [1e-5, 1e-3];
+/// How far the clearance may be off there.
+const CLEARANCE_TOLERANCE: f64 = 1e-5;
+/// How far it may be off beyond that, as a fraction of itself.
+const RELATIVE_CLEARANCE: f64 = 1e-3;
 /// The table of states. Where magnets are point dipoles its last two columns hold the energy of the
 /// blocks they stand for, and how much higher the dipoles' is.
 pub fn states(design: &Design, analysis: &Analysis) -> String {
@@ -57,10 +59,11 @@ fn cell(cell: Cell) -> String {
     }
 }
 
-/// A pathway, point by point. Points are left out where the motion between their neighbours is
-/// straight and the energy along it linear; the highest point always stays.
+/// A pathway, point by point: between two of them it is straight in x, y and theta (the shorter way
+/// round). Points are left out where the motion between their neighbours is straight and the energy
+/// along it linear; the highest point always stays.
 pub fn pathway(pathway: &Pathway) -> String {
-    let rows = thinned(pathway).into_iter().map(|point| {
+    let rows = thinned(pathway, SAME_MOTION).into_iter().map(|point| {
         let [x, y, theta] = point.configuration.to_array();
         [point.s, x, y, theta, point.energy, point.clearance].map(number)
     });
@@ -86,8 +89,9 @@ pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
     String::from_utf8(bytes).expect("cells are text")
 }
 
-/// The points of a pathway that are not on the straight line between their neighbours.
-pub(super) fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
+/// The points of a pathway that are not on the straight line between their neighbours, to within
+/// tolerances of the pose (m, and rad) and of the energy (a fraction of its range).
+pub(super) fn thinned(pathway: &Pathway, [pose, energy]: [f64; 2]) -> Vec<PathwayPoint> {
     let Some(highest) = (0..pathway.len()).max_by_key(|&k| OrderedFloat(pathway[k].energy)) else {
         return Vec::new();
     };
@@ -95,7 +99,7 @@ pub(super) fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
         .iter()
         .map(|p| p.energy)
         .fold(f64::INFINITY, f64::min);
-    let allowed = ENERGY_TOLERANCE * (pathway[highest].energy - lowest);
+    let allowed = [pose, energy * (pathway[highest].energy - lowest)];
     let mut kept = vec![pathway[0]];
     let mut here = 0;
     while here + 1 < pathway.len() {
@@ -114,15 +118,21 @@ pub(super) fn thinned(pathway: &Pathway) -> Vec<PathwayPoint> {
 }
 
 /// Whether interpolation between two points of a pathway gives the one between them.
-fn is_between(pathway: &Pathway, start: usize, between: usize, end: usize, allowed: f64) -> bool {
+fn is_between(
+    pathway: &Pathway,
+    start: usize,
+    between: usize,
+    end: usize,
+    [pose, energy]: [f64; 2],
+) -> bool {
     let (a, p, b) = (&pathway[start], &pathway[between], &pathway[end]);
     let t = (p.s - a.s) / (b.s - a.s);
     let linear = |of: fn(&PathwayPoint) -> f64| of(p) - (of(a) + t * (of(b) - of(a)));
     let straight = a.configuration.interpolate(&b.configuration, t);
     t.is_finite()
-        && straight.step_to(&p.configuration).amax() <= POSE_TOLERANCE
-        && linear(|p| p.clearance).abs() <= POSE_TOLERANCE + CLEARANCE_TOLERANCE * p.clearance
-        && linear(|p| p.energy).abs() <= allowed
+        && straight.step_to(&p.configuration).amax() <= pose
+        && linear(|p| p.clearance).abs() <= CLEARANCE_TOLERANCE + RELATIVE_CLEARANCE * p.clearance
+        && linear(|p| p.energy).abs() <= energy
 }
 
 /// A number; empty if it is none, or infinite.
@@ -182,14 +192,14 @@ mod tests {
     #[test]
     fn straight_stretches_lose_their_inner_points_but_never_the_peak() {
         let line: Pathway = (0..=10).map(|k| point(k as f64, k as f64)).collect();
-        assert_eq!(thinned(&line).len(), 2);
+        assert_eq!(thinned(&line, SAME_MOTION).len(), 2);
         let bent: Pathway = (0..=10)
             .map(|k| point(k as f64, -(k as f64 - 4.0).abs()))
             .collect();
-        let kept: Vec<f64> = thinned(&bent).iter().map(|p| p.s).collect();
+        let kept: Vec<f64> = thinned(&bent, SAME_MOTION).iter().map(|p| p.s).collect();
         assert_eq!(kept, [0.0, 4.0, 10.0]);
         let flat: Pathway = (0..=10).map(|k| point(k as f64, 1.0)).collect();
-        assert!(thinned(&flat).len() <= 3);
-        assert!(thinned(&Vec::new()).is_empty());
+        assert!(thinned(&flat, SAME_MOTION).len() <= 3);
+        assert!(thinned(&Vec::new(), SAME_MOTION).is_empty());
     }
 }

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::landscape::{Inventory, Kind, Place, Proportion};
+use crate::landscape::{Barrier, Inventory, Kind, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
 use crate::report::names::face_names;
@@ -222,16 +222,32 @@ fn write_bond(text: &mut String, analysis: &Analysis, bond: Option<&Kind>) {
         Some(way) if way.saddle_energy <= 0.0 => {
             writeln!(
                 text,
-                "no barrier on the best way from far apart into the bond"
+                "no barrier on the best way from far apart into the bond{}",
+                work_and_length(way)
             )
         }
         Some(way) if way.has_way() => writeln!(
             text,
-            "a barrier of {} on the best way from far apart into the bond",
-            si(way.saddle_energy, "J", DIGITS)
+            "a barrier of {} on the best way from far apart into the bond{}",
+            si(way.saddle_energy, "J", DIGITS),
+            work_and_length(way)
         ),
         _ => writeln!(text, "no way from far apart into the bond was found"),
     };
+}
+
+/// What the best way out of the bond takes, gone backwards: climbs too small to matter are none.
+fn work_and_length(way_out: &Barrier) -> String {
+    let Some(([_, climbs], length)) = way_out.work().zip(way_out.length()) else {
+        return String::new();
+    };
+    let work = if climbs < 1e-5 * way_out.forward() {
+        0.0
+    } else {
+        climbs
+    };
+    let [work, length] = [si(work, "J", 3), si(length, "m", 3)];
+    format!(": {work} of work over {length}")
 }
 
 fn write_deepest(text: &mut String, inventory: &Inventory, bond: Option<&Kind>, traps: &[Kind]) {

@@ -19,7 +19,12 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
             for direct in barriers.iter().filter(direct) {
                 let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
                 let chain = upper(first).max(upper(second));
-                assert!(upper(direct) <= chain + 1e-6 * 65.5e-3, "{direct:?}");
+                // A natural way to free is not given up for one lower by a hundredth of the barrier.
+                let allowed = match direct.to {
+                    Place::Free => 0.01 * direct.forward(),
+                    Place::State(_) => 1e-6 * 65.5e-3,
+                };
+                assert!(upper(direct) <= chain + allowed, "{direct:?}");
                 compared += 1;
             }
         }

@@ -11,6 +11,7 @@ mod designs;
 mod inventory;
 mod minimum;
 mod neighbours;
+mod pathways;
 mod ranking;
 mod roadmap;
 mod seam;

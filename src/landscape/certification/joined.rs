@@ -13,7 +13,8 @@ use crate::landscape::results::{Barrier, Pathway, Place};
 type Places = UnGraph<Place, (f64, usize)>;
 
 /// Gives barriers the pathway of other barriers over states between their ends, where that is
-/// proved to be lower by more than `gain` (J).
+/// proved to be lower by more than `gain` (J), and to `free` by more than far configurations are let
+/// differ.
 ///
 /// The minimax energy from A to C is at most the greater of those from A to B and from B to C, and
 /// so is the bound of the two pathways, one after the other: both are proved from and to B itself,
@@ -33,6 +34,10 @@ pub fn take_over_chains(space: &ConfigurationSpace, inventory: &mut Inventory, g
             continue;
         };
         let known = barrier.bounds.upper;
+        let gain = match barrier.to {
+            Place::Free => gain.max(pathway::AMONG_FAR * barrier.forward()),
+            Place::State(_) => gain,
+        };
         if known.is_none_or(|known| upper < known - gain) {
             barrier.bounds.upper = Some(upper);
             barrier.lead_along(pathway);

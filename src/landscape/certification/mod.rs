@@ -1,25 +1,21 @@
 //! Certified bounds for the barriers of an inventory.
 
 mod joined;
+mod schedule;
 
 use std::time::{Duration, Instant};
 
 use super::certificate::{Bracket, Certifier, Effort, End};
 use super::inventory::{Inventory, LEAST_GAIN};
-use super::pathway;
+use super::pathway::{self, Limits};
 use super::results::{Barrier, Place, StateKind, highest_point};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
 use crate::potential::Unbounded;
 use crate::problem::Problem;
 
-/// Cells spent on narrowing the bounds of a small barrier further.
-const MORE_CELLS: usize = 20_000;
-/// Bounds are narrowed to this share of the bond's depth, and to this share of the barrier, but not
-/// below that share of the bond's depth.
-const SHARE_OF_BOND: f64 = 0.01;
-const SHARE_OF_BARRIER: f64 = 0.05;
-const LEAST_SHARE: f64 = 1e-5;
+pub use schedule::widths;
+
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
@@ -74,6 +70,9 @@ pub enum Uncertified {
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
 /// proof is tried that there is none. Returns the number of cells assessed.
 ///
+/// Brackets are narrowed [step by step](widths), and the best bounds seen are kept: more time never
+/// makes one wider, and where one width is asked for of all, neither does a smaller width.
+///
 /// Only results within the time limit are the same on every machine.
 ///
 /// # Errors
@@ -92,43 +91,40 @@ pub fn certify(
     let depth = problem.depth();
     let mut certifier = Certifier::new(bounds, problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
-    let count = inventory.barriers.len();
-    let passes: &[Pass] = match settings.tolerance {
-        Some(tolerance) => &[(settings.cells, &move |_| tolerance)],
-        None => &[
-            (settings.cells, &|_| SHARE_OF_BOND * depth),
-            (MORE_CELLS.min(settings.cells), &|barrier| {
-                narrow_width(barrier, depth)
-            }),
-        ],
-    };
-    for (pass, (cells, width)) in passes.iter().enumerate() {
-        for number in 0..count {
-            observer.part("certificate", pass * count + number, passes.len() * count);
+    let mut left: Vec<usize> = vec![settings.cells; inventory.barriers.len()];
+    let rounds = schedule::rounds(inventory, settings, depth);
+    let count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
+    let mut done = 0;
+    for (width, numbers) in rounds {
+        for number in numbers {
+            observer.part("certificate", done, count);
+            done += 1;
             let barrier = &inventory.barriers[number];
-            if !settings.claims.include(barrier, inventory) {
+            let time = limit.saturating_sub(since.elapsed());
+            let wanted = schedule::wanted(barrier, settings, depth);
+            if barrier.bounds.width() <= width.max(wanted) || left[number] == 0 || time.is_zero() {
                 continue;
             }
             let effort = Effort {
-                tolerance: width(barrier),
-                cells: *cells,
-                time: Some(limit.saturating_sub(since.elapsed())),
+                tolerance: schedule::step(width, wanted, settings),
+                cells: left[number],
+                time: Some(time),
             };
-            if barrier.bounds.width() <= effort.tolerance {
+            let Some(bracket) = bracket(&mut certifier, inventory, barrier, &effort) else {
                 continue;
-            }
-            if let Some(bracket) = bracket(&mut certifier, inventory, barrier, &effort) {
-                let barrier = &mut inventory.barriers[number];
-                take_over(problem, barrier, &bracket, BEND * depth);
-            }
+            };
+            let barrier = &mut inventory.barriers[number];
+            take_over(problem, barrier, &bracket, BEND * depth);
+            left[number] = schedule::cells_left(
+                left[number].saturating_sub(bracket.cells),
+                barrier.bounds.width() <= effort.tolerance,
+                settings,
+            );
         }
         joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
     }
     Ok(certifier.assessed())
 }
-
-/// Cells spent on a barrier at most, and the width (J) that its bounds are to have.
-type Pass<'a> = (usize, &'a dyn Fn(&Barrier) -> f64);
 
 fn bracket(
     certifier: &mut Certifier,
@@ -148,12 +144,6 @@ fn bracket(
     certifier.bracket(&start, &to, &known, effort).ok()
 }
 
-/// Width (J) that tells something of a barrier much smaller than the bond, too.
-fn narrow_width(barrier: &Barrier, depth: f64) -> f64 {
-    let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
-    of_barrier.min(SHARE_OF_BOND * depth)
-}
-
 fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
     barrier.bounds.tighten(bracket.bounds);
     // In place of a pathway that could not be proved the certificate's own may lie higher.
@@ -162,7 +152,8 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
         return;
     };
     // The certificate's own leads through the middles of its cells.
-    let direct = pathway::shortened(problem, &bracket.pathway, upper, 0.1 * bend);
+    let limits = Limits::below(upper, problem.depth());
+    let direct = pathway::shortened(problem, &bracket.pathway, &limits);
     for points in [&direct, &bracket.pathway] {
         let pathway = pathway::of_configurations(problem, points, bend);
         if highest_point(&pathway).is_some_and(|highest| highest.energy <= upper) {

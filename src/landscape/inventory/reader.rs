@@ -282,14 +282,8 @@ impl Reader<'_> {
         };
         let (_, cost, route) = network.cheapest(from.1, &HashSet::from([to.1]), cost)?;
         let depth = self.energy(0).abs();
-        let pathway = pathway::along(
-            self.problem,
-            network,
-            &route,
-            f64::NEG_INFINITY,
-            2e-3 * depth,
-        );
-        Some(Alternative {
+        let pathway = pathway::along(self.problem, network, &route, None, 2e-3 * depth);
+        (!pathway.is_empty()).then_some(Alternative {
             from: from.0,
             to: to.0,
             by,

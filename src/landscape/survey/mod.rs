@@ -13,6 +13,7 @@
 //! fraction of the barrier from round to round. Before that, states that nothing joins to `free`
 //! are withdrawn straight from what they touch.
 
+mod arrivals;
 mod densify;
 mod siblings;
 mod withdraw;

@@ -86,7 +86,7 @@ pub fn played(scene: &Scene) -> Vec<Played> {
 }
 
 fn points(pathway: &Pathway) -> Vec<[f64; 7]> {
-    csv::thinned(pathway)
+    csv::thinned(pathway, csv::SEEN)
         .iter()
         .map(|point| {
             let q = point.configuration;

@@ -222,7 +222,8 @@ fn compact_results_leave_out_copies_and_pixels() {
     analyse(folder.path(), &["--compact"]);
     let files = contents(folder.path());
     assert!(!files.keys().any(|name| name.ends_with(".png")));
-    assert!(files.values().map(Vec::len).sum::<usize>() < 900_000);
+    // Half of it pathways: as many points as it takes for straight motions between them to be free.
+    assert!(files.values().map(Vec::len).sum::<usize>() < 1_100_000);
     let report = report(folder.path());
     for state in report["states"].as_array().unwrap() {
         let pathway = &state["escape"]["pathway"];

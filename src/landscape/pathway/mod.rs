@@ -1,0 +1,178 @@
+//! Pathways: a route through the network as a sequence of configurations joined by straight motions
+//! that are proved free.
+
+mod legs;
+mod shortcut;
+
+use std::collections::HashSet;
+
+use super::network::{Cost, Network, Route, Way};
+use super::results::{Pathway, PathwayPoint, highest_point};
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::problem::Problem;
+
+pub use legs::of_configurations;
+use shortcut::bypassed;
+pub use shortcut::{Limits, shortened};
+
+/// Descents into one minimum end this close to each other (m, metric of the space).
+const SAME: f64 = 1e-7;
+
+/// How much higher a way to `free` may rise than the lowest one, as a fraction of the barrier and not
+/// above 0: far configurations are all free, but their energies differ a little.
+pub(super) const AMONG_FAR: f64 = 0.01;
+
+/// A pathway with shortcuts that rises higher by this fraction of the depth than the network holds
+/// is not taken unseen.
+const HIGHER: f64 = 1e-7;
+
+/// The best way between two nodes.
+#[derive(Clone, Debug)]
+pub struct Lowest {
+    /// The node that it reaches.
+    pub end: usize,
+    /// From the first node to the one it reaches; never empty. Where detours could be cut short, it
+    /// may lie below what the network holds.
+    pub pathway: Pathway,
+}
+
+/// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
+/// highest energy the one with the least work to one of the `ends`, and of those the shortest. Steps
+/// are halved until the energy between two points is linear to within `bend` (J); energies are
+/// measured by `depth` (J).
+pub fn lowest(
+    problem: &Problem,
+    network: &Network,
+    from: usize,
+    [goals, ends]: [&HashSet<usize>; 2],
+    [depth, bend]: [f64; 2],
+) -> Option<Lowest> {
+    let limits = Limits::below(highest(network, from, goals, depth)?, depth);
+    let cost = Cost::Below {
+        highest: limits.highest,
+        per_metre: limits.per_metre,
+    };
+    let (end, _, route) = network.cheapest(from, ends, cost)?;
+    let peak = |way: &Pathway| highest_point(way).map_or(f64::INFINITY, |point| point.energy);
+    let mut pathway = along(problem, network, &route, Some(&limits), bend);
+    if peak(&pathway) > limits.highest + HIGHER * depth {
+        let plain = along(problem, network, &route, None, bend);
+        pathway = [pathway, plain]
+            .into_iter()
+            .min_by(|a, b| peak(a).total_cmp(&peak(b)))?;
+    }
+    (!pathway.is_empty()).then_some(Lowest { end, pathway })
+}
+
+/// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
+/// possible, but for rounding.
+fn highest(network: &Network, from: usize, goals: &HashSet<usize>, depth: f64) -> Option<f64> {
+    let least = network.minimax(from, goals)?;
+    let rounding = 1e-12 * depth;
+    let is_free = |node: &usize| network.nodes[*node].is_none();
+    if !goals.iter().all(is_free) || least >= 0.0 {
+        return Some(least + rounding);
+    }
+    let start = network.nodes[from].map_or(0.0, |node| node.1);
+    Some((least + rounding.max(AMONG_FAR * (least - start))).min(0.0))
+}
+
+/// A pathway gone backwards.
+pub fn reversed(pathway: &Pathway) -> Pathway {
+    let length = pathway.last().map_or(0.0, |last| last.s);
+    let back = |point: &PathwayPoint| PathwayPoint {
+        s: length - point.s,
+        ..*point
+    };
+    pathway.iter().rev().map(back).collect()
+}
+
+/// Two pathways, one after the other; `None` where the second does not begin where the first one
+/// ends. An empty first one may end anywhere.
+pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -> Option<Pathway> {
+    let (Some(end), Some(start)) = (first.last().copied(), second.first()) else {
+        return Some(if first.is_empty() { second } else { first });
+    };
+    if space.distance(&end.configuration, &start.configuration) > SAME {
+        return None;
+    }
+    let rest = second.into_iter().skip(1);
+    first.extend(rest.map(|point| PathwayPoint {
+        s: end.s + point.s,
+        ..point
+    }));
+    Some(first)
+}
+
+/// The pathway along a route. Stretches of straight motions are cut short within the limits; steps
+/// are halved until the energy between two points is linear to within `bend` (J).
+pub fn along(
+    problem: &Problem,
+    network: &Network,
+    route: &Route,
+    limits: Option<&Limits>,
+    bend: f64,
+) -> Pathway {
+    let mut all: Vec<Configuration> = Vec::new();
+    for stretch in stretches(network, route) {
+        let points = match (stretch, limits) {
+            (Stretch::Straight(points), Some(limits)) => shortened(problem, &points, limits),
+            (Stretch::Straight(points) | Stretch::Way(points), _) => points,
+        };
+        let repeated = usize::from(!all.is_empty() && all.last() == points.first());
+        all.extend(points.into_iter().skip(repeated));
+    }
+    if let Some(limits) = limits {
+        all = bypassed(problem, &all, limits);
+    }
+    of_configurations(problem, &all, bend)
+}
+
+/// Appends a point.
+fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, energy: f64) {
+    let s = pathway.last().map_or(0.0, |last| {
+        last.s + problem.space.distance(&last.configuration, &configuration)
+    });
+    pathway.push(PathwayPoint {
+        s,
+        configuration,
+        energy,
+        clearance: problem.clearance(&configuration),
+    });
+}
+
+enum Stretch {
+    Straight(Vec<Configuration>),
+    Way(Vec<Configuration>),
+}
+
+/// A route's links, neighbouring straight motions taken together.
+fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for &(number, forwards) in route {
+        let link = &network.links[number];
+        let mut ends = [link.from, link.to];
+        if !forwards {
+            ends.reverse();
+        }
+        match network.way(number) {
+            Way::Same => {}
+            Way::Points(points) => {
+                let mut way: Vec<Configuration> = points.iter().map(|p| p.q).collect();
+                if !forwards {
+                    way.reverse();
+                }
+                all.push(Stretch::Way(way));
+            }
+            Way::Straight => {
+                let ends = ends.map(|node| network.nodes[node as usize].map(|n| n.0));
+                let [Some(a), Some(b)] = ends else { continue };
+                match all.last_mut() {
+                    Some(Stretch::Straight(points)) => points.push(b),
+                    _ => all.push(Stretch::Straight(vec![a, b])),
+                }
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,221 @@
+//! Detours cut short.
+
+use super::legs::OVERLAP;
+use crate::configuration::Configuration;
+use crate::landscape::constrained;
+use crate::problem::Problem;
+use crate::roadmap::profile::Profile;
+use crate::roadmap::{Milestone, ProfileTolerance};
+
+/// Longest step (m, metric of the space) between two points from which a detour may be cut short.
+const STEP: f64 = 0.02;
+/// So often the points are looked at anew, a kink that is left being the end of no shortcut.
+const PASSES: usize = 2;
+/// So often each point is pulled towards the middle between its neighbours.
+const PULLS: usize = 2;
+/// A point nearer (m, metric of the space) to that middle is left where it is.
+const KINK: f64 = 1e-3;
+
+/// What a metre of the way counts as much as, as a fraction of the depth by which energies are
+/// measured: of ways with as little work the shorter one is taken.
+const PER_METRE: f64 = 1e-3;
+/// How closely energies along shortcuts are known, as a fraction of the depth.
+const CLOSELY: f64 = 1e-5;
+
+/// Bypasses taken on one way at most; points of it that are looked at for one, and pairs of them that
+/// are tried.
+const BYPASSES: usize = 4;
+const LOOKED_AT: usize = 32;
+const TRIED: usize = 200;
+/// A bypass is looked for where it may save as much as so many metres of the way.
+const WORTHWHILE: f64 = 0.1;
+
+/// What a shortcut has to keep to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// It rises nowhere above this (J).
+    pub highest: f64,
+    /// Energy (J) that a metre of the way counts as much as.
+    pub per_metre: f64,
+    /// How closely energies along it have to be known (J).
+    pub tolerance: f64,
+}
+
+impl Limits {
+    /// Ways that rise nowhere above `highest` (J), energies being measured by `depth` (J).
+    pub fn below(highest: f64, depth: f64) -> Self {
+        Self {
+            highest,
+            per_metre: PER_METRE * depth,
+            tolerance: CLOSELY * depth,
+        }
+    }
+}
+
+/// A polyline with the detours cut out that a direct motion can replace: one that is free, keeps
+/// below the highest energy, and takes no more work, each metre counted as work too. What is left is
+/// pulled tight.
+pub fn shortened(
+    problem: &Problem,
+    points: &[Configuration],
+    limits: &Limits,
+) -> Vec<Configuration> {
+    let mut points = points.to_vec();
+    for _ in 0..PASSES {
+        points = cut_short(problem, &subdivided(problem, &points), limits);
+    }
+    tighten(problem, &mut points, limits);
+    points
+}
+
+/// Pulls a polyline tight like a rubber band: point by point towards the middle between its two
+/// neighbours, out of overlap where it gets into it, as long as that costs less.
+fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
+    let price = |way: [&Configuration; 3]| {
+        let milestones = way.map(|q| Milestone::new(problem, *q));
+        let [a, b, c] = &milestones;
+        let halves = [[a, b], [b, c]].map(|ends| motion(problem, ends, limits));
+        let peak = halves[0].0.max(halves[1].0);
+        (peak <= limits.highest).then_some(halves[0].1 + halves[1].1)
+    };
+    for _ in 0..PULLS {
+        for k in 1..points.len().saturating_sub(1) {
+            let [before, here, after] = [points[k - 1], points[k], points[k + 1]];
+            let middle = before.interpolate(&after, 0.5);
+            let aside = problem.space.distance(&middle, &here);
+            if aside < KINK {
+                continue;
+            }
+            let Some(pulled) = constrained::settle(problem, &middle, aside) else {
+                continue;
+            };
+            let is_free = is_free(problem, &before, &pulled) && is_free(problem, &pulled, &after);
+            let cost = |q: &Configuration| price([&before, q, &after]);
+            let (Some(new), Some(old)) = (is_free.then(|| cost(&pulled)).flatten(), cost(&here))
+            else {
+                continue;
+            };
+            if new < old - limits.tolerance {
+                points[k] = pulled;
+            }
+        }
+    }
+}
+
+/// Whether a straight motion overlaps no more than the legs of a pathway do.
+fn is_free(problem: &Problem, from: &Configuration, to: &Configuration) -> bool {
+    problem.motion_overlaps_at_most(from, to, OVERLAP)
+}
+
+fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration> {
+    let mut fine: Vec<Configuration> = points.first().copied().into_iter().collect();
+    for pair in points.windows(2) {
+        let count = (problem.space.distance(&pair[0], &pair[1]) / STEP).ceil();
+        let between = (1..count as usize).map(|k| pair[0].interpolate(&pair[1], k as f64 / count));
+        fine.extend(between.chain([pair[1]]));
+    }
+    fine
+}
+
+/// A polyline with those dips and detours bypassed that cost more than a straight motion between two
+/// points of it, the worst first: a route goes along whole links of a network, down to a state and up
+/// again, where it might have left the one for the other half-way.
+pub fn bypassed(
+    problem: &Problem,
+    points: &[Configuration],
+    limits: &Limits,
+) -> Vec<Configuration> {
+    let mut points = points.to_vec();
+    for _ in 0..BYPASSES {
+        let Some((from, to)) = worst_detour(problem, &points, limits) else {
+            break;
+        };
+        points.drain(from + 1..to);
+    }
+    points
+}
+
+/// Two points of a polyline between which a straight motion saves most, as far as was looked.
+fn worst_detour(
+    problem: &Problem,
+    points: &[Configuration],
+    limits: &Limits,
+) -> Option<(usize, usize)> {
+    let energies: Vec<f64> = points.iter().map(|q| problem.energy(q)).collect();
+    let price = |from: usize, to: usize, climb: f64| {
+        let length = problem.space.distance(&points[from], &points[to]);
+        climb.max(0.0) + limits.per_metre * length
+    };
+    let mut prices = vec![0.0];
+    for k in 1..points.len() {
+        let step = price(k - 1, k, energies[k] - energies[k - 1]);
+        prices.push(prices[k - 1] + step);
+    }
+    let stride = points.len().div_ceil(LOOKED_AT).max(1);
+    let looked_at: Vec<usize> = (0..points.len()).step_by(stride).collect();
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (k, &from) in looked_at.iter().enumerate() {
+        for &to in &looked_at[k + 1..] {
+            // At best.
+            let direct = price(from, to, energies[to] - energies[from]);
+            let saved = prices[to] - prices[from] - direct;
+            if saved > WORTHWHILE * limits.per_metre {
+                pairs.push((saved, from, to));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let is_bypass = |&&(saved, from, to): &&(f64, usize, usize)| {
+        is_free(problem, &points[from], &points[to]) && {
+            let ends = [from, to].map(|k| Milestone::new(problem, points[k]));
+            let (peak, price) = motion(problem, [&ends[0], &ends[1]], limits);
+            let gain = prices[to] - prices[from] - price;
+            peak <= limits.highest && gain > 0.5 * saved
+        }
+    };
+    let found = pairs.iter().take(TRIED).find(is_bypass)?;
+    Some((found.1, found.2))
+}
+
+/// From each point the farthest is tried first, then the one half as far along, and so on.
+fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Vec<Configuration> {
+    let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
+    let mut price = 0.0;
+    let mut prices = vec![price];
+    for pair in milestones.windows(2) {
+        price += motion(problem, [&pair[0], &pair[1]], limits).1;
+        prices.push(price);
+    }
+    let is_better = |from: usize, to: usize| {
+        let ends = [&milestones[from], &milestones[to]];
+        is_free(problem, &points[from], &points[to]) && {
+            let (peak, price) = motion(problem, ends, limits);
+            peak <= limits.highest && price <= prices[to] - prices[from] + limits.tolerance
+        }
+    };
+    let mut kept: Vec<Configuration> = points.first().copied().into_iter().collect();
+    let mut here = 0;
+    while here + 1 < points.len() {
+        let mut ahead = points.len() - 1 - here;
+        while ahead > 1 && !is_better(here, here + ahead) {
+            ahead /= 2;
+        }
+        here += ahead;
+        kept.push(points[here]);
+    }
+    kept
+}
+
+/// The highest energy (J) on a straight motion, and what it costs (J).
+fn motion(problem: &Problem, [a, b]: [&Milestone; 2], limits: &Limits) -> (f64, f64) {
+    let tolerance = ProfileTolerance {
+        relative: 0.0,
+        absolute: limits.tolerance,
+    };
+    let profile = Profile::new(problem, a, b, &tolerance);
+    let length = problem.space.distance(&a.configuration, &b.configuration);
+    (
+        profile.peak().energy,
+        profile.work().0 + limits.per_metre * length,
+    )
+}

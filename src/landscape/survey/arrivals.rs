@@ -1,0 +1,74 @@
+//! Ways in from far apart, as overdamped motion takes them: they never climb.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::Survey;
+use crate::configuration::Configuration;
+use crate::landscape::constrained::Point;
+use crate::landscape::minimum::{Outcome, approach};
+use crate::problem::Problem;
+use crate::roadmap::EdgeSettings;
+
+/// Ways that are followed into one state.
+const FOLLOWED: usize = 3;
+/// Ways that are followed into the bound configuration, of which one is the way tiles dock.
+const FOLLOWED_INTO_BOND: usize = 12;
+/// A start that is known to end this close (m, metric of the space) to a state ends in it.
+const SAME: f64 = 1e-4;
+/// So close (m, metric of the space) to the bound configuration a state is the bond.
+const BOUND: f64 = 5e-3;
+
+impl Survey {
+    /// Adds the descents of some far starts to the network, each given with where it is known to
+    /// end: the first ones of those that end in a state.
+    pub fn add_arrivals(
+        &mut self,
+        problem: &Problem,
+        far: &[(Configuration, Configuration)],
+        settings: &EdgeSettings,
+    ) {
+        let mut followed: HashMap<usize, usize> = HashMap::new();
+        let wanted = |(_, end): &&(Configuration, Configuration)| {
+            let Some(state) = self.state_at(problem, end, SAME) else {
+                return false;
+            };
+            let count = followed.entry(state).or_default();
+            *count += 1;
+            *count <= self.most_followed(problem, state)
+        };
+        let starts: Vec<Configuration> =
+            far.iter().filter(wanted).map(|(start, _)| *start).collect();
+        let descents: Vec<_> = starts.par_iter().map(|q| approach(problem, q)).collect();
+        for mut descent in descents {
+            // What lies behind is free as well.
+            let is_far = |point: &Point| problem.space.is_far(&point.q);
+            let last = descent.way.iter().rposition(is_far);
+            let (Some(last), Outcome::Minimum(_)) = (last, &descent.outcome) else {
+                continue;
+            };
+            descent.way.drain(..last);
+            let Some(end) = self.arrive(problem, &descent) else {
+                continue;
+            };
+            let first = descent.way[0];
+            let node = self.network.add_node(Some((first.q, first.energy)));
+            self.network.add_same(node, self.free, first.energy);
+            self.network
+                .add_way(problem, node, end, descent.way, settings);
+        }
+        self.network.span();
+    }
+
+    fn most_followed(&self, problem: &Problem, state: usize) -> usize {
+        let q = self.states[state].minimum.point.q;
+        let pair = problem.pair.as_ref();
+        let is_bond = pair.is_some_and(|pair| problem.space.distance(&q, &pair.bound) < BOUND);
+        if is_bond {
+            FOLLOWED_INTO_BOND
+        } else {
+            FOLLOWED
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The pathways that are written are the proved ones: joined by straight motions (linear in x, y and
+//! theta, theta the short way) they are free and rise nowhere above the stated peak. And tiles dock
+//! the natural way.
+
+use tilebind::landscape::{Barrier, highest_point, work};
+use tilebind::observer::Silent;
+use tilebind::pipeline::analyse;
+use tilebind::report::csv;
+use tilebind::{Analysis, Configuration, Settings};
+
+use crate::designs;
+
+/// Deepest overlap (m) of the straight motions.
+const OVERLAP: f64 = 1e-6;
+/// Samples of each straight motion, and the longest step (m) between them.
+const SAMPLES: usize = 6;
+const STEP: f64 = 1e-3;
+
+fn analysis(file: &str) -> Analysis {
+    let settings = Settings {
+        milestones: 2000,
+        far_starts: 300,
+        certify_seconds: 1e9,
+        certify_cells: 2000,
+        ..Settings::default()
+    };
+    analyse(&designs::load(file), &settings, &Silent)
+}
+
+/// The configurations of a pathway as its file has them.
+fn written(barrier: &Barrier) -> Vec<Configuration> {
+    let table = csv::pathway(&barrier.pathway);
+    let row = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        Configuration::new(cells[1], cells[2], cells[3])
+    };
+    table.lines().skip(1).map(row).collect()
+}
+
+/// Samples every leg of every pathway, whatever made it.
+fn check(file: &str) {
+    let analysis = analysis(file);
+    let problem = &analysis.problem;
+    let depth = problem.depth();
+    let mut checked = 0;
+    for barrier in analysis.inventory.barriers.iter().filter(|b| b.has_way()) {
+        let ends = (barrier.from, barrier.to);
+        let mut highest = f64::NEG_INFINITY;
+        for leg in written(barrier).windows(2) {
+            let length = problem.space.distance(&leg[0], &leg[1]);
+            let count = SAMPLES.max((length / STEP) as usize);
+            for k in 0..=count {
+                let q = leg[0].interpolate(&leg[1], k as f64 / count as f64);
+                let clearance = problem.clearance(&q);
+                assert!(
+                    clearance >= -OVERLAP,
+                    "{file} {ends:?}: {clearance} at {q:?}"
+                );
+                highest = highest.max(problem.energy(&q));
+            }
+        }
+        let stated = barrier.saddle_energy;
+        assert!(
+            (highest - stated).abs() <= 1e-5 * depth,
+            "{file} {ends:?}: {highest} for {stated}"
+        );
+        assert_eq!(highest_point(&barrier.pathway).unwrap().energy, stated);
+        checked += 1;
+    }
+    assert!(checked > 0, "{file}");
+}
+
+#[test]
+fn pathways_joined_by_straight_motions_are_free_and_as_high_as_stated() {
+    for file in [
+        "shapes/tab-20mm.toml",
+        "shapes/dovetail.toml",
+        "shapes/arc-20mm.toml",
+        "tests/designs/good/ties.toml",
+        "tests/designs/good/narrow-slot.toml",
+        "tests/designs/good/triangles.toml",
+    ] {
+        check(file);
+    }
+}
+
+/// More than half of all far starts are captured by the bond, so there are ways in that never climb.
+#[test]
+fn the_papers_tile_docks_downhill_past_no_trap() {
+    let analysis = analysis("shapes/paper-tile.toml");
+    let problem = &analysis.problem;
+    let way_out = analysis.inventory.way_out_of_the_bond().unwrap();
+    let [climbs, falls] = work(&way_out.pathway);
+    assert!(falls < 1e-5 * problem.depth(), "{falls}");
+    assert!((climbs - way_out.forward()).abs() < 1e-5 * problem.depth());
+    for state in analysis.inventory.states.iter().skip(1) {
+        let passes = |q: &Configuration| problem.space.distance(q, &state.configuration) < 0.01;
+        let pathway = &way_out.pathway;
+        assert!(
+            !pathway.iter().any(|p| passes(&p.configuration)),
+            "{state:?}"
+        );
+    }
+    // No farther than it has to go.
+    let length = way_out.length().unwrap();
+    assert!(length < 0.3, "{length}");
+}
+
+/// What is done for a wide bracket serves the narrow one.
+#[test]
+fn a_smaller_tolerance_never_gives_a_wider_bracket() {
+    let design = designs::load("tests/designs/good/ties.toml");
+    let brackets = |tolerance: f64, cells: usize| -> Vec<f64> {
+        let settings = Settings {
+            milestones: 1000,
+            far_starts: 50,
+            certify_seconds: 1e9,
+            certify_cells: cells,
+            tolerance: Some(tolerance),
+            ..Settings::default()
+        };
+        let inventory = analyse(&design, &settings, &Silent).inventory;
+        let widths = inventory.barriers.iter().map(|b| b.bounds.width());
+        widths.collect()
+    };
+    let depth = 32e-3;
+    let wide = brackets(0.02 * depth, 4000);
+    let narrow = brackets(0.003 * depth, 4000);
+    let narrowest = brackets(1e-5 * depth, 4000);
+    assert!(wide.len() > 5 && wide.len() == narrow.len() && narrow.len() == narrowest.len());
+    let no_wider = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a <= b);
+    assert!(no_wider(&narrow, &wide), "{narrow:?} {wide:?}");
+    assert!(no_wider(&narrowest, &narrow), "{narrowest:?} {narrow:?}");
+    assert!(narrowest.iter().sum::<f64>() < 0.9 * wide.iter().sum::<f64>());
+}
