@@ -27,6 +27,8 @@
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
+//! | [`workshop`] | a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`report`] | JSON, CSV, NPY, the summary, pictures, pages |
@@ -58,6 +60,7 @@ pub mod configuration;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
+pub mod inspection;
 pub mod landscape;
 pub mod observer;
 pub mod pipeline;
@@ -69,6 +72,7 @@ pub mod roadmap;
 pub mod sweep;
 pub mod tile;
 pub mod units;
+pub mod workshop;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

@@ -22,6 +22,8 @@ Exit status: 0 done; 1 the run failed; 2 the command line or a design file is wr
 written); 75 interrupted.
 
 Start here:
+  tilebind init my.toml
+  tilebind show my.toml
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile"
 )]
 struct Arguments {
@@ -38,6 +40,8 @@ enum Command {
     Sweep(cli::sweep::Sweep),
     Dock(cli::dock::Dock),
     Calibrate(cli::calibrate::Calibrate),
+    Show(cli::show::Show),
+    Make(cli::make::Make),
     Init(cli::init::Init),
     Schema(cli::schema::Schema),
     Completions(cli::completions::Completions),
@@ -56,6 +60,8 @@ fn main() -> ExitCode {
         Command::Sweep(command) => command.run(),
         Command::Dock(command) => command.run(),
         Command::Calibrate(command) => command.run(),
+        Command::Show(command) => command.run(),
+        Command::Make(command) => command.run(),
         Command::Init(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),

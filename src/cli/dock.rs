@@ -180,7 +180,16 @@ impl Dock {
             interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
-        let summary = || report::summary(&design, &problem, &docking, &map);
+        let summary = || {
+            let told = report::summary(&design, &problem, &docking, &map);
+            match &self.out {
+                Some(folder) => format!(
+                    "{told}results in {}: report.html to look at; dock.json, tables, pictures\n",
+                    folder.display()
+                ),
+                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
+            }
+        };
         self.print.results(&json, summary)
     }
 

@@ -15,7 +15,7 @@ use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print};
+use super::{Failure, input, interrupt, memory, print, style};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -248,7 +248,7 @@ impl Sweep {
         self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
-            format!("{}results in {folder}: {files}\n", report.summary())
+            format!("{}results in {folder}: {files}\n", report.summary(style::columns()))
         })?;
         match report.progress().failed {
             0 => {
