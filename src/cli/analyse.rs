@@ -42,7 +42,7 @@ pub struct Analyse {
     design: DesignOptions,
 
     /// Folder for the results; made if need be
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 
     #[command(flatten)]

@@ -47,7 +47,7 @@ pub struct Dock {
     runs: usize,
 
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// How long each trajectory lasts (s)

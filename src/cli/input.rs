@@ -94,9 +94,9 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
 
 /// A positive length (m), or with a unit.
 pub fn length(text: &str) -> Result<f64, String> {
-    design::length(text)
-        .filter(|x| *x > 0.0)
-        .ok_or_else(|| "a length greater than 0 is needed, such as 0.12 (m) or \"12 cm\"".to_owned())
+    design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
+        "a length greater than 0 is needed, such as 0.12 (m) or \"12 cm\"".to_owned()
+    })
 }
 
 /// A length (m) of 0 or more, or with a unit.

@@ -60,7 +60,9 @@ impl Show {
             }
             match self.show() {
                 Err(Failure::OutputClosed) => return Ok(()),
-                Err(failure) => drop(failure.report()),
+                Err(failure) => {
+                    let _ = failure.report();
+                }
                 Ok(()) => {}
             }
             while self.changes() == seen {
@@ -83,7 +85,11 @@ impl Show {
         if self.json {
             return print(&json::text(&inspection::json(&design, &found)));
         }
-        print(&inspection::text(&design, &found, style::columns().unwrap_or(80)))?;
+        print(&inspection::text(
+            &design,
+            &found,
+            style::columns().unwrap_or(80),
+        ))?;
         if let Some(file) = &self.out {
             tell(format!("picture in {}", file.display()));
         }
@@ -95,16 +101,24 @@ impl Show {
         let file = self.design.file();
         let drawings = Design::load(file).map(|design| design.drawings);
         let folder = file.parent().unwrap_or(Path::new(""));
-        let drawings = drawings.into_iter().flatten().map(|one| folder.join(one.file));
+        let drawings = drawings
+            .into_iter()
+            .flatten()
+            .map(|one| folder.join(one.file));
         let time = |file: PathBuf| file.metadata().and_then(|found| found.modified()).ok();
-        std::iter::once(file.to_owned()).chain(drawings).map(time).collect()
+        std::iter::once(file.to_owned())
+            .chain(drawings)
+            .map(time)
+            .collect()
     }
 }
 
 /// A file that a picture can be written to.
 fn picture_file(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
-    let ending = file.extension().map(|ending| ending.to_string_lossy().into_owned());
+    let ending = file
+        .extension()
+        .map(|ending| ending.to_string_lossy().into_owned());
     match ending.as_deref() {
         Some("svg" | "png") => Ok(file),
         _ => Err("a picture is a .svg or a .png file, such as design.svg".to_owned()),

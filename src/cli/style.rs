@@ -12,7 +12,11 @@ pub fn is_terminal() -> bool {
 pub fn columns() -> Option<usize> {
     let named = std::env::var("COLUMNS").ok();
     let named = named.and_then(|text| text.trim().parse().ok());
-    let own = || is_terminal().then(|| console::Term::stdout().size_checked()).flatten();
+    let own = || {
+        is_terminal()
+            .then(|| console::Term::stdout().size_checked())
+            .flatten()
+    };
     named
         .or_else(|| own().map(|(_, columns)| usize::from(columns)))
         .filter(|columns| *columns >= 20)

@@ -57,7 +57,7 @@ pub struct Sweep {
     vary: Vec<Axis>,
 
     /// Folder for the results; made if need be [default with a manifest: the folder it is in]
-    #[arg(long, value_name = "DIR",
+    #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
 
@@ -248,7 +248,10 @@ impl Sweep {
         self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
-            format!("{}results in {folder}: {files}\n", report.summary(style::columns()))
+            format!(
+                "{}results in {folder}: {files}\n",
+                report.summary(style::columns())
+            )
         })?;
         match report.progress().failed {
             0 => {

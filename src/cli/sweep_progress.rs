@@ -81,7 +81,10 @@ fn left(elapsed: Duration, done: usize, missing: usize) -> String {
     let left = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
     match missing.saturating_sub(done) {
         0 => "nothing left".to_owned(),
-        _ => format!("about {} left", HumanDuration(left.max(Duration::from_secs(1)))),
+        _ => format!(
+            "about {} left",
+            HumanDuration(left.max(Duration::from_secs(1)))
+        ),
     }
 }
 

@@ -229,7 +229,10 @@ impl Assessment {
         none_came_in.then(|| {
             let most = 100.0 * Proportion::new(0, self.far_starts).high;
             let starts = self.far_starts;
-            (1, format!("none of {starts} far starts came into the bond (at most {most:.1} % do)"))
+            (
+                1,
+                format!("none of {starts} far starts came into the bond (at most {most:.1} % do)"),
+            )
         })
     }
 

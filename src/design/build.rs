@@ -8,10 +8,10 @@ use super::profile::{depth_of, with_depth};
 use super::quantity::{four_digits, rounded_down};
 use super::reader::Result;
 use super::tile::TileEntry;
-use crate::tile::{Magnet, Tile};
 use crate::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
 use crate::tile::outline::{Outline, OutlineError};
 use crate::tile::profile::SHALLOWEST;
+use crate::tile::{Magnet, Tile};
 
 /// A tile, and where the file puts each of its magnets.
 pub(super) struct BuiltTile {
@@ -88,7 +88,9 @@ const HIGHEST_DENSITY: f64 = 22_590.0;
 
 /// The tile's mass (kg), unless that would make it denser than any material.
 fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
-    let (entry, mass) = entry.mass.ok_or_else(|| entry.section.error("no mass", ""))?;
+    let (entry, mass) = entry
+        .mass
+        .ok_or_else(|| entry.section.error("no mass", ""))?;
     if mass > HIGHEST_DENSITY * volume {
         return Err(entry.error(
             format!(
@@ -160,7 +162,9 @@ fn mend_outline(
                 )
             };
             let help = match largest_depth(entry, contents, culprit) {
-                Some(depth) => format!("make it less deep: `depth` may be up to {depth} m in size here"),
+                Some(depth) => {
+                    format!("make it less deep: `depth` may be up to {depth} m in size here")
+                }
                 None => help.to_owned(),
             };
             entry

@@ -143,7 +143,9 @@ impl<'a> FaceEntry<'a> {
         let pattern = self.get_either(["code", "magnets"]);
         let read = |entry: &Entry| entry.noted(read_profile(entry, length));
         let line = profile.as_ref().map(read);
-        let magnets = pattern.as_ref().map(|entry| entry.noted(read_pattern(entry)));
+        let magnets = pattern
+            .as_ref()
+            .map(|entry| entry.noted(read_pattern(entry)));
         let keys = self.magnet_keys()?.over(keys);
         let (drawing, polyline) = match line.transpose()? {
             Some((drawing, line)) => (Some(drawing), line),

@@ -223,8 +223,7 @@ impl Design {
         // From here on parts are put together, of which each is sound by itself.
         faults.check()?;
         let (table, keys, contents, target) = (table?, keys?, contents?, target?);
-        let [fixed, moving] =
-            [0, 1].map(|i| faults.note(build::build(&entries[i], &contents[i])));
+        let [fixed, moving] = [0, 1].map(|i| faults.note(build::build(&entries[i], &contents[i])));
         let built = [fixed?, moving?];
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;

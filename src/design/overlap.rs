@@ -157,9 +157,8 @@ fn breakthrough(
                 face.name,
                 four_digits(excess * 1e3)
             ),
-            inset::mend(both, placing.inset).unwrap_or_else(|| {
-                format!("raise `inset` by {} m", four_digits(excess + 5e-7))
-            }),
+            inset::mend(both, placing.inset)
+                .unwrap_or_else(|| format!("raise `inset` by {} m", four_digits(excess + 5e-7))),
         )
     })
 }

@@ -203,12 +203,7 @@ fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignErro
 }
 
 /// Refuses a profile that leaves its face to the left or to the right.
-fn within_face(
-    section: &Section,
-    profile: &Profile,
-    line: &[[f64; 2]],
-    length: f64,
-) -> Result<()> {
+fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: f64) -> Result<()> {
     let half = length / 2.0;
     let farthest = line
         .iter()
@@ -226,7 +221,10 @@ fn within_face(
         .get("points")
         .and_then(|entry| entry.array().ok()?.get(index).copied());
     let (key, mend) = narrower(profile, half);
-    let help = format!("the face is {} m long; {mend}", quantity::four_digits(length));
+    let help = format!(
+        "the face is {} m long; {mend}",
+        quantity::four_digits(length)
+    );
     Err(match point.or_else(|| section.get(key)) {
         Some(entry) => entry.error(message, help),
         None => section.error(message, help),
@@ -237,7 +235,10 @@ fn within_face(
 fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
     let at_most = |key: &'static str, largest: f64| {
         let largest = quantity::rounded_down(largest);
-        (key, format!("`{key}` may be up to {largest} m in size here"))
+        (
+            key,
+            format!("`{key}` may be up to {largest} m in size here"),
+        )
     };
     match *profile {
         // Wider than its base: by its depth.
@@ -260,9 +261,10 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
         }
         Profile::Tab { .. } | Profile::Arc { .. } => at_most("offset", half),
         Profile::Teeth { .. } => at_most("span", 2.0 * half),
-        Profile::Flat | Profile::Points(_) => {
-            ("file", "make the profile narrower or move it inwards".to_owned())
-        }
+        Profile::Flat | Profile::Points(_) => (
+            "file",
+            "make the profile narrower or move it inwards".to_owned(),
+        ),
     }
 }
 

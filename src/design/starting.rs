@@ -164,7 +164,12 @@ impl Start {
     }
 
     fn check(&self) -> Result<(), StartError> {
-        let Self { sides, side, magnets, .. } = *self;
+        let Self {
+            sides,
+            side,
+            magnets,
+            ..
+        } = *self;
         if !(3..=MOST_SIDES).contains(&sides) {
             let fault = format!("a tile of {sides} sides cannot be started from");
             return Err(wrong(fault, format!("give 3 to {MOST_SIDES}: --sides 6")));
@@ -214,7 +219,12 @@ impl Start {
     }
 
     fn text(&self, name: &str, block: [f64; 3], pitch: f64, inset: f64) -> String {
-        let Self { sides, side, magnets, shape } = *self;
+        let Self {
+            sides,
+            side,
+            magnets,
+            shape,
+        } = *self;
         let area = f64::from(sides) * side * side / (4.0 * (PI / f64::from(sides)).tan());
         let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
         let mass = four_digits(DENSITY * area * thickness);
@@ -230,9 +240,8 @@ impl Start {
             None => Default::default(),
         };
         let size = block.map(|x| x.to_string()).join(", ");
-        let tile = format!(
-            "side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}"
-        );
+        let tile =
+            format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
         let mut text = String::new();
         let _ = write!(
             text,
@@ -290,7 +299,8 @@ fn code(magnets: usize) -> String {
         });
         slid.max().unwrap_or(0)
     };
-    let best = (0..1_u32 << (magnets - 1)).min_by_key(|&bits| (worst(bits), bits.count_ones(), bits));
+    let best =
+        (0..1_u32 << (magnets - 1)).min_by_key(|&bits| (worst(bits), bits.count_ones(), bits));
     let best = best.unwrap_or(0);
     let letter = |k: usize| match best >> (magnets - 1 - k) & 1 {
         0 => 'N',
@@ -308,7 +318,10 @@ mod tests {
         assert_eq!((code(1), code(4)), ("N".to_owned(), "NNNS".to_owned()));
         // Barker's: no slide leaves more than one magnet's worth of attraction.
         for magnets in [2, 3, 4, 5, 7, 11, 13] {
-            let code: Vec<i32> = code(magnets).bytes().map(|b| if b == b'N' { 1 } else { -1 }).collect();
+            let code: Vec<i32> = code(magnets)
+                .bytes()
+                .map(|b| if b == b'N' { 1 } else { -1 })
+                .collect();
             let slid = |k: usize| code.iter().zip(&code[k..]).map(|(a, b)| a * b).sum::<i32>();
             assert!((1..magnets).all(|k| slid(k) <= 1), "{code:?}");
         }

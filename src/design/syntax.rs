@@ -26,7 +26,10 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
             Some((value, with_unit)) => source.error(
                 (from..from + with_unit.len()).into(),
                 "a number with a unit goes in quotes",
-                format!("write \"{with_unit}\", or {} in SI units", four_digits(value)),
+                format!(
+                    "write \"{with_unit}\", or {} in SI units",
+                    four_digits(value)
+                ),
             ),
             None => source.error(span.into(), error.message().trim(), HELP),
         };

@@ -34,7 +34,11 @@ impl Problem {
         if bond >= 0.0 {
             return Vec::new();
         }
-        let wanted: Vec<_> = self.symmetries.iter().map(|s| s.apply(&pair.bound)).collect();
+        let wanted: Vec<_> = self
+            .symmetries
+            .iter()
+            .map(|s| s.apply(&pair.bound))
+            .collect();
         let [fixed, moving] = self.faces();
         let pairs = (0..fixed.len()).flat_map(|f| (0..moving.len()).map(move |m| (f, m)));
         let meetings = pairs.map(|(f, m)| {

@@ -52,14 +52,20 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
 
 /// Where x, y and theta stand, if the line names columns.
 fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
-    if record.iter().all(|entry| length(entry).is_some() || angle(entry).is_some()) {
+    if record
+        .iter()
+        .all(|entry| length(entry).is_some() || angle(entry).is_some())
+    {
         return Ok(None);
     }
     let mut places = [0; 3];
     for (place, names) in places.iter_mut().zip(COLUMNS) {
         let found = record.iter().position(|entry| names.contains(&entry));
         *place = found.ok_or_else(|| {
-            format!("there is no column `{}`; name the columns x,y,theta", names[0])
+            format!(
+                "there is no column `{}`; name the columns x,y,theta",
+                names[0]
+            )
         })?;
     }
     Ok(Some(places))

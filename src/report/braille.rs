@@ -45,7 +45,10 @@ impl Braille {
         if !(size[0] > 0.0 && size[1] > 0.0) {
             return String::new();
         }
-        let dots = [(columns * CELL[0] - 1) as f64, (columns / 3 * CELL[1] - 1) as f64];
+        let dots = [
+            (columns * CELL[0] - 1) as f64,
+            (columns / 3 * CELL[1] - 1) as f64,
+        ];
         let scale = (dots[0] / size[0]).min(dots[1] / size[1]);
         let dot = |p: &Vector2<f64>| {
             let [x, y] = [(p.x - low[0]) * scale, (high[1] - p.y) * scale];
@@ -54,7 +57,9 @@ impl Braille {
         let cells = [0, 1].map(|k| (size[k] * scale).round() as usize / CELL[k] + 1);
         let mut bits = vec![vec![0_u32; cells[0]]; cells[1]];
         let mut set = |[x, y]: [usize; 2]| {
-            let cell = bits.get_mut(y / CELL[1]).and_then(|row| row.get_mut(x / CELL[0]));
+            let cell = bits
+                .get_mut(y / CELL[1])
+                .and_then(|row| row.get_mut(x / CELL[0]));
             if let Some(cell) = cell {
                 *cell |= DOTS[y % CELL[1]][x % CELL[0]];
             }
@@ -71,11 +76,15 @@ impl Braille {
             0 => ' ',
             _ => char::from_u32(BLANK + bits).unwrap_or(' '),
         };
-        let mut rows: Vec<Vec<char>> =
-            bits.iter().map(|row| row.iter().map(character).collect()).collect();
+        let mut rows: Vec<Vec<char>> = bits
+            .iter()
+            .map(|row| row.iter().map(character).collect())
+            .collect();
         for (at, letter) in &self.letters {
             let [x, y] = dot(at);
-            let cell = rows.get_mut(y / CELL[1]).and_then(|row| row.get_mut(x / CELL[0]));
+            let cell = rows
+                .get_mut(y / CELL[1])
+                .and_then(|row| row.get_mut(x / CELL[0]));
             if let Some(cell) = cell {
                 *cell = *letter;
             }
@@ -97,8 +106,14 @@ mod tests {
         drawing.letter(Vector2::new(1.5, 0.5), 'N');
         let text = drawing.text(20);
         let lines: Vec<&str> = text.lines().collect();
-        assert!(lines.iter().all(|line| line.chars().count() <= 20), "{text}");
-        assert!(lines[0].starts_with('\u{284f}') && lines[0].ends_with('\u{28b9}'), "{text}");
+        assert!(
+            lines.iter().all(|line| line.chars().count() <= 20),
+            "{text}"
+        );
+        assert!(
+            lines[0].starts_with('\u{284f}') && lines[0].ends_with('\u{28b9}'),
+            "{text}"
+        );
         assert_eq!(text.matches('N').count(), 1);
         assert_eq!(Braille::new().text(20), "");
     }

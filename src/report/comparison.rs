@@ -83,7 +83,11 @@ impl Comparison {
 
     /// The sentence that answers: which design is best, and of how many.
     fn headline(&self) -> String {
-        let docking = self.designs.iter().filter(|one| one.obstacle().is_none()).count();
+        let docking = self
+            .designs
+            .iter()
+            .filter(|one| one.obstacle().is_none())
+            .count();
         let of = match self.designs.len() {
             1 => "1 design".to_owned(),
             many => format!("{many} designs"),
@@ -95,7 +99,10 @@ impl Comparison {
                 self.name(best),
                 cell(&[self.by], best)
             ),
-            _ => format!("{of}, ranked by {}: none finds into its bond", self.by.label),
+            _ => format!(
+                "{of}, ranked by {}: none finds into its bond",
+                self.by.label
+            ),
         }
     }
 
@@ -103,7 +110,10 @@ impl Comparison {
     fn obstacles(&self) -> Vec<String> {
         let told = |one: &Assessment| {
             let (_, why) = one.obstacle()?;
-            Some(format!("{} stands behind those that dock: {why}", self.name(one)))
+            Some(format!(
+                "{} stands behind those that dock: {why}",
+                self.name(one)
+            ))
         };
         self.designs.iter().filter_map(told).collect()
     }

@@ -116,12 +116,16 @@ pub fn is_paper_tile(design: &Design) -> bool {
                 })
                 .collect();
             found.len() == code.len()
-                && found.iter().zip(code.chars()).enumerate().all(|(i, (magnet, letter))| {
-                    let place = 0.04 * (i as f64 - 1.5);
-                    (magnet.0 - place).abs() < 1e-9
-                        && (magnet.1 == Pole::North) == (letter == 'N')
-                        && (magnet.2 - 0.2865).abs() < 1e-4
-                })
+                && found
+                    .iter()
+                    .zip(code.chars())
+                    .enumerate()
+                    .all(|(i, (magnet, letter))| {
+                        let place = 0.04 * (i as f64 - 1.5);
+                        (magnet.0 - place).abs() < 1e-9
+                            && (magnet.1 == Pole::North) == (letter == 'N')
+                            && (magnet.2 - 0.2865).abs() < 1e-4
+                    })
         };
         square && (0..4).all(carries_code)
     };

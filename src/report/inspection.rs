@@ -33,7 +33,10 @@ pub fn headline(design: &Design, inspection: &Inspection) -> String {
     let faces = {
         let (fixed, moving) = design.pair.target;
         let name = |tile: &Tile, face: usize| tile.faces[face].name.clone();
-        let (fixed, moving) = (name(&design.pair.fixed, fixed), name(&design.pair.moving, moving));
+        let (fixed, moving) = (
+            name(&design.pair.fixed, fixed),
+            name(&design.pair.moving, moving),
+        );
         format!("{fixed} and {moving}")
     };
     match bond.energy < 0.0 {
@@ -94,7 +97,10 @@ fn model(model: MagnetModel) -> &'static str {
 }
 
 fn tiles(design: &Design) -> [(&'static str, &Tile); 2] {
-    [("fixed", &design.pair.fixed), ("moving", &design.pair.moving)]
+    [
+        ("fixed", &design.pair.fixed),
+        ("moving", &design.pair.moving),
+    ]
 }
 
 /// Both tiles bound, as characters.
@@ -102,7 +108,12 @@ fn drawing(design: &Design, columns: usize) -> String {
     let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
     let mut drawing = Braille::new();
     for ((_, tile), q) in tiles(design).into_iter().zip(poses) {
-        let rim: Vec<_> = tile.outline.vertices().iter().map(|v| q.transform(*v)).collect();
+        let rim: Vec<_> = tile
+            .outline
+            .vertices()
+            .iter()
+            .map(|v| q.transform(*v))
+            .collect();
         drawing.polygon(&rim);
         for magnet in &tile.magnets {
             let letter = match pole(tile, magnet) {
@@ -118,7 +129,11 @@ fn drawing(design: &Design, columns: usize) -> String {
 
 /// Which pole a magnet turns outwards.
 pub fn pole(tile: &Tile, magnet: &Magnet) -> Pole {
-    match magnet.moment_vector().dot(&tile.faces[magnet.face].normal()) >= 0.0 {
+    match magnet
+        .moment_vector()
+        .dot(&tile.faces[magnet.face].normal())
+        >= 0.0
+    {
         true => Pole::North,
         false => Pole::South,
     }
@@ -166,7 +181,11 @@ impl Face {
         if self.code.is_empty() && straight {
             return None;
         }
-        let places: Vec<String> = self.magnets.iter().map(|s| format!("{:.0}", s * 1e3)).collect();
+        let places: Vec<String> = self
+            .magnets
+            .iter()
+            .map(|s| format!("{:.0}", s * 1e3))
+            .collect();
         Some([
             name.to_owned(),
             si(self.length, "m", 3),
@@ -192,7 +211,9 @@ fn heights(tile: &Tile, number: usize) -> [f64; 2] {
     let half = face.length() / 2.0 * (1.0 - 1e-9);
     // Corners of other faces lie over this one too; its own are the outermost at their place.
     let own = local.filter(|[s, h]| s.abs() < half && *h > -0.45 * tile.outline.circumradius());
-    own.fold([0.0; 2], |[low, high], [_, h]| [f64::min(low, h), f64::max(high, h)])
+    own.fold([0.0; 2], |[low, high], [_, h]| {
+        [f64::min(low, h), f64::max(high, h)]
+    })
 }
 
 /// The inspection as JSON.

@@ -9,7 +9,13 @@ use crate::comparison::{Assessment, Quantity};
 /// Points that the table lists; of more, the first ones.
 const LISTED: usize = 12;
 /// What the table says of each point.
-const COLUMNS: [&str; 5] = ["bond_depth", "trap_depth", "selectivity", "unbinding", "captured"];
+const COLUMNS: [&str; 5] = [
+    "bond_depth",
+    "trap_depth",
+    "selectivity",
+    "unbinding",
+    "captured",
+];
 
 fn quantity(key: &str) -> &'static Quantity {
     let found = QUANTITIES.iter().find(|quantity| quantity.key == key);
@@ -22,12 +28,18 @@ impl Sweep<'_> {
     pub fn answer(&self) -> String {
         let done = self.done();
         let has = |key: &str| done.iter().any(|(_, one)| quantity(key).of(one).is_some());
-        let by = quantity(if has("selectivity") { "selectivity" } else { "bond_depth" });
+        let by = quantity(if has("selectivity") {
+            "selectivity"
+        } else {
+            "bond_depth"
+        });
         let mut ranked: Vec<(usize, &Assessment)> = done.clone();
         let value = |one: &Assessment| by.of(one).map_or(f64::NEG_INFINITY, |e| e.value);
         let degree = |one: &Assessment| one.obstacle().map_or(0, |(degree, _)| degree);
         ranked.sort_by(|(_, a), (_, b)| {
-            degree(a).cmp(&degree(b)).then(value(b).total_cmp(&value(a)))
+            degree(a)
+                .cmp(&degree(b))
+                .then(value(b).total_cmp(&value(a)))
         });
         let (Some(&best), Some(&least), Some(&first)) =
             (ranked.first(), ranked.last(), done.first())
@@ -36,9 +48,17 @@ impl Sweep<'_> {
         };
         let told = |(index, one): (usize, &Assessment)| {
             let called = self.called(&self.points[index]);
-            let called = if called.is_empty() { one.name.clone() } else { called };
+            let called = if called.is_empty() {
+                one.name.clone()
+            } else {
+                called
+            };
             let captured = cell(&[quantity("captured")], one);
-            format!("{called}: {} {}, captures {captured}", by.label, cell(&[by], one))
+            format!(
+                "{called}: {} {}, captures {captured}",
+                by.label,
+                cell(&[by], one)
+            )
         };
         if best.1.obstacle().is_some() {
             return format!("no point finds into its bond; {}\n", told(best));
@@ -64,7 +84,11 @@ impl Sweep<'_> {
         let mut rows = vec![head.map(str::to_owned).collect::<Vec<_>>()];
         rows.extend(done.iter().take(LISTED).map(|(index, one)| {
             let called = self.called(&self.points[*index]);
-            let called = if called.is_empty() { one.name.clone() } else { called };
+            let called = if called.is_empty() {
+                one.name.clone()
+            } else {
+                called
+            };
             let figures = COLUMNS.map(|key| cell(&[quantity(key)], one));
             std::iter::once(called).chain(figures).collect()
         }));
@@ -82,6 +106,8 @@ impl Sweep<'_> {
     /// The points that were assessed, with their places.
     fn done(&self) -> Vec<(usize, &Assessment)> {
         let places = 0..self.outcomes.len();
-        places.filter_map(|index| Some((index, self.assessment(index)?))).collect()
+        places
+            .filter_map(|index| Some((index, self.assessment(index)?)))
+            .collect()
     }
 }

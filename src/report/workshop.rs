@@ -28,7 +28,10 @@ const MARGIN: f64 = 5.0;
 /// Where the cut is too wide for the design.
 pub fn files(design: &Design, making: &Making) -> Result<Vec<(String, Vec<u8>)>, PartError> {
     let mut files = Vec::new();
-    let tiles = [("fixed", &design.pair.fixed), ("moving", &design.pair.moving)];
+    let tiles = [
+        ("fixed", &design.pair.fixed),
+        ("moving", &design.pair.moving),
+    ];
     let mut parts = Vec::new();
     for (name, tile) in tiles {
         let part = Part::new(tile, making)?;
@@ -36,7 +39,10 @@ pub fn files(design: &Design, making: &Making) -> Result<Vec<(String, Vec<u8>)>,
         files.push((format!("{name}.svg"), svg(&part).into_bytes()));
         parts.push((name, tile, part));
     }
-    files.push(("sheet.md".to_owned(), sheet(design, making, &parts).into_bytes()));
+    files.push((
+        "sheet.md".to_owned(),
+        sheet(design, making, &parts).into_bytes(),
+    ));
     Ok(files)
 }
 
@@ -59,13 +65,21 @@ pub fn dxf(part: &Part) -> String {
         let _ = writeln!(text, "{code:>3}\n{value}");
     };
     pair(999, "tilebind, lengths in mm");
-    for (code, value) in [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009")] {
+    for (code, value) in [
+        (0, "SECTION"),
+        (2, "HEADER"),
+        (9, "$ACADVER"),
+        (1, "AC1009"),
+    ] {
         pair(code, value);
     }
     pair(0, "ENDSEC");
     pair(0, "SECTION");
     pair(2, "ENTITIES");
-    let pockets = part.pockets.iter().map(|pocket| (&pocket.corners[..], "POCKETS"));
+    let pockets = part
+        .pockets
+        .iter()
+        .map(|pocket| (&pocket.corners[..], "POCKETS"));
     for (corners, layer) in std::iter::once((&part.outline[..], "OUTLINE")).chain(pockets) {
         for (code, value) in [(0, "POLYLINE"), (8, layer), (66, "1"), (70, "1")] {
             pair(code, value);
@@ -102,7 +116,10 @@ pub fn svg(part: &Part) -> String {
         let fold = |axis: usize| corners().map(|p| 1e3 * p[axis]).fold(start, fold);
         [fold(0), fold(1)]
     };
-    let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+    let (low, high) = (
+        bound(f64::min, f64::INFINITY),
+        bound(f64::max, f64::NEG_INFINITY),
+    );
     let size = [0, 1].map(|k| high[k] - low[k] + 2.0 * MARGIN);
     let place = |p: &Vector2<f64>| {
         let at = [1e3 * p.x - low[0] + MARGIN, high[1] - 1e3 * p.y + MARGIN];
@@ -120,7 +137,11 @@ pub fn svg(part: &Part) -> String {
         path(&part.outline)
     );
     for pocket in &part.pockets {
-        let _ = writeln!(text, "<path stroke=\"#D55E00\" d=\"{}\"/>", path(&pocket.corners));
+        let _ = writeln!(
+            text,
+            "<path stroke=\"#D55E00\" d=\"{}\"/>",
+            path(&pocket.corners)
+        );
         for (pole, side) in [("N", 0.5), ("S", -0.5)] {
             let [x, y] = place(&(pocket.middle + pocket.north * side));
             let size = 600.0 * pocket.north.norm();
@@ -186,11 +207,19 @@ fn purchases(parts: &[(&str, &Tile, Part)]) -> Vec<Vec<String>> {
             None => kinds.push((magnet, 1)),
         }
     }
-    let head = ["number", "size (mm)", "remanence", "nearest in the catalogue"];
+    let head = [
+        "number",
+        "size (mm)",
+        "remanence",
+        "nearest in the catalogue",
+    ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(kinds.into_iter().map(|(magnet, count)| {
         let remanence = magnet.remanence();
-        let size = magnet.size.map(|x| format!("{}", (1e5 * x).round() / 100.0)).join(" x ");
+        let size = magnet
+            .size
+            .map(|x| format!("{}", (1e5 * x).round() / 100.0))
+            .join(" x ");
         let nearest = match grade::nearest(remanence) {
             Some((grade, own)) => format!(
                 "{grade} ({own} T: forces {:+.0} %)",

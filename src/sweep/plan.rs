@@ -280,7 +280,9 @@ impl Plan {
         for point in &points {
             match self.design(point) {
                 Ok(_) => return Ok(()),
-                Err(reason) => drop(first.get_or_insert(reason)),
+                Err(reason) => {
+                    first.get_or_insert(reason);
+                }
             }
         }
         let reason = first.unwrap_or_default();

@@ -25,6 +25,8 @@ const SPREAD: f64 = 0.03;
 /// ```
 pub fn nearest(remanence: f64) -> Option<(&'static str, f64)> {
     let distance = |grade: &(&str, f64)| (grade.1 - remanence).abs();
-    let nearest = GRADES.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = GRADES
+        .into_iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
     nearest.filter(|grade| distance(grade) <= SPREAD)
 }

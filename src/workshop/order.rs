@@ -75,7 +75,12 @@ pub fn order(magnets: &[&Magnet]) -> Vec<Step> {
 /// The largest force (N) out of the plane on a magnet that comes down beside others.
 fn push(magnet: &Magnet, placed: &[&Magnet]) -> f64 {
     let heights = (1..=HEIGHTS).map(|k| HIGHEST * magnet.size[0] * k as f64 / HEIGHTS as f64);
-    let force = |z: f64| placed.iter().map(|other| vertical_force(magnet, other, z)).sum();
+    let force = |z: f64| {
+        placed
+            .iter()
+            .map(|other| vertical_force(magnet, other, z))
+            .sum()
+    };
     heights.map(force).fold(0.0, f64::max)
 }
 
@@ -98,7 +103,11 @@ mod tests {
     fn row(code: &str) -> Vec<Magnet> {
         let magnets = code.chars().enumerate().map(|(k, pole)| Magnet {
             position: Vector2::new(0.02 * k as f64, 0.0),
-            angle: if pole == 'N' { FRAC_PI_2 } else { FRAC_PI_2 - PI },
+            angle: if pole == 'N' {
+                FRAC_PI_2
+            } else {
+                FRAC_PI_2 - PI
+            },
             moment: 0.3,
             size: [0.01, 0.01, 0.003],
             face: 0,
@@ -112,12 +121,10 @@ mod tests {
         let steps = order(&magnets.iter().collect::<Vec<_>>());
         assert_eq!(steps.len(), 4);
         assert!(steps.iter().all(|step| step.push == 0.0), "{steps:?}");
-        // Between two of its kind a magnet is pushed out whatever the order, but least if the
-        // others go in so that its nearest neighbours are of the other kind.
+        // Magnets of one kind push each other out, one between two others most.
         let magnets = row("NNN");
         let steps = order(&magnets.iter().collect::<Vec<_>>());
         assert!(steps[0].push == 0.0 && steps[2].push > 0.0, "{steps:?}");
-        // The one in the middle goes in before both its neighbours stand.
         assert!(steps[2].magnet != 1, "{steps:?}");
     }
 

@@ -122,6 +122,8 @@ fn pocket(
         north: moment.normalize() * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
-        is_open: hole.iter().any(|p| tile.outline.signed_distance(*p) > -THINNEST),
+        is_open: hole
+            .iter()
+            .any(|p| tile.outline.signed_distance(*p) > -THINNEST),
     })
 }

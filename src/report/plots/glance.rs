@@ -43,7 +43,10 @@ pub fn draw(design: &Design, inspection: &Inspection) -> Result<Picture, Picture
         for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
             let centre = view.pixel(q.transform(one.outline.centroid()));
             let middle = (HPos::Center, VPos::Center);
-            Text::new(LABEL).bold().colour(SOFT).write(root, name, centre, middle)?;
+            Text::new(LABEL)
+                .bold()
+                .colour(SOFT)
+                .write(root, name, centre, middle)?;
             faces(root, &view, one, &q)?;
         }
         figures(root, inspection)?;
@@ -53,9 +56,10 @@ pub fn draw(design: &Design, inspection: &Inspection) -> Result<Picture, Picture
 
 /// How the two tiles fill the space between title and figures.
 fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
-    let corners = tiles.into_iter().zip(poses).flat_map(|(tile, q)| {
-        tile.outline.vertices().iter().map(move |v| q.transform(*v))
-    });
+    let corners = tiles
+        .into_iter()
+        .zip(poses)
+        .flat_map(|(tile, q)| tile.outline.vertices().iter().map(move |v| q.transform(*v)));
     let infinity = Vector2::repeat(f64::INFINITY);
     let (low, high) = corners.fold((infinity, -infinity), |(low, high), p| {
         (low.inf(&p), high.sup(&p))
@@ -88,7 +92,12 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
 fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
     let top = f64::from(SIZE.1) - FOOT + 10.0;
     let columns = [MARGIN, 200.0, 380.0, 640.0];
-    let head = ["magnets as", "bond", "pull at contact", "pull-off, straight"];
+    let head = [
+        "magnets as",
+        "bond",
+        "pull at contact",
+        "pull-off, straight",
+    ];
     let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
     for hold in &inspection.models {
         let name = match hold.model {
@@ -123,7 +132,10 @@ fn faults(root: &Area, design: &Design, inspection: &Inspection) -> Result<(), P
     }
     let text = Text::new(SMALL).colour(VERMILLION);
     let room = f64::from(SIZE.0) - 2.0 * MARGIN;
-    let lines = faults.iter().take(TOLD).flat_map(|fault| wrapped(&text, fault, room));
+    let lines = faults
+        .iter()
+        .take(TOLD)
+        .flat_map(|fault| wrapped(&text, fault, room));
     let most = ((f64::from(SIZE.1) - top) / (TITLE - 1.0)) as usize;
     for (k, line) in lines.take(most).enumerate() {
         let at = (MARGIN, top + (TITLE - 1.0) * k as f64);

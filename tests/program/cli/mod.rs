@@ -7,6 +7,7 @@ mod completions;
 mod consistency;
 mod dynamics;
 mod energy;
+mod first_hour;
 mod kept;
 mod mistakes;
 mod shields;
@@ -44,6 +45,8 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "energy",
         "barrier",
         "init",
+        "show",
+        "make",
         "schema",
         "completions",
     ] {
