@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use nalgebra::Vector2;
 use serde_json::{Value, json};
 
 use super::braille::Braille;
@@ -201,17 +202,21 @@ impl Face {
     }
 }
 
-/// The least and the greatest height (m) of a tile's rim over one of its faces.
+/// The least and the greatest height (m) of a tile's rim over one of its faces. A corner of the rim
+/// belongs to the face whose base line it is nearest to.
 fn heights(tile: &Tile, number: usize) -> [f64; 2] {
-    let face = &tile.faces[number];
-    let local = tile.outline.vertices().iter().map(|v| {
-        let d = v - face.middle();
-        [d.dot(&face.tangent()), d.dot(&face.normal())]
-    });
-    let half = face.length() / 2.0 * (1.0 - 1e-9);
-    // Corners of other faces lie over this one too; its own are the outermost at their place.
-    let own = local.filter(|[s, h]| s.abs() < half && *h > -0.45 * tile.outline.circumradius());
-    own.fold([0.0; 2], |[low, high], [_, h]| {
+    let height = |v: &Vector2<f64>, face: usize| {
+        let face = &tile.faces[face];
+        (v - face.middle()).dot(&face.normal())
+    };
+    let nearest = |v: &Vector2<f64>| {
+        let distance = |face: &usize| height(v, *face).abs();
+        (0..tile.faces.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let rim = tile.outline.vertices().iter();
+    let own = rim.filter(|v| nearest(v) == Some(number));
+    own.fold([0.0; 2], |[low, high], v| {
+        let h = height(v, number);
         [f64::min(low, h), f64::max(high, h)]
     })
 }

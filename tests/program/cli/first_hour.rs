@@ -190,7 +190,7 @@ fn what_is_wrong_with_a_design_is_shown() {
     fs::write(&file, &text).unwrap();
     let name = file.to_str().unwrap();
     let shown = stdout(&tilebind(&["show", name]));
-    let told = "9 other pairs of faces bind as strongly: give them other codes";
+    let told = "12 other pairs of faces bind as strongly: give them other codes";
     assert!(shown.contains(told), "{shown}");
     // A design without them says nothing of the kind.
     let shown = stdout(&tilebind(&["show", "shapes/paper-tile.toml"]));
