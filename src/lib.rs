@@ -28,6 +28,8 @@
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
+//! | [`workshop`] | a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`report`] | JSON, CSV, NPY, the summary, pictures, pages |
@@ -59,6 +61,7 @@ pub mod configuration;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
+pub mod inspection;
 pub mod landscape;
 pub mod observer;
 pub mod pipeline;
@@ -71,6 +74,7 @@ pub mod sweep;
 pub mod tile;
 pub mod units;
 pub mod words;
+pub mod workshop;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

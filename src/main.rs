@@ -22,6 +22,8 @@ Exit status: 0 done; 1 the run failed; 2 the command line or a design file is wr
 written); 75 interrupted.
 
 Start here:
+  tilebind init my.toml
+  tilebind show my.toml
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile"
 )]
 struct Arguments {
@@ -41,6 +43,8 @@ enum Command {
     Crosstalk(cli::crosstalk::Crosstalk),
     Match(cli::matching::Match),
     Calibrate(cli::calibrate::Calibrate),
+    Show(cli::show::Show),
+    Make(cli::make::Make),
     Init(cli::init::Init),
     Schema(cli::schema::Schema),
     Completions(cli::completions::Completions),
@@ -62,6 +66,8 @@ fn main() -> ExitCode {
         Command::Crosstalk(command) => command.run(),
         Command::Match(command) => command.run(),
         Command::Calibrate(command) => command.run(),
+        Command::Show(command) => command.run(),
+        Command::Make(command) => command.run(),
         Command::Init(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Completions(command) => command.run::<Arguments>(),

@@ -14,7 +14,7 @@ use tilebind::report::writer::{self, Extent, WriteError};
 
 use super::failure::fail_if_contradicted;
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, tell};
+use super::{Failure, input, interrupt, memory, style, tell};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -43,7 +43,7 @@ pub struct Analyse {
     design: DesignOptions,
 
     /// Folder for the results; made if need be
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 
     #[command(flatten)]
@@ -132,7 +132,7 @@ impl Analyse {
 
         let report = String::from_utf8_lossy(&files[writer::REPORT]);
         let folder = self.out.display().to_string();
-        let summary = || summary::summary(&design, &analysis, &folder);
+        let summary = || summary::summary(&design, &analysis, &folder, style::columns());
         self.print.results(&report, summary)?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
     }

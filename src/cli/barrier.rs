@@ -70,6 +70,10 @@ impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
+        input::doubt_pose(&design, &self.from);
+        if let End::At(to) = &self.to {
+            input::doubt_pose(&design, to);
+        }
         if let Some(file) = &self.pathway {
             input::check_file(file)?;
         }

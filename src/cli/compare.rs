@@ -18,7 +18,7 @@ use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
 use super::word::Word;
-use super::{Failure, input, interrupt, memory};
+use super::{Failure, input, interrupt, memory, style};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -45,7 +45,7 @@ pub struct Compare {
     model: Option<MagnetModel>,
 
     /// Folder for the results; made if need be
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
@@ -103,7 +103,10 @@ impl Compare {
             let folder = self.out.display();
             let names =
                 "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
-            format!("{}results in {folder}: {names}\n", comparison.summary())
+            format!(
+                "{}results in {folder}: {names}\n",
+                comparison.summary(style::columns())
+            )
         })?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));
         tell_refuted(&named.collect::<Vec<_>>())

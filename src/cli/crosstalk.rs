@@ -13,8 +13,7 @@ use super::{Failure, input, interrupt, tell};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
-#[command(
-    after_help = "\
+#[command(after_help = "\
 The set is a TOML file: words = [\"NNSN\", ...], without their mates, and if they are not the paper's
 [magnet] and [tile] side; `tilebind words --out DIR` writes one. Two square tiles carry a word each
 on one face; every pose is looked at: slid, tilted, drawn back. Rows and columns are the words, then
@@ -23,8 +22,7 @@ one whose east face carries the row's.
 
 Examples:
   tilebind crosstalk target/words/words.toml
-  tilebind crosstalk target/words/words.toml --certify --json"
-)]
+  tilebind crosstalk target/words/words.toml --certify --json")]
 pub struct Crosstalk {
     /// The set of words
     set: PathBuf,
@@ -92,7 +90,10 @@ impl Crosstalk {
         self.print.results(&json, || {
             let mut text = report::summary(&found);
             if let Some(folder) = &self.out {
-                text += &format!("results in {}: crosstalk.csv, report.json\n", folder.display());
+                text += &format!(
+                    "results in {}: crosstalk.csv, report.json\n",
+                    folder.display()
+                );
             }
             text
         })

@@ -47,7 +47,7 @@ pub struct Dock {
     runs: usize,
 
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// How long each trajectory lasts (s)
@@ -180,7 +180,16 @@ impl Dock {
             interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
-        let summary = || report::summary(&design, &problem, &docking, &map);
+        let summary = || {
+            let told = report::summary(&design, &problem, &docking, &map);
+            match &self.out {
+                Some(folder) => format!(
+                    "{told}results in {}: report.html to look at; dock.json, tables, pictures\n",
+                    folder.display()
+                ),
+                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
+            }
+        };
         self.print.results(&json, summary)
     }
 

@@ -1,7 +1,11 @@
 //! `tilebind energy`.
 
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use serde::Serialize;
+use tilebind::query::poses;
 use tilebind::report::json;
 use tilebind::{Configuration, Problem};
 
@@ -11,8 +15,10 @@ use super::{Failure, input, print};
 /// Print energy, force, torque and clearance at given poses, as JSON
 #[derive(Args)]
 #[command(after_help = "\
-Example:
-  tilebind energy shapes/paper-tile.toml --pose 0.43,0,0 --pose 0.43,-0.04,0")]
+Examples:
+  tilebind energy shapes/paper-tile.toml --pose 0.43,0,0 --pose 0.43,-0.04,0
+  tilebind energy shapes/paper-tile.toml --pose \"43 cm,-4 cm,30 deg\"
+  tilebind energy shapes/paper-tile.toml --poses results/pathways/0-free.csv")]
 pub struct Energy {
     #[command(flatten)]
     design: DesignOptions,
@@ -21,12 +27,19 @@ pub struct Energy {
     #[arg(
         long = "pose",
         value_name = "X,Y,THETA",
-        required = true,
+        required_unless_present = "file",
         allow_hyphen_values = true,
         value_parser = input::pose
     )]
     poses: Vec<Configuration>,
+
+    /// CSV file of poses, one a line: columns x, y and theta (others are passed over)
+    #[arg(long = "poses", value_name = "FILE.csv")]
+    file: Option<PathBuf>,
 }
+
+/// Most poses that are looked at for another unit.
+const MOST_DOUBTED: usize = 3;
 
 /// What is known of a pose.
 #[derive(Serialize)]
@@ -46,10 +59,24 @@ struct Entry {
 impl Energy {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
+        let mut poses = self.poses;
+        if let Some(file) = &self.file {
+            poses.extend(read(file)?);
+        }
+        for pose in poses.iter().take(MOST_DOUBTED) {
+            input::doubt_pose(&design, pose);
+        }
         let problem = design.problem();
-        let entries: Vec<Entry> = self.poses.iter().map(|q| entry(&problem, q)).collect();
+        let entries: Vec<Entry> = poses.iter().map(|q| entry(&problem, q)).collect();
         print(&json::text(&entries))
     }
+}
+
+/// The poses of a file.
+fn read(file: &Path) -> Result<Vec<Configuration>, Failure> {
+    let wrong = |error: &dyn Display| Failure::Usage(format!("{}: {error}", file.display()));
+    let text = std::fs::read_to_string(file).map_err(|error| wrong(&error))?;
+    poses::read(&text).map_err(|error| wrong(&error))
 }
 
 fn entry(problem: &Problem, q: &Configuration) -> Entry {

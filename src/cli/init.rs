@@ -5,27 +5,55 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::design::STARTER;
+use tilebind::design::{STARTER, Shape, Start};
 
-use super::{Failure, print, tell};
+use super::word::Word;
+use super::{Failure, input, print, tell};
 
-/// Write a design to start from, with remarks
+/// Write a design to start from
 #[derive(Args)]
 #[command(after_help = "\
+Without options: 43 cm squares that bind by a tab, with a remark on every key. With any of them: a
+design to measure, magnets as large and as far apart as there is room for and with the code that
+slides least into wrong places.
+
 Examples:
   tilebind init
   tilebind init my-tile.toml
-  tilebind init - | less")]
+  tilebind init hexagon.toml --sides 6 --side 0.12 --magnets 3 --shape arc
+  tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
     /// The file to write, which must not exist; - is standard output
     #[arg(default_value = "design.toml")]
     file: PathBuf,
+
+    /// Sides of both tiles, 3 to 24 [default: 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
+    sides: Option<u32>,
+
+    /// Length of a side (m), or with a unit: \"12 cm\" [default: 0.43]
+    #[arg(long, value_name = "M", value_parser = input::length)]
+    side: Option<f64>,
+
+    /// Magnets on each of the two faces that are to bind, 1 to 16 [default: 4]
+    #[arg(long, value_name = "K", value_parser = input::count)]
+    magnets: Option<usize>,
+
+    /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
+    #[arg(long, value_parser = shape(), hide_possible_values = true)]
+    shape: Option<Shape>,
+}
+
+fn shape() -> Word<Shape> {
+    let names = Shape::NAMES.map(|(name, _)| name).join(", ");
+    Word::new(&Shape::NAMES, format!("a shape is one of {names}"))
 }
 
 impl Init {
     pub fn run(self) -> Result<(), Failure> {
+        let text = self.text()?;
         if self.file == Path::new("-") {
-            return print(STARTER);
+            return print(&text);
         }
         let name = self.file.display();
         let mut file = OpenOptions::new()
@@ -39,13 +67,36 @@ impl Init {
                 )),
                 _ => Failure::Run(format!("cannot write {name}: {error}")),
             })?;
-        if let Err(error) = file.write_all(STARTER.as_bytes()) {
+        if let Err(error) = file.write_all(text.as_bytes()) {
             let _ = std::fs::remove_file(&self.file);
             return Err(Failure::Run(format!("cannot write {name}: {error}")));
         }
         tell(format!(
-            "wrote {name}; next: tilebind analyse {name} --out results"
+            "wrote {name}; next: tilebind show {name}, or tilebind analyse {name} --out results"
         ));
         Ok(())
+    }
+
+    /// The design asked for.
+    fn text(&self) -> Result<String, Failure> {
+        let asked = (self.sides, self.side, self.magnets, self.shape);
+        if asked == (None, None, None, None) {
+            return Ok(STARTER.to_owned());
+        }
+        let usual = Start::default();
+        let start = Start {
+            sides: self.sides.unwrap_or(usual.sides),
+            side: self.side.unwrap_or(usual.side),
+            magnets: self.magnets.unwrap_or(usual.magnets),
+            shape: self.shape.unwrap_or(usual.shape),
+        };
+        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        // A name that no quotes or control characters end.
+        let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);
+        let name: String = stem.chars().filter(plain).collect();
+        let name = name.trim_matches(|c| c == '-' || c == ' ');
+        let name = if name.is_empty() { "starter" } else { name };
+        let design = start.design(name);
+        design.map_err(|error| Failure::Usage(error.to_string()))
     }
 }

@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use tilebind::Configuration;
-use tilebind::design::{Design, MagnetModel};
+use tilebind::design::{self, Design, MagnetModel};
 
 use super::word::Word;
 use super::{Failure, tell};
@@ -33,12 +33,39 @@ pub fn model() -> Word<MagnetModel> {
     Word::new(&MagnetModel::NAMES, wrong)
 }
 
-/// A pose as `X,Y,THETA` (m, m, rad).
+/// A pose as `X,Y,THETA` (m, m, rad), or each with a unit: `43 cm,0,90 deg`.
 pub fn pose(text: &str) -> Result<Configuration, String> {
-    const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0";
-    let numbers = numbers(text).ok_or(FORM)?;
-    let numbers: [f64; 3] = numbers.try_into().map_err(|_| FORM)?;
-    Ok(numbers.into())
+    const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0, or with units, \
+                        such as \"43 cm,0,90 deg\"";
+    let parts: Vec<&str> = text.split(',').collect();
+    let [x, y, theta] = parts[..] else {
+        return Err(FORM.to_owned());
+    };
+    let numbers = [design::length(x), design::length(y), design::angle(theta)];
+    let [Some(x), Some(y), Some(theta)] = numbers else {
+        return Err(FORM.to_owned());
+    };
+    if theta.abs() > 1.001 * std::f64::consts::TAU {
+        return Err(format!(
+            "theta = {theta} rad is more than a whole turn: for degrees write \"{x},{y},{theta} deg\""
+        ));
+    }
+    Ok(Configuration::from([x, y, theta]))
+}
+
+/// Warns of a pose far off the table, in millimetres to all appearances.
+pub fn doubt_pose(design: &Design, q: &Configuration) {
+    let [x, y, theta] = q.to_array();
+    let [half_x, half_y] = design.space().half_size;
+    if x.abs() > 2.0 * half_x || y.abs() > 2.0 * half_y {
+        let [x_mm, y_mm] = [x, y].map(|length| length / 1e3);
+        tell(format!(
+            "warning: pose {x},{y},{theta} lies off the table of {} m by {} m: lengths are in m; \
+             did you mean {x_mm},{y_mm} (in mm: \"{x} mm,{y} mm,{theta}\")?",
+            2.0 * half_x,
+            2.0 * half_y
+        ));
+    }
 }
 
 /// Finite numbers with commas between them.
@@ -63,6 +90,20 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
     };
     let found = text.parse().ok().or_else(scientific);
     found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
+}
+
+/// A positive length (m), or with a unit.
+pub fn length(text: &str) -> Result<f64, String> {
+    design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
+        "a length greater than 0 is needed, such as 0.12 (m) or \"12 cm\"".to_owned()
+    })
+}
+
+/// A length (m) of 0 or more, or with a unit.
+pub fn length_or_none(text: &str) -> Result<f64, String> {
+    design::length(text)
+        .filter(|x| *x >= 0.0)
+        .ok_or_else(|| "a length of 0 or more is needed, such as 1e-4 (m) or \"0.1 mm\"".to_owned())
 }
 
 /// A positive number.
@@ -162,6 +203,11 @@ mod tests {
     fn poses() {
         assert_eq!(pose("0.43,-1e-2,0").unwrap().to_array(), [0.43, -0.01, 0.0]);
         assert_eq!(pose("-1, 2 ,-3").unwrap().to_array(), [-1.0, 2.0, -3.0]);
+        let turn = std::f64::consts::FRAC_PI_2;
+        assert_eq!(
+            pose("43cm,5 mm,90 deg").unwrap().to_array(),
+            [0.43, 0.005, turn]
+        );
         for wrong in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,NaN", "1,inf,0"] {
             assert!(pose(wrong).is_err(), "{wrong}");
         }

@@ -14,11 +14,14 @@ mod failure;
 pub mod init;
 mod input;
 mod interrupt;
+pub mod make;
 pub mod matching;
 mod memory;
 mod options;
 mod progress;
 pub mod schema;
+pub mod show;
+mod style;
 pub mod sweep;
 mod sweep_progress;
 mod word;
@@ -50,7 +53,13 @@ fn tell(message: impl Display) {
         _ if c.is_control() => char::REPLACEMENT_CHARACTER,
         _ => c,
     };
-    let message: String = format!("{message}\n").chars().map(harmless).collect();
+    let mut message: String = format!("{message}\n").chars().map(harmless).collect();
+    for word in ["error", "warning", "note"] {
+        let plain = format!("{word}:");
+        if message.starts_with(&plain) {
+            message.replace_range(..plain.len(), &style::label(word));
+        }
+    }
     let _ = std::io::stderr().write_all(message.as_bytes());
 }
 

@@ -3,7 +3,7 @@
 //! A command that means something of its own by one of them says so with `mut_arg`; not by an
 //! argument without a name, which `mut_arg` would move behind the others.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::Settings;
@@ -28,6 +28,18 @@ impl DesignOptions {
     /// Reads the design; its warnings go to standard error.
     pub fn load(&self) -> Result<Design, Failure> {
         input::load_as(&self.design, self.model)
+    }
+
+    /// Reads the design, whose warnings the caller tells.
+    pub fn load_silently(&self) -> Result<Design, Failure> {
+        let mut design = Design::load(&self.design)?;
+        design.interaction.model = self.model.unwrap_or(design.interaction.model);
+        Ok(design)
+    }
+
+    /// The design file.
+    pub fn file(&self) -> &Path {
+        &self.design
     }
 }
 

@@ -15,7 +15,7 @@ use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print};
+use super::{Failure, input, interrupt, memory, print, style};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -57,7 +57,7 @@ pub struct Sweep {
     vary: Vec<Axis>,
 
     /// Folder for the results; made if need be [default with a manifest: the folder it is in]
-    #[arg(long, value_name = "DIR",
+    #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
 
@@ -248,7 +248,10 @@ impl Sweep {
         self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
-            format!("{}results in {folder}: {files}\n", report.summary())
+            format!(
+                "{}results in {folder}: {files}\n",
+                report.summary(style::columns())
+            )
         })?;
         match report.progress().failed {
             0 => {

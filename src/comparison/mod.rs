@@ -19,7 +19,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Claims, CompletenessSettings, SaddleBounds, State, StateKind};
+use crate::landscape::{
+    Barrier, Claims, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
+};
 use crate::observer::Observer;
 use crate::pipeline::{self, Analysis, Settings};
 
@@ -222,6 +224,27 @@ impl Assessment {
     pub fn checks(&self) -> Option<[usize; 3]> {
         let checked = self.barriers_checked?;
         Some([checked, self.contradictions.len(), self.overestimates.len()])
+    }
+
+    /// Why tiles of this design do not find into the bond, where they do not: nothing holds, no way
+    /// leads in, or none of the far starts came in. The worst first, by its number from 3 to 1.
+    pub fn obstacle(&self) -> Option<(u8, String)> {
+        let Some(bond) = &self.bond else {
+            return Some((3, "the bond does not hold".to_owned()));
+        };
+        if bond.way_out.bounds.caged {
+            let proved = "proved: no way leads from far apart into the bond";
+            return Some((2, proved.to_owned()));
+        }
+        let none_came_in = self.far_starts > 0 && self.captured == 0;
+        none_came_in.then(|| {
+            let most = 100.0 * Proportion::new(0, self.far_starts).high;
+            let starts = self.far_starts;
+            (
+                1,
+                format!("none of {starts} far starts came into the bond (at most {most:.1} % do)"),
+            )
+        })
     }
 
     /// What is compared of an analysed design; the capture range is found here.

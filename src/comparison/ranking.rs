@@ -17,6 +17,14 @@ pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     order
 }
 
+/// The same, but designs that do not find into the bond stand behind all others, whatever the
+/// figure: see [`Assessment::obstacle`].
+pub fn ranked_for_use(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
+    let mut order = ranked(assessments, by);
+    order.sort_by_key(|&k| assessments[k].obstacle().map_or(0, |(degree, _)| degree));
+    order
+}
+
 /// Which of two designs is proved to have the higher figure: undecided where bounds overlap, are
 /// not known, or the models of the magnets differ.
 ///

@@ -4,76 +4,93 @@ use super::DesignError;
 use super::error::Span;
 use super::face::FaceContent;
 use super::placement::{magnet, placed};
-use super::quantity::{self, four_digits};
-use super::reader::{Result, Section};
+use super::profile::{depth_of, with_depth};
+use super::quantity::{four_digits, rounded_down};
+use super::reader::Result;
 use super::tile::TileEntry;
-use crate::tile::Tile;
 use crate::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
 use crate::tile::outline::{Outline, OutlineError};
+use crate::tile::profile::SHALLOWEST;
+use crate::tile::{Magnet, Tile};
 
-/// A tile, and for each of its magnets the place in the file that puts it there.
+/// A tile, and where the file puts each of its magnets.
 pub(super) struct BuiltTile {
     pub tile: Tile,
     /// The outline with the face that each edge belongs to.
     pub ring: Ring,
-    pub magnet_spans: Vec<Span>,
+    pub placings: Vec<Placing>,
+}
+
+/// Where the file puts a magnet.
+pub(super) struct Placing {
+    pub span: Span,
+    /// How far it lies behind the surface (m).
+    pub inset: f64,
 }
 
 /// Puts a tile together from the contents of its faces.
 pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<BuiltTile> {
     let faces = &entry.base.faces;
-    let thickness = thickness(&entry.section)?;
+    let (faults, thickness) = (entry.section.faults(), entry.thickness);
     let (ring, outline) = outline(entry, contents)?;
-    let mass = mass(&entry.section, outline.area() * thickness)?;
+    let mass = check_mass(entry, outline.area() * thickness);
+    let mass = faults.note(mass);
     let mut magnets = Vec::new();
-    let mut magnet_spans = Vec::new();
+    let mut placings = Vec::new();
     for (number, content) in contents.iter().enumerate() {
-        let edges = face_edges(&ring, &faces[number], number);
-        for listed in placed(entry, content, faces[number].length())? {
-            let magnet = magnet(entry, (number, &faces[number]), &edges, &listed)?;
-            if magnet.size[2] > thickness {
-                return Err(entry.section.error_at(
-                    listed.span,
-                    format!(
-                        "a magnet {} m thick sticks out of a tile {thickness} m thick",
-                        magnet.size[2]
-                    ),
-                    "the third number of a magnet's size runs through the tile's thickness",
-                ));
+        let face = (number, &faces[number]);
+        let edges = face_edges(&ring, face.1, number);
+        let listed = faults.note(placed(entry, content, face.1.length()));
+        for listed in listed.unwrap_or_default() {
+            let magnet = magnet(entry, face, &edges, &listed);
+            let magnet = magnet.and_then(|magnet| fits_in(entry, magnet, listed.span));
+            if let Ok(magnet) = faults.note(magnet) {
+                magnets.push(magnet);
+                placings.push(Placing {
+                    span: listed.span,
+                    inset: listed.keys.inset.unwrap_or(0.0),
+                });
             }
-            magnets.push(magnet);
-            magnet_spans.push(listed.span);
         }
     }
+    faults.check()?;
     let tile = Tile {
         outline,
         faces: faces.clone(),
         magnets,
-        mass,
+        mass: mass?,
         thickness,
     };
     Ok(BuiltTile {
         tile,
         ring,
-        magnet_spans,
+        placings,
     })
 }
 
-fn thickness(section: &Section) -> Result<f64> {
-    section
-        .require(
-            "thickness",
-            "say how thick the tile is: thickness = 0.013 (m)",
-        )?
-        .number(quantity::TILE_THICKNESS)
+/// Refuses a magnet that is thicker than its tile.
+fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
+    if magnet.size[2] <= entry.thickness {
+        return Ok(magnet);
+    }
+    Err(entry.section.error_at(
+        span,
+        format!(
+            "a magnet {} m thick sticks out of a tile {} m thick",
+            magnet.size[2], entry.thickness
+        ),
+        "the third number of a magnet's size runs through the tile's thickness",
+    ))
 }
 
 /// Density (kg/m^3) of the densest material there is, osmium.
 const HIGHEST_DENSITY: f64 = 22_590.0;
 
-fn mass(section: &Section, volume: f64) -> Result<f64> {
-    let entry = section.require("mass", "say how heavy the tile is: mass = 0.1 (kg)")?;
-    let mass = entry.number(quantity::MASS)?;
+/// The tile's mass (kg), unless that would make it denser than any material.
+fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
+    let (entry, mass) = entry
+        .mass
+        .ok_or_else(|| entry.section.error("no mass", ""))?;
     if mass > HIGHEST_DENSITY * volume {
         return Err(entry.error(
             format!(
@@ -87,15 +104,16 @@ fn mass(section: &Section, volume: f64) -> Result<f64> {
     Ok(mass)
 }
 
+fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
+    let line = |content: &FaceContent| FaceLine {
+        polyline: content.polyline.clone(),
+        fit: content.fit,
+    };
+    contents.iter().map(line).collect()
+}
+
 fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline)> {
-    let lines: Vec<_> = contents
-        .iter()
-        .map(|content| FaceLine {
-            polyline: content.polyline.clone(),
-            fit: content.fit,
-        })
-        .collect();
-    let ring = assemble(&entry.base.faces, &lines).map_err(|FitTooLarge(face)| {
+    let ring = assemble(&entry.base.faces, &lines(contents)).map_err(|FitTooLarge(face)| {
         entry.section.error_at(
             contents[face].fit_span,
             format!(
@@ -143,6 +161,12 @@ fn mend_outline(
                     "make it less deep, or keep it farther from the corners",
                 )
             };
+            let help = match largest_depth(entry, contents, culprit) {
+                Some(depth) => {
+                    format!("make it less deep: `depth` may be up to {depth} m in size here")
+                }
+                None => help.to_owned(),
+            };
             entry
                 .section
                 .error_at(contents[culprit].line_span, message, help)
@@ -152,4 +176,35 @@ fn mend_outline(
             "make the profiles less deep",
         ),
     }
+}
+
+/// The largest depth (m) that the profile of a face may have beside the others, rounded down;
+/// `None` where no depth mends it.
+fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
+    let profile = contents[face].profile.as_ref()?;
+    let depth = depth_of(profile)?;
+    let possible = |size: f64| {
+        let changed = with_depth(profile, size.copysign(depth));
+        let line = changed.and_then(|profile| profile.polyline().ok());
+        line.is_some_and(|line| {
+            let mut lines = lines(contents);
+            lines[face].polyline = line;
+            let ring = assemble(&entry.base.faces, &lines);
+            ring.is_ok_and(|ring| Outline::new(ring.points).is_ok())
+        })
+    };
+    let (mut right, mut wrong) = (0.0, depth.abs());
+    if !possible(right) {
+        return None;
+    }
+    for _ in 0..24 {
+        let middle = (right + wrong) / 2.0;
+        if possible(middle) {
+            right = middle;
+        } else {
+            wrong = middle;
+        }
+    }
+    let rounded = rounded_down(right);
+    (right > SHALLOWEST && possible(rounded)).then_some(rounded)
 }

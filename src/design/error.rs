@@ -6,7 +6,7 @@ use std::ops::Range;
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
-/// place marked, and the mend:
+/// place marked, and the mend; then the same of every further fault:
 ///
 /// ```text
 /// flat.toml:12:8: `side` = 430 m: did you mean 0.43 (430 mm)?
@@ -25,7 +25,12 @@ pub struct DesignError {
     pub message: String,
     /// How to mend it.
     pub help: String,
+    /// What else is wrong with the file, in its order; none of them has further ones.
+    pub also: Vec<DesignError>,
 }
+
+/// Most faults that are told at a time.
+const MOST_TOLD: usize = 20;
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,6 +88,21 @@ fn floor_char_boundary(text: &str, at: usize) -> usize {
 
 impl fmt::Display for DesignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_one(f)?;
+        for fault in self.also.iter().take(MOST_TOLD - 1) {
+            write!(f, "\n\n")?;
+            fault.write_one(f)?;
+        }
+        match self.also.len().saturating_sub(MOST_TOLD - 1) {
+            0 => Ok(()),
+            more => write!(f, "\n\nand {more} more"),
+        }
+    }
+}
+
+impl DesignError {
+    /// The fault without the further ones.
+    fn write_one(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(place) = &self.place else {
             writeln!(f, "{}: {}", self.file, self.message)?;
             return write!(f, "  = help: {}", self.help);

@@ -7,7 +7,7 @@ use super::quantity;
 use super::reader::{Entry, Result, Section, nearest_help};
 use super::shield::ShieldKeys;
 use crate::tile::barcode::{Barcode, BarcodeError};
-use crate::tile::profile::{Polyline, complement};
+use crate::tile::profile::{Polyline, Profile, complement};
 
 /// The magnets of a face, before their sizes and spacing are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +38,8 @@ impl Pattern {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FaceContent {
     pub polyline: Polyline,
+    /// The profile that the face's own keys describe.
+    pub profile: Option<Profile>,
     /// How far the line is drawn back (m).
     pub fit: f64,
     pub pattern: Pattern,
@@ -53,6 +55,7 @@ impl FaceContent {
     fn mate(&self, at: Span) -> Self {
         Self {
             polyline: complement(&self.polyline),
+            profile: None,
             fit: 0.0,
             pattern: self.pattern.mate(at),
             keys: self.keys.mate(),
@@ -77,7 +80,7 @@ pub(super) const FACE_KEYS: [&str; 7] = [
 impl<'a> FaceEntry<'a> {
     pub fn new(own: Option<Section<'a>>, all: Option<Section<'a>>) -> Result<Self> {
         for section in [&own, &all].into_iter().flatten() {
-            section.allow(&FACE_KEYS)?;
+            section.allow(&FACE_KEYS);
             if let (Some(mates), Some(other)) = (section.get("mates"), first_of(section)) {
                 return Err(other.key_error(
                     format!(
@@ -138,17 +141,22 @@ impl<'a> FaceEntry<'a> {
         }
         let profile = self.get("profile");
         let pattern = self.get_either(["code", "magnets"]);
+        let read = |entry: &Entry| entry.noted(read_profile(entry, length));
+        let line = profile.as_ref().map(read);
+        let magnets = pattern
+            .as_ref()
+            .map(|entry| entry.noted(read_pattern(entry)));
+        let keys = self.magnet_keys()?.over(keys);
+        let (drawing, polyline) = match line.transpose()? {
+            Some((drawing, line)) => (Some(drawing), line),
+            None => (None, drawn.clone()),
+        };
         Ok(FaceContent {
-            polyline: match &profile {
-                Some(entry) => read_profile(entry, length)?,
-                None => drawn.clone(),
-            },
+            polyline,
+            profile: drawing,
             fit: 0.0,
-            pattern: match &pattern {
-                Some(entry) => read_pattern(entry)?,
-                None => Pattern::List(Vec::new()),
-            },
-            keys: self.magnet_keys()?.over(keys),
+            pattern: magnets.unwrap_or_else(|| Ok(Pattern::List(Vec::new())))?,
+            keys,
             line_span: profile.map_or(span, |entry| entry.span()),
             fit_span: span,
             pattern_span: pattern.map_or(span, |entry| entry.span()),
@@ -183,7 +191,7 @@ impl<'a> FaceEntry<'a> {
         let mut keys = MagnetKeys::default();
         for section in [self.own, self.all].into_iter().flatten() {
             if let Some(magnet) = section.section("magnet", "`magnet`")? {
-                magnet.allow(&MAGNET_KEYS)?;
+                magnet.allow(&MAGNET_KEYS);
                 keys = keys.over(MagnetKeys::read(&magnet)?);
             }
         }
@@ -216,10 +224,11 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     if entry.key == "magnets" {
         let magnets = entry.array()?;
         check_count(entry, magnets.len())?;
-        let magnets = magnets
-            .iter()
-            .map(ListedMagnet::read)
-            .collect::<Result<_>>()?;
+        let magnets = magnets.iter();
+        let magnets: Vec<_> = magnets
+            .map(|magnet| entry.noted(ListedMagnet::read(magnet)))
+            .collect();
+        let magnets = magnets.into_iter().collect::<Result<_>>()?;
         return Ok(Pattern::List(magnets));
     }
     let text = entry.string()?;

@@ -84,13 +84,22 @@ impl MagnetKeys {
                 let what = "along its magnetic axis, along the face, through the tile's thickness";
                 entry.numbers::<3>(quantity::MAGNET_SIZE, what)
             })
-            .transpose()?;
+            .transpose();
+        let size = section.faults().note(size);
+        let faults = section.faults();
+        let strength = faults.note(strength(section));
+        let [pitch, inset, axis] = [
+            ("pitch", quantity::PITCH),
+            ("inset", quantity::INSET),
+            ("axis", quantity::AXIS),
+        ]
+        .map(|(key, quantity)| faults.note(section.number(key, quantity)));
         Ok(Self {
-            size,
-            strength: strength(section)?,
-            pitch: section.number("pitch", quantity::PITCH)?,
-            inset: section.number("inset", quantity::INSET)?,
-            axis: section.number("axis", quantity::AXIS)?,
+            size: size?,
+            strength: strength?,
+            pitch: pitch?,
+            inset: inset?,
+            axis: axis?,
         })
     }
 
@@ -188,12 +197,15 @@ impl ListedMagnet {
 
     pub fn read(entry: &Entry) -> Result<Self> {
         let section = entry.section("a magnet of `magnets`")?;
-        section.allow(&Self::keys())?;
+        section.allow(&Self::keys());
         let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
         let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
+        let faults = section.faults();
+        let at = faults.note(at.number(quantity::ALONG_FACE));
+        let pole = faults.note(pole.word(&[("N", Pole::North), ("S", Pole::South)]));
         Ok(Self {
-            at: at.number(quantity::ALONG_FACE)?,
-            pole: pole.word(&[("N", Pole::North), ("S", Pole::South)])?,
+            at: at?,
+            pole: pole?,
             keys: MagnetKeys::read(&section)?,
             span: entry.span(),
         })

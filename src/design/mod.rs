@@ -3,7 +3,9 @@
 //! [`Design::load`] turns a file into a [`Pair`] of tiles, the configuration in which they are
 //! meant to bind, and the table they float on. Everything that can be wrong with a file is found here and
 //! told as a [`DesignError`] with line, column and the mend; behind this door tiles are sound.
-//! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2.
+//! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2; a number in quotes
+//! may carry another unit: `"12 cm"`, `"100 g"`, `"30 deg"`, `"300 mT"`. Everything that is wrong
+//! with a file is told at once, as far as it can be read.
 //!
 //! What the keys mean where a choice had to be made:
 //!
@@ -31,10 +33,13 @@
 
 mod base;
 mod build;
+mod doubts;
 pub(crate) mod drawings;
 mod error;
 mod face;
+mod faults;
 pub(crate) mod file;
+mod inset;
 mod magnet;
 mod overlap;
 mod placement;
@@ -45,9 +50,12 @@ mod reader;
 mod schema;
 mod shield;
 mod source;
+mod starting;
 mod svg;
+mod syntax;
 mod target;
 mod tile;
+mod units;
 mod word_set;
 
 pub use crate::potential::MagnetModel;
@@ -55,6 +63,8 @@ pub use drawings::Drawing;
 pub use error::{DesignError, Place};
 pub use magnet::{Strength, surface_field_share};
 pub use schema::{SCHEMA, STARTER};
+pub use starting::{Shape, Start, StartError};
+pub use units::{angle, length};
 pub use word_set::WordSet;
 
 use std::collections::BTreeMap;
@@ -70,6 +80,7 @@ use crate::potential::shielding::{ShieldRule, Shields};
 use crate::problem::Problem;
 use crate::tile::Pair;
 use drawings::Drawings;
+use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
 use reader::{Result, Section};
 use source::Source;
@@ -132,6 +143,7 @@ impl Design {
             place: None,
             message: format!("cannot read the design file: {error}"),
             help: "check the path; shipped designs are in shapes/".to_owned(),
+            also: Vec::new(),
         })?;
         match String::from_utf8(bytes) {
             Ok(text) => Self::parse(&text, &file),
@@ -143,6 +155,7 @@ impl Design {
                     text: &text,
                     quoted: true,
                     drawings: &Drawings::default(),
+                    faults: &Faults::default(),
                 };
                 Err(source.error(
                     (at..at + 1).into(),
@@ -175,41 +188,54 @@ impl Design {
     }
 
     fn read(text: &str, file: &str, drawings: Drawings) -> Result<Self> {
+        let faults = Faults::default();
         let source = Source {
             file,
             text,
             quoted: true,
             drawings: &drawings,
+            faults: &faults,
         };
-        let root = DeTable::parse(text).map_err(|error| {
-            source.error(
-                error.span().unwrap_or_default().into(),
-                error.message().trim(),
-                "the file is TOML: `key = value` lines under [section] headers",
-            )
-        })?;
-        let root = Section::root(source, root.get_ref());
-        root.allow(&ROOT_KEYS)?;
-        let table = table(&root)?;
-        let keys = magnet_keys(&root)?;
+        let design = syntax::parse(source).and_then(|root| Self::of(source, &root));
+        let design = faults.conclude(design)?;
+        let (used, skipped) = drawings.finish();
+        let mut warnings = design.warnings;
+        warnings.extend(skipped);
+        Ok(Self {
+            drawings: used,
+            warnings,
+            ..design
+        })
+    }
+
+    /// The design of a file; whatever of it can be read is read before the first fault is told.
+    fn of(source: Source, root: &DeTable) -> Result<Self> {
+        let faults = source.faults;
+        let root = Section::root(source, root);
+        root.allow(&ROOT_KEYS);
+        let table = faults.note(table(&root));
+        let keys = faults.note(magnet_keys(&root));
+        let model = faults.note(potential::read(&root));
+        let name = faults.note(root.get("name").map(|name| name.line()).transpose());
+        let description = faults.note(root.string("description"));
         let entries = tile_entries(&root)?;
-        let target = target::read(&root, &entries)?;
-        let model = potential::read(&root)?;
-        let (shields, doubt) = shields(&root, &entries)?;
-        let contents = tile::resolve(&entries, keys)?;
-        let fixed = build::build(&entries[0], &contents[0])?;
-        let moving = build::build(&entries[1], &contents[1])?;
-        let mut warnings = overlap::check_magnets(&entries[0], &fixed)?;
-        warnings.extend(overlap::check_magnets(&entries[1], &moving)?);
+        let target = faults.note(target::read(&root, &entries));
+        let shields = faults.note(shields(&root, &entries));
+        let contents = faults.note(tile::resolve(&entries, keys.clone().unwrap_or_default()));
+        // From here on parts are put together, of which each is sound by itself.
+        faults.check()?;
+        let (table, keys, contents, target) = (table?, keys?, contents?, target?);
+        let [fixed, moving] = [0, 1].map(|i| faults.note(build::build(&entries[i], &contents[i])));
+        let built = [fixed?, moving?];
+        let mut warnings = overlap::check_magnets(&entries, &built)?;
+        let (shields, doubt) = shields?;
         warnings.extend(doubt);
-        let (fixed, moving) = (fixed.tile, moving.tile);
-        let mut design = Self {
-            name: match root.get("name") {
-                Some(name) => name.line()?.to_owned(),
-                None => stem(file),
-            },
-            description: root.string("description")?.unwrap_or_default().to_owned(),
-            sha256: sha256(text),
+        warnings.extend(doubts::find(&root, &entries, &contents, table));
+        let [fixed, moving] = built.map(|built| built.tile);
+        let design = Self {
+            name: name?.map_or_else(|| stem(source.file), str::to_owned),
+            description: description?.unwrap_or_default().to_owned(),
+            sha256: sha256(source.text),
             table,
             pair: Arc::new(Pair {
                 bound: target.configuration(&fixed, &moving)?,
@@ -217,15 +243,15 @@ impl Design {
                 fixed,
                 moving,
             }),
-            interaction: Interaction { model, shields },
+            interaction: Interaction {
+                model: model?,
+                shields,
+            },
             pitch: keys.pitch,
             drawings: Vec::new(),
             warnings,
         };
         design.check_table(&root)?;
-        let (used, skipped) = drawings.finish();
-        design.drawings = used;
-        design.warnings.extend(skipped);
         Ok(design)
     }
 
@@ -276,7 +302,7 @@ const TABLE_KEYS: [&str; 1] = ["size"];
 
 fn table(root: &Section) -> Result<[f64; 2]> {
     let section = root.require("table", TABLE_HELP)?.section("[table]")?;
-    section.allow(&TABLE_KEYS)?;
+    section.allow(&TABLE_KEYS);
     section
         .require("size", TABLE_HELP)?
         .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")
@@ -286,7 +312,7 @@ fn magnet_keys(root: &Section) -> Result<MagnetKeys> {
     let Some(section) = root.section("magnet", "[magnet]")? else {
         return Ok(MagnetKeys::default());
     };
-    section.allow(&MAGNET_KEYS)?;
+    section.allow(&MAGNET_KEYS);
     MagnetKeys::read(&section)
 }
 
@@ -316,10 +342,9 @@ fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
         let section = root.require(TILES[i], &help)?.section(name)?;
         TileEntry::read(TILES[i], section, faces_name)
     };
-    Ok([
-        entry(0, "[fixed]", "[fixed.faces]")?,
-        entry(1, "[moving]", "[moving.faces]")?,
-    ])
+    let fixed = root.faults().note(entry(0, "[fixed]", "[fixed.faces]"));
+    let moving = root.faults().note(entry(1, "[moving]", "[moving.faces]"));
+    Ok([fixed?, moving?])
 }
 
 fn stem(file: &str) -> String {

@@ -46,10 +46,10 @@ pub(super) fn placed(
                         four_digits(needed),
                         four_digits(length)
                     ),
-                    format!(
-                        "at a pitch of {pitch} m there is room for {} magnets",
-                        ((length - wide) / pitch).floor().max(-1.0) + 1.0
-                    ),
+                    match ((length - wide) / pitch).floor().max(-1.0) + 1.0 {
+                        1.0 => format!("at a pitch of {pitch} m there is room for 1 magnet"),
+                        room => format!("at a pitch of {pitch} m there is room for {room} magnets"),
+                    },
                 ));
             }
             Ok(code

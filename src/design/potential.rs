@@ -7,7 +7,7 @@ pub(super) fn read(root: &Section) -> Result<MagnetModel> {
     let Some(section) = root.section("potential", "[potential]")? else {
         return Ok(MagnetModel::default());
     };
-    section.allow(&["model"])?;
+    section.allow(&["model"]);
     let Some(entry) = section.get("model") else {
         return Ok(MagnetModel::default());
     };

@@ -54,11 +54,11 @@ const MOST_POINTS: usize = 4000;
 const MOST_TEETH: u32 = 200;
 
 /// The line of a face of the given length (m), as its `profile` draws it.
-pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
+pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyline)> {
     let section = entry.section("`profile`")?;
     let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
     let shape = section.require("shape", example)?.word(&SHAPES)?;
-    section.allow(shape.keys())?;
+    section.allow(shape.keys());
     let profile = match shape {
         Shape::Flat => Ok(Profile::Flat),
         Shape::Tab => tab(&section),
@@ -67,8 +67,10 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
         Shape::Points => points(&section),
         Shape::Svg => svg::read_line(&section).map(Profile::Points),
     }?;
-    let line = profile.polyline().map_err(|error| mend(&section, error))?;
-    within_face(&section, &line, length)?;
+    section.faults().check_guesses()?;
+    let line = profile.polyline();
+    let line = line.map_err(|error| mend(&section, &profile, error))?;
+    within_face(&section, &profile, &line, length)?;
     if line.len() > MOST_POINTS {
         return Err(section.error(
             format!(
@@ -78,17 +80,18 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<Polyline> {
             "give it fewer or shallower teeth, or fewer points",
         ));
     }
-    Ok(line)
+    Ok((profile, line))
 }
 
 fn tab(section: &Section) -> Result<Profile> {
+    let faults = section.faults();
+    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
+    let draft = faults.note(section.number("draft", quantity::DRAFT));
     Ok(Profile::Tab {
-        width: width(section)?,
-        depth: depth(section)?,
-        draft: section.number("draft", quantity::DRAFT)?.unwrap_or(0.0),
-        offset: section
-            .number("offset", quantity::ALONG_FACE)?
-            .unwrap_or(0.0),
+        width: width?,
+        depth: depth?,
+        draft: draft?.unwrap_or(0.0),
+        offset: offset(section)?,
     })
 }
 
@@ -100,10 +103,14 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
     ];
     let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
     let count = section.require("count", "say how many teeth: count = 4")?;
+    let faults = section.faults();
+    let form = faults.note(form.word(&forms));
+    let count = faults.note(count.count(MOST_TEETH));
+    let depth = faults.note(depth(section));
     Ok(Profile::Teeth {
-        form: form.word(&forms)?,
-        count: count.count(MOST_TEETH)?,
-        depth: depth(section)?,
+        form: form?,
+        count: count?,
+        depth: depth?,
         span: section
             .number("span", quantity::PROFILE_WIDTH)?
             .unwrap_or(length),
@@ -111,13 +118,18 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
 }
 
 fn arc(section: &Section) -> Result<Profile> {
+    let faults = section.faults();
+    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
     Ok(Profile::Arc {
-        width: width(section)?,
-        depth: depth(section)?,
-        offset: section
-            .number("offset", quantity::ALONG_FACE)?
-            .unwrap_or(0.0),
+        width: width?,
+        depth: depth?,
+        offset: offset(section)?,
     })
+}
+
+fn offset(section: &Section) -> Result<f64> {
+    let offset = section.number("offset", quantity::ALONG_FACE)?;
+    Ok(offset.unwrap_or(0.0))
 }
 
 fn points(section: &Section) -> Result<Profile> {
@@ -126,7 +138,9 @@ fn points(section: &Section) -> Result<Profile> {
         .array()?
         .iter()
         .map(|point| point.numbers::<2>(quantity::ALONG_FACE, "s along the face and h outwards"))
-        .collect::<Result<_>>()?;
+        .map(|point| section.faults().note(point))
+        .collect::<Vec<_>>();
+    let points = points.into_iter().collect::<Result<_>>()?;
     Ok(Profile::Points(points))
 }
 
@@ -146,7 +160,7 @@ fn depth(section: &Section) -> Result<f64> {
 }
 
 /// A profile that cannot be drawn, as a fault of the key that is to be changed.
-fn mend(section: &Section, error: ProfileError) -> DesignError {
+fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignError {
     match error {
         ProfileError::SidesMeet { largest_draft } => {
             let key = if section.get("draft").is_some() {
@@ -154,8 +168,15 @@ fn mend(section: &Section, error: ProfileError) -> DesignError {
             } else {
                 "depth"
             };
+            let less_deep = match profile {
+                Profile::Tab { width, draft, .. } if *draft > 0.0 => {
+                    let largest = quantity::rounded_down(width / 2.0 / draft.tan());
+                    format!("less deep than {largest} m")
+                }
+                _ => "less deep".to_owned(),
+            };
             let help = format!(
-                "keep draft below {} rad, or make the tab wider or less deep",
+                "keep draft below {} rad, or make the tab wider or {less_deep}",
                 quantity::four_digits(largest_draft)
             );
             match section.get(key) {
@@ -182,7 +203,7 @@ fn mend(section: &Section, error: ProfileError) -> DesignError {
 }
 
 /// Refuses a profile that leaves its face to the left or to the right.
-fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> {
+fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: f64) -> Result<()> {
     let half = length / 2.0;
     let farthest = line
         .iter()
@@ -196,20 +217,75 @@ fn within_face(section: &Section, line: &[[f64; 2]], length: f64) -> Result<()> 
         quantity::four_digits(s),
         quantity::four_digits(half.copysign(s))
     );
-    let help = format!(
-        "the face is {} m long; make the profile narrower or move it inwards",
-        quantity::four_digits(length)
-    );
     let point = section
         .get("points")
         .and_then(|entry| entry.array().ok()?.get(index).copied());
-    let culprit = point.or_else(|| {
-        ["width", "span", "file"]
-            .iter()
-            .find_map(|key| section.get(key))
-    });
-    Err(match culprit {
+    let (key, mend) = narrower(profile, half);
+    let help = format!(
+        "the face is {} m long; {mend}",
+        quantity::four_digits(length)
+    );
+    Err(match point.or_else(|| section.get(key)) {
         Some(entry) => entry.error(message, help),
         None => section.error(message, help),
     })
+}
+
+/// The key that makes a profile too wide for a face of half this length (m), and how to change it.
+fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
+    let at_most = |key: &'static str, largest: f64| {
+        let largest = quantity::rounded_down(largest);
+        (
+            key,
+            format!("`{key}` may be up to {largest} m in size here"),
+        )
+    };
+    match *profile {
+        // Wider than its base: by its depth.
+        Profile::Tab {
+            width,
+            draft,
+            offset,
+            ..
+        } if draft < 0.0 && width / 2.0 + offset.abs() < half => {
+            let room = half - offset.abs() - width / 2.0;
+            at_most("depth", room / draft.abs().tan())
+        }
+        Profile::Arc { width, offset, .. } if width / 2.0 + offset.abs() < half => {
+            // The circle's radius (w^2/4 + d^2) / 2d must not exceed the room beside its middle.
+            let room = half - offset.abs();
+            at_most("depth", room + (room * room - width * width / 4.0).sqrt())
+        }
+        Profile::Tab { offset, .. } | Profile::Arc { offset, .. } if offset.abs() < half => {
+            at_most("width", 2.0 * (half - offset.abs()))
+        }
+        Profile::Tab { .. } | Profile::Arc { .. } => at_most("offset", half),
+        Profile::Teeth { .. } => at_most("span", 2.0 * half),
+        Profile::Flat | Profile::Points(_) => (
+            "file",
+            "make the profile narrower or move it inwards".to_owned(),
+        ),
+    }
+}
+
+/// The profile with another depth (m), if it has one.
+pub(super) fn with_depth(profile: &Profile, to: f64) -> Option<Profile> {
+    let mut changed = profile.clone();
+    match &mut changed {
+        Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {
+            *depth = to;
+        }
+        Profile::Flat | Profile::Points(_) => return None,
+    }
+    Some(changed)
+}
+
+/// How deep a profile is (m), if that is one of its keys.
+pub(super) fn depth_of(profile: &Profile) -> Option<f64> {
+    match *profile {
+        Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {
+            Some(depth)
+        }
+        Profile::Flat | Profile::Points(_) => None,
+    }
 }

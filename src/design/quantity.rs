@@ -1,5 +1,7 @@
 //! Quantities of a design file: their units, and which magnitudes give one pause.
 
+use super::units::{self, Units};
+
 /// A kind of quantity: its unit, and the magnitudes of it that tiles and magnets have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantity {
@@ -14,6 +16,8 @@ pub(super) struct Quantity {
     typical: (f64, f64),
     /// Other units that the number may have been given in: how many make one, and their name.
     others: &'static [(f64, &'static str)],
+    /// Units that may stand behind a number in quotes.
+    units: Units,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +41,7 @@ const fn length(sign: Sign, accepted: (f64, f64), typical: (f64, f64)) -> Quanti
         accepted,
         typical,
         others: LENGTHS,
+        units: units::LENGTH,
     }
 }
 
@@ -48,6 +53,7 @@ const fn angle(limit: f64) -> Quantity {
         accepted: (0.0, limit),
         typical: (0.0, limit),
         others: &[(180.0 / std::f64::consts::PI, "degrees")],
+        units: units::ANGLE,
     }
 }
 
@@ -76,6 +82,7 @@ const fn number(rule: &'static str, sign: Sign, accepted: (f64, f64)) -> Quantit
         accepted,
         typical: accepted,
         others: &[(100.0, "%")],
+        units: units::SHARE,
     }
 }
 
@@ -98,6 +105,7 @@ pub(super) const FRONT_GAIN: Quantity = number(
     (0.1, 10.0),
 );
 
+/// Of a tile.
 pub(super) const MASS: Quantity = Quantity {
     unit: "kg",
     rule: "masses are in kilograms",
@@ -105,6 +113,7 @@ pub(super) const MASS: Quantity = Quantity {
     accepted: (1e-6, 1e3),
     typical: (1e-3, 10.0),
     others: &[(1000.0, "g")],
+    units: units::MASS,
 };
 
 pub(super) const REMANENCE: Quantity = Quantity {
@@ -114,6 +123,7 @@ pub(super) const REMANENCE: Quantity = Quantity {
     accepted: (1e-3, 2.5),
     typical: (0.05, 1.6),
     others: FIELDS,
+    units: units::FIELD,
 };
 
 pub(super) const SURFACE_FIELD: Quantity = Quantity {
@@ -123,6 +133,7 @@ pub(super) const SURFACE_FIELD: Quantity = Quantity {
     accepted: (1e-5, 1.25),
     typical: (0.01, 0.8),
     others: FIELDS,
+    units: units::FIELD,
 };
 
 pub(super) const MOMENT: Quantity = Quantity {
@@ -132,6 +143,7 @@ pub(super) const MOMENT: Quantity = Quantity {
     accepted: (1e-9, 1e4),
     typical: (1e-4, 100.0),
     others: &[(1000.0, "mA m^2, or emu")],
+    units: units::MOMENT,
 };
 
 impl Quantity {
@@ -176,6 +188,53 @@ impl Quantity {
         Err((message, help(&format!("{what} may be {limits}"))))
     }
 
+    /// A number with a unit behind it, in the file's own unit.
+    pub fn read(&self, text: &str) -> Option<f64> {
+        units::read(text, self.units)
+    }
+
+    /// The units that may stand behind a number in quotes.
+    pub fn unit_names(&self) -> impl Iterator<Item = &'static str> {
+        self.units.iter().map(|(name, _)| *name)
+    }
+
+    /// What to write for a number, from one that is there in quotes.
+    pub fn example(&self, text: &str) -> String {
+        let with_unit = self.units.iter().find(|(_, factor)| *factor > 1.0);
+        let (name, factor) = with_unit.unwrap_or(&self.units[0]);
+        match text.trim().parse::<f64>().ok().filter(|x| x.is_finite()) {
+            Some(value) => format!(
+                "write {value} without the quotes, or \"{} {name}\"",
+                four_digits(value * factor)
+            ),
+            None => {
+                let names: Vec<_> = self.unit_names().collect();
+                format!(
+                    "write a plain number, or one with a unit in quotes, \"5 {name}\"; units here: {}",
+                    names.join(", ")
+                )
+            }
+        }
+    }
+
+    /// A magnitude that may stand, near to what was meant by one that may not.
+    pub fn guess(&self, value: f64) -> f64 {
+        let (low, high) = self.typical;
+        let meant = self.others.iter().map(|(factor, _)| value / factor);
+        let mut meant = meant.filter(|meant| (low..=high).contains(&meant.abs()));
+        let (low, high) = self.accepted;
+        let sign = if self.sign == Sign::Any { value } else { 1.0 };
+        meant
+            .next()
+            .filter(|meant| self.sign == Sign::Any || *meant >= 0.0)
+            .unwrap_or_else(|| value.abs().clamp(low, high).copysign(sign))
+    }
+
+    /// What may have been meant by a magnitude that is uncommonly large; `None` where it is not.
+    pub fn doubt(&self, value: f64) -> Option<Vec<String>> {
+        (value.abs() > self.typical.1).then(|| self.proposals(value))
+    }
+
     /// A number with the unit, if there is one.
     fn with_unit(&self, value: f64) -> String {
         format!("{value} {}", self.unit).trim_end().to_owned()
@@ -190,6 +249,12 @@ impl Quantity {
             .map(|(meant, name)| format!("{} ({value} {name})", four_digits(meant)))
             .collect()
     }
+}
+
+/// A positive limit to three significant digits, never above it.
+pub(super) fn rounded_down(limit: f64) -> f64 {
+    let scale = 10_f64.powi(2 - limit.abs().log10().floor() as i32);
+    four_digits((limit * scale * (1.0 - 1e-12)).floor() / scale)
 }
 
 /// A number to four significant digits, without trailing zeros.

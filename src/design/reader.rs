@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{DesignError, Span};
+use super::faults::Faults;
 use super::quantity::Quantity;
 use super::source::Source;
 
@@ -41,19 +42,20 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Refuses every key that is not among `known`, naming the nearest one that is.
-    pub fn allow(&self, known: &[&str]) -> Result<()> {
-        let first_unknown = self
-            .entries()
-            .into_iter()
-            .find(|entry| !known.contains(&entry.key));
-        match first_unknown {
-            None => Ok(()),
-            Some(entry) => Err(entry.key_error(
+    /// Notes every key that is not among `known`, naming the nearest one that is.
+    pub fn allow(&self, known: &[&str]) {
+        let entries = self.entries().into_iter();
+        for entry in entries.filter(|entry| !known.contains(&entry.key)) {
+            self.source.faults.add(entry.key_error(
                 format!("{} has no key `{}`", self.name, entry.key),
                 nearest_help(entry.key, known),
-            )),
+            ));
         }
+    }
+
+    /// What is wrong with the design so far.
+    pub fn faults(&self) -> &'a Faults {
+        self.source.faults
     }
 
     /// All keys, in the order of the file.
@@ -129,6 +131,11 @@ impl<'a> Entry<'a> {
 
     pub fn key_span(&self) -> Span {
         self.key_span
+    }
+
+    /// The result itself; its fault is added to the design's.
+    pub fn noted<T>(&self, result: Result<T>) -> Result<T> {
+        self.source.faults.note(result)
     }
 
     pub fn source(&self) -> Source<'a> {
@@ -255,12 +262,23 @@ impl<'a> Entry<'a> {
             })
     }
 
-    fn raw_number(&self) -> Result<f64> {
+    /// A number; one with a unit in quotes, where `quantity` says which units there are.
+    fn raw_number(&self, quantity: Option<Quantity>) -> Result<f64> {
         let parsed = match self.value.get_ref() {
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
                 .ok()
                 .map(|value| value as f64),
             DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::String(text) => {
+                let Some(quantity) = quantity else {
+                    return Err(self.wrong_type("a number"));
+                };
+                let wrong = || DesignError {
+                    help: quantity.example(text),
+                    ..self.wrong_type("a number")
+                };
+                Some(quantity.read(text).ok_or_else(wrong)?)
+            }
             _ => return Err(self.wrong_type("a number")),
         };
         parsed.ok_or_else(|| {
@@ -271,17 +289,22 @@ impl<'a> Entry<'a> {
         })
     }
 
+    /// A number; one that cannot stand is noted, and reading goes on with a guess.
     pub fn number(&self, quantity: Quantity) -> Result<f64> {
-        let value = self.raw_number()?;
+        let value = self.raw_number(Some(quantity))?;
         match quantity.check(&format!("`{}`", self.key), value) {
             Ok(()) => Ok(value),
+            Err((message, help)) if value.is_finite() => {
+                self.source.faults.guess(self.error(message, help));
+                Ok(quantity.guess(value))
+            }
             Err((message, help)) => Err(self.error(message, help)),
         }
     }
 
     /// A whole number from 1 to `largest`.
     pub fn count(&self, largest: u32) -> Result<u32> {
-        let value = self.raw_number()?;
+        let value = self.raw_number(None)?;
         if value.fract() == 0.0 && value >= 1.0 && value <= f64::from(largest) {
             return Ok(value as u32);
         }
@@ -312,10 +335,9 @@ impl<'a> Entry<'a> {
     /// An array of exactly N numbers, such as a size along N directions.
     pub fn numbers<const N: usize>(&self, quantity: Quantity, what: &str) -> Result<[f64; N]> {
         let items = self.array()?;
-        let values = items
-            .iter()
-            .map(|item| item.number(quantity))
-            .collect::<Result<Vec<_>>>()?;
+        let read = |item: &Entry| self.source.faults.note(item.number(quantity));
+        let values = items.iter().map(read).collect::<Vec<_>>();
+        let values = values.into_iter().collect::<Result<Vec<_>>>()?;
         values.try_into().map_err(|values: Vec<f64>| {
             self.error(
                 format!("`{}` holds {} numbers, not {N}", self.key, values.len()),
@@ -327,8 +349,11 @@ impl<'a> Entry<'a> {
 
 /// Names the known word nearest to `word`, or all of them where none is near.
 pub(super) fn nearest_help(word: &str, known: &[&str]) -> String {
+    // Of numbers none is near another.
+    let number = word.bytes().all(|b| b.is_ascii_digit());
     let nearest = known
         .iter()
+        .filter(|_| !number)
         .map(|name| {
             (
                 strsim::damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase()),
@@ -360,5 +385,6 @@ mod tests {
             nearest_help("colour", &known),
             "known here: side, sides, thickness, mass"
         );
+        assert_eq!(nearest_help("9", &["0", "1"]), "known here: 0, 1");
     }
 }

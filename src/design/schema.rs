@@ -150,6 +150,13 @@ mod tests {
                 assert!(quantity.check(name, limit).is_ok(), "{name} {bound}");
                 assert!(quantity.check(name, beyond).is_err(), "{name} {bound}");
             }
+            let units: Vec<_> = quantity
+                .unit_names()
+                .map(|n| n.replace('^', "\\^"))
+                .collect();
+            let end = format!(" *({}) *$", units.join("|"));
+            let pattern = limits["pattern"].as_str().unwrap();
+            assert!(pattern.ends_with(&end), "{name}: {pattern} and {end}");
         }
     }
 }

@@ -37,7 +37,7 @@ impl ShieldKeys {
             return Ok(keys);
         }
         let section = entry.section(name)?;
-        section.allow(&CONSTANTS.map(|(name, _)| name))?;
+        section.allow(&CONSTANTS.map(|(name, _)| name));
         keys.constants = constants(&section)?;
         Ok(keys)
     }
@@ -92,23 +92,25 @@ pub(super) fn read(root: &Section) -> Result<(ShieldRule, ShieldKeys)> {
     };
     let mut known = vec!["rule"];
     known.extend(CONSTANTS.map(|(name, _)| name));
-    section.allow(&known)?;
-    let rule = match section.get("rule") {
-        Some(entry) => entry.word(&ShieldRule::NAMES)?,
-        None => ShieldRule::default(),
-    };
+    section.allow(&known);
+    let rule = section.get("rule");
+    let rule = rule.map(|entry| section.faults().note(entry.word(&ShieldRule::NAMES)));
     let first: Option<Entry> = CONSTANTS.iter().find_map(|(name, _)| section.get(name));
     let keys = ShieldKeys {
         constants: constants(&section)?,
         present: first.map(|entry| (true, entry.key_span())),
     };
-    Ok((rule, keys))
+    Ok((rule.transpose()?.unwrap_or_default(), keys))
 }
 
 fn constants(section: &Section) -> Result<[Option<f64>; CONSTANTS.len()]> {
     let mut values = [None; CONSTANTS.len()];
-    for (value, (name, quantity)) in values.iter_mut().zip(CONSTANTS) {
-        *value = section.number(name, quantity)?;
+    let read = CONSTANTS.map(|(name, quantity)| {
+        let number = section.number(name, quantity);
+        section.faults().note(number)
+    });
+    for (value, read) in values.iter_mut().zip(read) {
+        *value = read?;
     }
     Ok(values)
 }

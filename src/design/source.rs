@@ -2,6 +2,7 @@
 
 use super::drawings::Drawings;
 use super::error::{DesignError, Place, Span};
+use super::faults::Faults;
 
 /// A design file's name and text, from which every fault takes its place.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +13,8 @@ pub(super) struct Source<'a> {
     pub quoted: bool,
     /// The drawings that the design refers to.
     pub drawings: &'a Drawings<'a>,
+    /// What is wrong with the design so far.
+    pub faults: &'a Faults,
 }
 
 impl Source<'_> {
@@ -30,6 +33,7 @@ impl Source<'_> {
             place: Some(Box::new(place)),
             message: message.into(),
             help: help.into(),
+            also: Vec::new(),
         }
     }
 }
@@ -45,6 +49,7 @@ mod tests {
             file: "a.toml",
             quoted: true,
             drawings: &Drawings::default(),
+            faults: &Faults::default(),
             text: "name = \"ä\"\nside = 430 # m\n",
         };
         let at = source.text.find("430").unwrap();
@@ -61,6 +66,7 @@ mod tests {
             file: "a.toml",
             quoted: false,
             drawings: &Drawings::default(),
+            faults: &Faults::default(),
             text: "ä = ü",
         };
         let place = |span: Range<usize>| *source.error(span.into(), "", "").place.unwrap();

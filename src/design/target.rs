@@ -24,14 +24,16 @@ const HELP: &str =
 
 pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Target<'a>> {
     let section = root.require("target", HELP)?.section("[target]")?;
-    section.allow(&TILES)?;
+    section.allow(&TILES);
     let face = |i: usize| {
         let entry = section.require(TILES[i], HELP)?;
         let face = find_face(&tiles[i].base.names, &entry, TILES[i])?;
         Ok::<_, DesignError>((entry, face))
     };
-    let ((_, fixed), (entry, moving)) = (face(0)?, face(1)?);
+    let [fixed, moving] = [0, 1].map(|i| section.faults().note(face(i)));
+    let ((_, fixed), (entry, moving)) = (fixed?, moving?);
     let lengths = [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].length());
+    section.faults().check_guesses()?;
     if !same_length(lengths[0], lengths[1]) {
         return Err(entry.error(
             format!(

@@ -3,7 +3,7 @@
 use super::base::{self, Base};
 use super::face::{FaceContent, FaceEntry, find_face};
 use super::magnet::MagnetKeys;
-use super::quantity::four_digits;
+use super::quantity::{self, four_digits};
 use super::reader::{Entry, Result, Section};
 use super::shield::ShieldKeys;
 use crate::potential::shielding::Shield;
@@ -29,13 +29,21 @@ pub(super) struct TileEntry<'a> {
     pub name: &'static str,
     pub section: Section<'a>,
     pub base: Base,
+    /// m.
+    pub thickness: f64,
+    /// Where the file says how heavy the tile is, and what it says (kg).
+    pub mass: Option<(Entry<'a>, f64)>,
     faces: Vec<FaceEntry<'a>>,
 }
 
 impl<'a> TileEntry<'a> {
     pub fn read(name: &'static str, section: Section<'a>, faces_name: &'a str) -> Result<Self> {
-        section.allow(&TILE_KEYS)?;
-        let base = base::read(&section)?;
+        section.allow(&TILE_KEYS);
+        let faults = section.faults();
+        let base = faults.note(base::read(&section));
+        let thickness = faults.note(thickness(&section));
+        let mass = faults.note(mass(&section));
+        let base = base?;
         let faces = match section.section("faces", faces_name)? {
             Some(faces) => face_entries(&faces, &base)?,
             None => vec![FaceEntry::new(None, None)?; base.faces.len()],
@@ -44,9 +52,23 @@ impl<'a> TileEntry<'a> {
             name,
             section,
             base,
+            // Faulty ones are told and never built with.
+            thickness: thickness.unwrap_or(0.0),
+            mass: mass.ok(),
             faces,
         })
     }
+}
+
+fn thickness(section: &Section) -> Result<f64> {
+    let help = "say how thick the tile is: thickness = 0.013 (m)";
+    let entry = section.require("thickness", help)?;
+    entry.number(quantity::TILE_THICKNESS)
+}
+
+fn mass<'a>(section: &Section<'a>) -> Result<(Entry<'a>, f64)> {
+    let entry = section.require("mass", "say how heavy the tile is: mass = 0.1 (kg)")?;
+    Ok((entry, entry.number(quantity::MASS)?))
 }
 
 impl TileEntry<'_> {
@@ -73,10 +95,11 @@ impl TileEntry<'_> {
 fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<'a>>> {
     let mut known = vec!["all"];
     known.extend(base.names.iter().flatten().map(String::as_str));
-    section.allow(&known)?;
+    section.allow(&known);
     let all = section.section("all", "`all`")?;
     let entries: Vec<Entry<'a>> = section.entries();
-    base.names
+    let faces: Vec<_> = base
+        .names
         .iter()
         .map(|names| {
             let named: Vec<_> = entries
@@ -95,17 +118,24 @@ fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<
                 .transpose()?;
             FaceEntry::new(own, all)
         })
-        .collect()
+        .map(|face| section.faults().note(face))
+        .collect();
+    faces.into_iter().collect()
 }
 
 /// The content of every face of both tiles; mates are followed to the face that they copy.
 pub(super) fn resolve(tiles: &[TileEntry; 2], keys: MagnetKeys) -> Result<[Vec<FaceContent>; 2]> {
     let contents = |tile: usize| {
         (0..tiles[tile].faces.len())
-            .map(|face| resolve_face(tiles, keys, (tile, face), &mut Vec::new()))
-            .collect::<Result<Vec<_>>>()
+            .map(|face| {
+                let content = resolve_face(tiles, keys, (tile, face), &mut Vec::new());
+                tiles[tile].section.faults().note(content)
+            })
+            .collect::<Vec<_>>()
     };
-    Ok([contents(0)?, contents(1)?])
+    let [fixed, moving] = [contents(0), contents(1)];
+    let all = |contents: Vec<Result<_>>| contents.into_iter().collect::<Result<Vec<_>>>();
+    Ok([all(fixed)?, all(moving)?])
 }
 
 fn resolve_face(
@@ -135,6 +165,7 @@ fn resolve_face(
         ));
     }
     let partner_length = tiles[other].base.faces[partner].length();
+    tiles[tile].section.faults().check_guesses()?;
     if !same_length(base.length(), partner_length) {
         return Err(mates.error(
             format!(

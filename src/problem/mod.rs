@@ -1,6 +1,7 @@
 //! What is asked about: a space of configurations, the energy on it, and the contact that blocks
 //! part of it.
 
+mod rivals;
 mod symmetry;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,6 +14,7 @@ use crate::contact::{Contact, TOUCH};
 use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
 use crate::tile::{Face, Pair, face_to_face};
 
+pub use rivals::Meeting;
 pub use symmetry::Symmetry;
 
 /// Counters for energy evaluations are spread over this many cache lines, so that threads do not

@@ -1,5 +1,6 @@
 //! One barrier, asked for: from a pose of the moving tile to another, or to anywhere far apart.
 
+pub mod poses;
 mod ways;
 
 use std::time::{Duration, Instant};

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::csv::{number, table};
 use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
 use super::json;
-use super::summary::write_table;
+use super::summary::write_folded;
 use crate::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use crate::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use crate::landscape::certificate::Ordering;
@@ -39,7 +39,7 @@ impl Comparison {
         by: &'static Quantity,
         settings: AssessmentSettings,
     ) -> Self {
-        let order = ranking::ranked(designs, by);
+        let order = ranking::ranked_for_use(designs, by);
         Self {
             designs: order.into_iter().map(|i| designs[i].clone()).collect(),
             by,
@@ -48,15 +48,14 @@ impl Comparison {
     }
 
     /// The tables and the proved order, for the terminal.
-    pub fn summary(&self) -> String {
-        let mut out = format!(
-            "{} designs, ranked by {}\n",
-            self.designs.len(),
-            self.by.label
-        );
+    pub fn summary(&self, columns: Option<usize>) -> String {
+        let mut out = format!("{}\n", self.headline());
         for table in self.tables() {
-            write_table(&mut out, &table);
+            write_folded(&mut out, &table, columns);
             out.push('\n');
+        }
+        for line in self.obstacles() {
+            let _ = writeln!(out, "{line}");
         }
         for line in self.orders() {
             let _ = writeln!(out, "{line}");
@@ -78,11 +77,48 @@ impl Comparison {
             out += &markdown_table(&table);
         }
         out.push('\n');
-        for line in self.orders() {
+        for line in self.obstacles().into_iter().chain(self.orders()) {
             let _ = writeln!(out, "- {}", without_html(&line));
         }
         let _ = writeln!(out, "\n{}", self.note());
         out
+    }
+
+    /// The sentence that answers: which design is best, and of how many.
+    fn headline(&self) -> String {
+        let docking = self
+            .designs
+            .iter()
+            .filter(|one| one.obstacle().is_none())
+            .count();
+        let of = match self.designs.len() {
+            1 => "1 design".to_owned(),
+            many => format!("{many} designs"),
+        };
+        match self.designs.first() {
+            Some(best) if docking > 0 => format!(
+                "{of}, ranked by {}: {} is first with {}",
+                self.by.label,
+                self.name(best),
+                cell(&[self.by], best)
+            ),
+            _ => format!(
+                "{of}, ranked by {}: none finds into its bond",
+                self.by.label
+            ),
+        }
+    }
+
+    /// Why designs stand last, a line for each.
+    fn obstacles(&self) -> Vec<String> {
+        let told = |one: &Assessment| {
+            let (_, why) = one.obstacle()?;
+            Some(format!(
+                "{} stands behind those that dock: {why}",
+                self.name(one)
+            ))
+        };
+        self.designs.iter().filter_map(told).collect()
     }
 
     /// What the tables' figures mean.
@@ -97,6 +133,9 @@ impl Comparison {
         );
         if self.designs.iter().any(has_estimates) {
             let _ = write!(note, " (The {ESTIMATES}.)");
+        }
+        for line in self.obstacles() {
+            let _ = write!(note, " {line}.");
         }
         if self.designs.iter().any(misses_head_on) {
             let _ = write!(note, " \u{201c}{NOT_HEAD_ON}\u{201d}: {WHY_NOT_HEAD_ON}.");

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::json;
 
+use super::inspection::pole;
 use super::{csv, json};
 use crate::design::Design;
 use crate::dynamics::docking::{
@@ -11,6 +12,8 @@ use crate::dynamics::docking::{
 use crate::dynamics::{Motion, Snapshot};
 use crate::landscape::Proportion;
 use crate::problem::Problem;
+use crate::tile::Tile;
+use crate::tile::barcode::Pole;
 use crate::units::si;
 
 /// Where the paper's figure 6 says that the chance of a match is above [`PAPER_CHANCE`]: relative
@@ -75,12 +78,13 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
             "interval_per_s": rate.interval, "statistic": rate.statistic,
             "critical": OnRate::CRITICAL, "exponential": rate.is_exponential(),
         },
-        "paper_figure_6": {
+        // Both are of the paper's tile, and null for any other.
+        "paper_figure_6": is_paper_tile(design).then(|| json!({
             "claim": PAPER_CHANCE, "orientation_rad": orientation, "speed_m_per_s": speed,
             "matched": proportion(&share_within(docking, orientation, speed)),
             "cells_below_claim": below_claim(map),
-        },
-        "open_dynamics_engine": is_engine_comparison(settings).then(|| json!({
+        })),
+        "open_dynamics_engine": is_engine_comparison(design, settings).then(|| json!({
             "matched": ENGINE.matched, "slid": ENGINE.slid, "margin": ENGINE.margin,
             "restitution_in_the_mean": ENGINE.restitution,
             "matched_with_correction_limited": ENGINE.corrected.0,
@@ -95,12 +99,46 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
     }))
 }
 
+/// Whether both tiles are the paper's: straight squares of 43 cm with four magnets of 0.2865 A m^2,
+/// 40 mm apart, on every face, NNNS on the fixed tile and NSSS on the moving one.
+pub fn is_paper_tile(design: &Design) -> bool {
+    let is_one = |tile: &Tile, code: &str| {
+        let faces = &tile.faces;
+        let square = faces.len() == 4
+            && tile.outline.vertices().len() == 4
+            && faces.iter().all(|face| (face.length() - 0.43).abs() < 1e-9);
+        let carries_code = |k: usize| {
+            let magnets = tile.magnets.iter().filter(|magnet| magnet.face == k);
+            let found: Vec<(f64, Pole, f64)> = magnets
+                .map(|magnet| {
+                    let s = (magnet.position - faces[k].middle()).dot(&faces[k].tangent());
+                    (s, pole(tile, magnet), magnet.moment)
+                })
+                .collect();
+            found.len() == code.len()
+                && found
+                    .iter()
+                    .zip(code.chars())
+                    .enumerate()
+                    .all(|(i, (magnet, letter))| {
+                        let place = 0.04 * (i as f64 - 1.5);
+                        (magnet.0 - place).abs() < 1e-9
+                            && (magnet.1 == Pole::North) == (letter == 'N')
+                            && (magnet.2 - 0.2865).abs() < 1e-4
+                    })
+        };
+        square && (0..4).all(carries_code)
+    };
+    is_one(&design.pair.fixed, "NNNS") && is_one(&design.pair.moving, "NSSS")
+}
+
 /// Whether this is the experiment that was made with the Open Dynamics Engine as well, with
 /// whatever restitution.
-pub fn is_engine_comparison(settings: &DockingSettings) -> bool {
+pub fn is_engine_comparison(design: &Design, settings: &DockingSettings) -> bool {
     let mut other = DockingSettings::engine_comparison();
     other.motion.restitution = settings.motion.restitution;
-    settings.motion == other.motion
+    is_paper_tile(design)
+        && settings.motion == other.motion
         && settings.starts == other.starts
         && settings.duration == other.duration
         && settings.threshold.is_none()
@@ -231,8 +269,9 @@ pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &Dock
         )
     };
     let mut text = format!(
-        "{}: {} trajectories of {} each, seed {}\n",
+        "{}: {} of {} trajectories of {} each end in the bond (seed {})\n",
         design.name,
+        docking.runs.iter().filter(|run| run.is_bound()).count(),
         docking.runs.len(),
         si(docking.settings.duration, "s", 2),
         docking.settings.seed
@@ -276,15 +315,17 @@ pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &Dock
         }
     );
     text = text.replace("an exponential\n", "an exponential distribution\n");
-    let [orientation, speed] = PAPER_REGION;
-    let region = share_within(docking, orientation, speed);
-    let [below, cells] = below_claim(map);
-    text += &format!(
-        "  paper, figure 6 (above 4 % at -0.5 to 1.5 rad, 0.4 to 0.8 m/s): {} there, below 4 % for \
-         certain in {below} of {cells} cells\n",
-        share(&region)
-    );
-    if is_engine_comparison(&docking.settings) {
+    if is_paper_tile(design) {
+        let [orientation, speed] = PAPER_REGION;
+        let region = share_within(docking, orientation, speed);
+        let [below, cells] = below_claim(map);
+        text += &format!(
+            "  paper, figure 6 (above 4 % at -0.5 to 1.5 rad, 0.4 to 0.8 m/s): {} there, below 4 % \
+             for certain in {below} of {cells} cells\n",
+            share(&region)
+        );
+    }
+    if is_engine_comparison(design, &docking.settings) {
         let starts = &docking.settings.starts;
         let all = [-starts.orientation, starts.orientation];
         text += &format!(
@@ -312,17 +353,23 @@ pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &Dock
         .sum();
     let core = docking.wall_s * docking.threads as f64;
     text += &format!(
-        "  {} a step, {} a simulated second (of one core that has nothing else to do); Open \
-         Dynamics Engine {} and {} to {}\n",
+        "  {} a step, {} a simulated second (of one core that has nothing else to do){}\n",
         si(core / contact.max(1) as f64, "s", 2),
         si(
             core / (docking.settings.duration * docking.runs.len().max(1) as f64),
             "s",
             2
         ),
-        si(ENGINE.cost, "s", 2),
-        si(ENGINE.cost / ENGINE.steps[0], "s", 2),
-        si(ENGINE.cost / ENGINE.steps[1], "s", 2)
+        if is_engine_comparison(design, &docking.settings) {
+            format!(
+                "; Open Dynamics Engine {} and {} to {}",
+                si(ENGINE.cost, "s", 2),
+                si(ENGINE.cost / ENGINE.steps[0], "s", 2),
+                si(ENGINE.cost / ENGINE.steps[1], "s", 2)
+            )
+        } else {
+            String::new()
+        }
     );
     text
 }

@@ -9,7 +9,8 @@
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
 //! - [`figures`] - numbers with their bounds, for people;
-//! - [`summary`] - ten lines for the terminal;
+//! - [`summary`] - ten lines for the terminal; [`inspection`] - a design at a glance;
+//! - [`workshop`] - drawings and a sheet to make the tiles by;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
@@ -17,6 +18,7 @@
 //! - [`writer`] - all of it as [`files`] of one folder.
 
 pub mod arrays;
+mod braille;
 pub mod calibration;
 pub mod columns;
 pub mod comparison;
@@ -27,13 +29,16 @@ pub mod dynamics;
 mod earlier;
 pub mod figures;
 pub mod files;
+pub mod inspection;
 pub mod json;
 pub mod names;
 pub mod page;
 pub mod plots;
 pub mod summary;
 pub mod sweep;
+mod sweep_answer;
 pub mod topsearch;
 mod values;
 pub mod words;
+pub mod workshop;
 pub mod writer;

@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use crate::configuration::Configuration;
 use crate::design::Design;
+use crate::inspection;
 use crate::landscape::{Barrier, Inventory, Kind, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
@@ -19,19 +20,36 @@ const LISTED: usize = 4;
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// The summary of an analysis whose results are in `folder`.
-pub fn summary(design: &Design, analysis: &Analysis, folder: &str) -> String {
+/// The summary of an analysis whose results are in `folder`, for a terminal of so many columns.
+pub fn summary(
+    design: &Design,
+    analysis: &Analysis,
+    folder: &str,
+    columns: Option<usize>,
+) -> String {
     let (bonds, mut traps): (Vec<Kind>, Vec<Kind>) =
         analysis.inventory.kinds().partition(Kind::is_bond);
     traps.sort_by_key(|kind| std::cmp::Reverse(kind.captured().count));
     let bond = bonds.first();
 
     let mut text = String::new();
+    if let Some(rivals) = inspection::rivals(analysis.problem.rivals().len()) {
+        let _ = writeln!(text, "{rivals}");
+    }
+    // The deepest trap is always among those that are listed.
+    let deepest = traps.iter().enumerate().skip(LISTED);
+    let deepest = deepest.min_by_key(|(_, kind)| OrderedFloat(kind.first().energy));
+    let listed_energies = traps.iter().take(LISTED).map(|kind| kind.first().energy);
+    let lowest_listed = listed_energies.fold(f64::INFINITY, f64::min);
+    if let Some((k, _)) = deepest.filter(|(_, kind)| kind.first().energy < lowest_listed) {
+        let kind = traps.remove(k);
+        traps.insert(LISTED - 1, kind);
+    }
     write_captures(&mut text, design, analysis, bond, &traps);
     let listed = bond.into_iter().chain(traps.iter().take(LISTED));
     let mut rows = vec![HEADER.map(str::to_owned)];
     rows.extend(listed.map(|class| row(design, analysis, class)));
-    write_table(&mut text, &rows);
+    write_rows(&mut text, &rows, columns);
     if traps.len() > LISTED {
         write_rest(&mut text, &traps[LISTED..]);
     }
@@ -190,13 +208,61 @@ pub(crate) fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
     }
 }
 
+/// Rows whose last cells go on lines of their own, indented below the second cells, where they are
+/// too long for a terminal.
+fn write_rows(text: &mut String, rows: &[[String; 6]], columns: Option<usize>) {
+    let mut table = String::new();
+    write_table(&mut table, rows);
+    let fits = |width: usize| table.lines().all(|line| line.chars().count() <= width);
+    if columns.is_none_or(fits) {
+        text.push_str(&table);
+        return;
+    }
+    let short: Vec<&[String]> = rows.iter().map(|row| &row[..row.len() - 1]).collect();
+    let mut table = String::new();
+    write_table(&mut table, &short);
+    let names = rows.iter().map(|row| row[0].chars().count());
+    let indent = " ".repeat(names.max().unwrap_or(0) + 2);
+    for (line, row) in table.lines().zip(rows) {
+        let _ = writeln!(text, "{line}\n{indent}{}", row[row.len() - 1]);
+    }
+}
+
+/// A table in as many parts below each other as a terminal's width asks for, each with the first
+/// column.
+pub(crate) fn write_folded(text: &mut String, rows: &[Vec<String>], columns: Option<usize>) {
+    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let room = columns.unwrap_or(usize::MAX);
+    let mut start = 1;
+    while start < count.max(2) {
+        let (mut end, mut used) = (start, width(0));
+        while end < count && (end == start || used + 2 + width(end) <= room) {
+            used += 2 + width(end);
+            end += 1;
+        }
+        let part = |row: &Vec<String>| -> Vec<String> {
+            let cells = row.iter().enumerate();
+            let kept = cells.filter(|(k, _)| *k == 0 || (start..end).contains(k));
+            kept.map(|(_, cell)| cell.clone()).collect()
+        };
+        let part: Vec<Vec<String>> = rows.iter().map(part).collect();
+        write_table(text, &part);
+        start = end.max(start + 1);
+    }
+}
+
 fn write_rest(text: &mut String, rest: &[Kind]) {
     let deepest = rest.iter().map(|t| t.first().energy).fold(0.0, f64::min);
     let captured: usize = rest.iter().map(|t| t.captured().count).sum();
     let _ = writeln!(
         text,
-        "and {} more kinds of trap down to {} that capture {} together",
+        "and {} more kind{} of trap down to {} that capture {} together",
         rest.len(),
+        if rest.len() == 1 { "" } else { "s" },
         si(deepest, "J", DIGITS),
         percent(&Proportion::new(captured, rest[0].captured().of)),
     );

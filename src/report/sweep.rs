@@ -133,8 +133,9 @@ impl<'a> Sweep<'a> {
     }
 
     /// What came of it, for the terminal.
-    pub fn summary(&self) -> String {
-        let mut out = counts(&self.progress());
+    pub fn summary(&self, columns: Option<usize>) -> String {
+        let mut out = self.answer() + &self.table(columns);
+        out += &counts(&self.progress());
         out.push('\n');
         let refused: Vec<(&Point, &str)> = self
             .points

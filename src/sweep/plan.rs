@@ -108,6 +108,9 @@ pub enum PlanError {
         /// Why not.
         reason: String,
     },
+    /// No point is a design that can be built.
+    #[error("none of the {0} points is possible; the first: {1}")]
+    NonePossible(usize, String),
     /// What was read is no manifest.
     #[error("this is no manifest of a sweep: {0}")]
     Malformed(String),
@@ -121,7 +124,7 @@ impl Plan {
     ///
     /// # Errors
     /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
-    /// are too many points. A key that the design does not hold is taken for a mistake if no value
+    /// are too many points or none is possible. A key that the design does not hold is taken for a mistake if no value
     /// of it gives a possible design.
     pub fn new(
         files: &[impl AsRef<Path>],
@@ -142,6 +145,7 @@ impl Plan {
         };
         plan.check()?;
         plan.check_keys()?;
+        plan.check_possible()?;
         Ok(plan)
     }
 
@@ -267,6 +271,22 @@ impl Plan {
         source
             .parse(text)
             .map_err(|error| format!("{}; {}", error.message, error.help))
+    }
+
+    /// Refuses a sweep of which no point is possible.
+    fn check_possible(&self) -> Result<(), PlanError> {
+        let points = self.points();
+        let mut first = None;
+        for point in &points {
+            match self.design(point) {
+                Ok(_) => return Ok(()),
+                Err(reason) => {
+                    first.get_or_insert(reason);
+                }
+            }
+        }
+        let reason = first.unwrap_or_default();
+        Err(PlanError::NonePossible(points.len(), reason))
     }
 
     /// Refuses a key that the designs do not hold, if no value of it gives a possible design.

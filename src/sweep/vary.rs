@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::design::{angle, length};
+
 /// Most points on a range.
 const MOST_VALUES: usize = 100_000;
 
@@ -46,7 +48,7 @@ impl fmt::Display for Value {
 /// A key by its dotted path, such as `fixed.faces.east.profile.depth`, and its values in order. A
 /// number in the path counts the items of an array from 0.
 ///
-/// Written as `KEY=a:b:n`, n evenly spaced numbers from a to b, or as a list `KEY=v,w,...` of
+/// Written as `KEY=a:b:n`, n evenly spaced numbers from a to b (`0 mm:30 mm:4` too), or as a list `KEY=v,w,...` of
 /// numbers, `true` and `false`, and words; a word that looks like a number goes in double quotes.
 ///
 /// ```
@@ -79,6 +81,11 @@ impl std::str::FromStr for Axis {
         }
         let values = match values.split(':').collect::<Vec<_>>()[..] {
             [from, to, count] => range(from, to, count)?,
+            [from, to] if !values.contains('"') && end(from).is_ok() && end(to).is_ok() => {
+                return Err(format!(
+                    "`{values}` does not say how many values: write {key}={values}:11 for 11 of them"
+                ));
+            }
             _ => values
                 .split(',')
                 .map(|word| value(word.trim()))
@@ -93,10 +100,6 @@ impl std::str::FromStr for Axis {
 
 /// `count` evenly spaced numbers; whole ones where all of them are and both ends are written so.
 fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
-    let end = |text: &str| {
-        let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        number.ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
-    };
     let (first, last) = (end(from)?, end(to)?);
     let steps = count.trim().parse().ok();
     let count: usize = steps
@@ -123,6 +126,12 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
         }
     };
     Ok(numbers.into_iter().map(value).collect())
+}
+
+/// An end of a range: a number, or a length or an angle with its unit.
+fn end(text: &str) -> Result<f64, String> {
+    let number = length(text).or_else(|| angle(text));
+    number.ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
 }
 
 /// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.

@@ -54,7 +54,12 @@ const MOST_TOLD: usize = 8;
 /// Gives the drawing that `entry` names to `use_it`.
 fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> Result<T> {
     let name = entry.string()?;
-    let Source { file, drawings, .. } = entry.source();
+    let Source {
+        file,
+        drawings,
+        faults,
+        ..
+    } = entry.source();
     let text = drawings.text(file, name).map_err(|error| {
         let message = format!("cannot read the drawing \"{name}\": {error}");
         entry.error(
@@ -67,6 +72,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
         text: &text,
         quoted: drawings::may_be_quoted(file, name),
         drawings,
+        faults,
     })
 }
 

@@ -30,7 +30,7 @@ type Segments = Vec<Vec<Vector2<f64>>>;
 /// The corners of a drawn outline and, for each, the line of the face that begins there.
 pub(in crate::design) fn read_outline(entry: &Entry) -> Result<(Vec<Vector2<f64>>, Vec<Polyline>)> {
     let section = entry.section("`outline`")?;
-    section.allow(&OUTLINE_KEYS)?;
+    section.allow(&OUTLINE_KEYS);
     let segments = with_shape(&section, |source, shape| {
         let (mut segments, centre) = closed(source, shape)?;
         if let Some(corners) = section.get("corners") {

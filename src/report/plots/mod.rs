@@ -20,6 +20,7 @@ pub(in crate::report) mod disconnectivity;
 pub mod dock;
 mod energy_map;
 mod film;
+pub mod glance;
 mod heat;
 mod labels;
 mod marks;

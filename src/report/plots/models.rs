@@ -40,7 +40,11 @@ impl Curves {
             return None;
         }
         let approach = Approach::new(pair);
-        let landing = approach.landing(scene.problem, 0.0, 0.0)?;
+        // From the bond on, also where shapes hold the tile in it: head-on it may touch before.
+        let landing = match scene.problem.is_clear(&pair.bound) {
+            true => 0.0,
+            false => approach.landing(scene.problem, 0.0, 0.0)?,
+        };
         let gaps: Vec<f64> = (0..SAMPLES)
             .map(|k| FARTHEST * size * k as f64 / (SAMPLES - 1) as f64)
             .collect();

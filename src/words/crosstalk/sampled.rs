@@ -88,7 +88,11 @@ impl Stage {
     }
 
     fn magnet_length(&self) -> f64 {
-        self.pair.fixed.magnets.first().map_or(0.0, |magnet| magnet.size[0])
+        self.pair
+            .fixed
+            .magnets
+            .first()
+            .map_or(0.0, |magnet| magnet.size[0])
     }
 
     /// The pose of a setting; `None` where the tile passes by.
@@ -140,5 +144,8 @@ fn tilts() -> Vec<f64> {
     let coarse = steps(COARSE).filter(|tilt| *tilt > FINE.1);
     let one_way: Vec<f64> = steps(FINE).chain(coarse).collect();
     let other = one_way.iter().map(|tilt| -tilt);
-    std::iter::once(0.0).chain(one_way.iter().copied()).chain(other).collect()
+    std::iter::once(0.0)
+        .chain(one_way.iter().copied())
+        .chain(other)
+        .collect()
 }

@@ -152,6 +152,46 @@ fn a_terse_design_takes_the_defaults() {
 }
 
 #[test]
+fn numbers_may_carry_units() {
+    let design = designs::load("tests/designs/good/units.toml");
+    assert_eq!(design.table, [2.0, 2.0]);
+    assert_eq!(design.pair.bound, Configuration::new(0.43, 0.0, 0.0));
+    let magnet = &design.pair.fixed.magnets[0];
+    assert_eq!(
+        (magnet.size, design.pitch),
+        ([0.01, 0.01, 0.003], Some(0.04))
+    );
+    assert!((magnet.remanence() - 1.2).abs() < 1e-15);
+    let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
+    assert_eq!((fixed.mass, moving.mass), (0.1, 0.1));
+    assert_eq!((fixed.thickness, moving.thickness), (0.013, 0.013));
+    // Draft of 30 degrees over 20 mm, drawn back by half a millimetre on the other side.
+    let top = fixed
+        .outline
+        .vertices()
+        .iter()
+        .map(|v| v.x)
+        .fold(0.0, f64::max);
+    assert!((top - 0.235).abs() < 1e-12);
+    assert!(design.problem().clearance(&design.pair.bound) > 0.49e-3);
+}
+
+/// What is wrong with a file is told at once, in its order, each with its place.
+#[test]
+fn all_faults_are_told_at_once() {
+    let path = "tests/designs/bad/all-kinds-of-faults.toml";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let error = Design::load(&path).unwrap_err();
+    assert_eq!(error.also.len(), 7, "{error}");
+    let all = std::iter::once(&error).chain(&error.also);
+    let lines: Vec<usize> = all
+        .map(|fault| fault.place.as_ref().unwrap().line)
+        .collect();
+    assert!(lines.is_sorted(), "{lines:?}");
+    assert!(error.also.iter().all(|fault| fault.also.is_empty()));
+}
+
+#[test]
 fn own_keys_go_before_all_and_those_before_the_rest() {
     let design = designs::load("tests/designs/good/overrides.toml");
     let east = magnets_of_face(&design.pair.fixed, 0);
@@ -197,6 +237,11 @@ fn a_doubtful_design_loads_with_a_warning() {
     let inset = format!("inset = {}", more + 1e-6);
     let mended = Design::parse(&text.replace("inset = 0.004", &inset), "a.toml").unwrap();
     assert_eq!(mended.warnings.len(), 0, "{inset}");
+    // A table of a hundred metres, and a fit that leaves nothing of the shape.
+    let wide = changed("flat.toml", &[("[2.0, 2.0]", "[100.0, 100.0]")]);
+    assert!(wide.warnings[0].message.contains("did you mean 1 (100 cm)"));
+    let loose = changed("units.toml", &[("\"0.5 mm\"", "\"2 cm\"")]);
+    assert!(loose.warnings[0].message.contains("no longer guides"));
 }
 
 /// Files damaged at random are refused or load; nothing panics, whatever the damage.

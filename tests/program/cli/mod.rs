@@ -7,13 +7,14 @@ mod completions;
 mod consistency;
 mod dynamics;
 mod energy;
+mod first_hour;
 mod kept;
 mod mistakes;
 mod shields;
 mod starting;
-mod words;
 #[cfg(unix)]
 mod terminal;
+mod words;
 
 use std::process::Output;
 
@@ -48,6 +49,8 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "crosstalk",
         "match",
         "init",
+        "show",
+        "make",
         "schema",
         "completions",
     ] {

@@ -7,7 +7,7 @@ use crate::program::stderr;
 fn wrong_axes_designs_and_parts_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("new");
-    let wrong: [(&[&str], &str); 9] = [
+    let wrong: [(&[&str], &str); 11] = [
         (
             &[
                 DESIGN,
@@ -20,6 +20,14 @@ fn wrong_axes_designs_and_parts_are_refused() {
         (&[DESIGN, "--vary", "magnet.size.3=0.01"], "array of 3"),
         (&[DESIGN, "--vary", "magnet.pitch"], "KEY="),
         (&[DESIGN, "--vary", "magnet.pitch=0:1:0"], "whole number"),
+        (
+            &[DESIGN, "--vary", "magnet.pitch=0.02:0.04"],
+            "magnet.pitch=0.02:0.04:11",
+        ),
+        (
+            &[DESIGN, "--vary", "magnet.pitch=0.001,0.002"],
+            "none of the 2 points is possible",
+        ),
         (
             &[
                 DESIGN,

@@ -1,0 +1,126 @@
+//! `tilebind show`.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use clap::Args;
+use tilebind::design::Design;
+use tilebind::inspection::Inspection;
+use tilebind::report::plots::glance;
+use tilebind::report::writer::{self, WriteError};
+use tilebind::report::{inspection, json};
+
+use super::options::DesignOptions;
+use super::{Failure, input, interrupt, print, style, tell};
+
+/// How often a watched file is looked at.
+const BLINK: Duration = Duration::from_millis(300);
+
+/// Show a design at a glance: both tiles, the bond, forces, what is wrong
+#[derive(Args)]
+#[command(after_help = "\
+The tiles are drawn where their target faces meet; nothing is searched, so it takes no time.
+
+Examples:
+  tilebind show shapes/paper-tile.toml
+  tilebind show my.toml --out my.svg
+  tilebind show my.toml --watch
+  tilebind show my.toml --json | jq .pull_off_N")]
+pub struct Show {
+    #[command(flatten)]
+    design: DesignOptions,
+
+    /// File for the picture: .svg or .png by its ending
+    #[arg(long, short, value_name = "FILE", value_parser = picture_file)]
+    out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+
+    /// Show it again whenever the design file or its drawings change, until interrupted
+    #[arg(long, conflicts_with = "json")]
+    watch: bool,
+}
+
+impl Show {
+    pub fn run(self) -> Result<(), Failure> {
+        if let Some(file) = &self.out {
+            input::check_file(file)?;
+        }
+        if !self.watch {
+            return self.show();
+        }
+        interrupt::prepare()?;
+        loop {
+            let seen = self.changes();
+            if style::is_terminal() {
+                // Clears the screen.
+                print("\u{1b}[2J\u{1b}[H")?;
+            }
+            match self.show() {
+                Err(Failure::OutputClosed) => return Ok(()),
+                Err(failure) => {
+                    let _ = failure.report();
+                }
+                Ok(()) => {}
+            }
+            while self.changes() == seen {
+                std::thread::sleep(BLINK);
+            }
+        }
+    }
+
+    fn show(&self) -> Result<(), Failure> {
+        let design = self.design.load_silently()?;
+        let found = Inspection::new(&design);
+        if let Some(file) = &self.out {
+            let picture = glance::draw(&design, &found).map_err(WriteError::from)?;
+            let bytes = match file.extension().is_some_and(|ending| ending == "png") {
+                true => picture.png,
+                false => picture.svg.into_bytes(),
+            };
+            interrupt::without(|| writer::write_file(file, &bytes))?;
+        }
+        if self.json {
+            return print(&json::text(&inspection::json(&design, &found)));
+        }
+        print(&inspection::text(
+            &design,
+            &found,
+            style::columns().unwrap_or(80),
+        ))?;
+        if let Some(file) = &self.out {
+            tell(format!("picture in {}", file.display()));
+        }
+        Ok(())
+    }
+
+    /// When the design file and its drawings were written last.
+    fn changes(&self) -> Vec<Option<SystemTime>> {
+        let file = self.design.file();
+        let drawings = Design::load(file).map(|design| design.drawings);
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let drawings = drawings
+            .into_iter()
+            .flatten()
+            .map(|one| folder.join(one.file));
+        let time = |file: PathBuf| file.metadata().and_then(|found| found.modified()).ok();
+        std::iter::once(file.to_owned())
+            .chain(drawings)
+            .map(time)
+            .collect()
+    }
+}
+
+/// A file that a picture can be written to.
+fn picture_file(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let ending = file
+        .extension()
+        .map(|ending| ending.to_string_lossy().into_owned());
+    match ending.as_deref() {
+        Some("svg" | "png") => Ok(file),
+        _ => Err("a picture is a .svg or a .png file, such as design.svg".to_owned()),
+    }
+}

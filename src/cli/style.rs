@@ -1,0 +1,39 @@
+//! The terminal: its width, and whether it takes colours.
+
+use std::io::IsTerminal;
+
+/// Whether standard output is a terminal.
+pub fn is_terminal() -> bool {
+    std::io::stdout().is_terminal()
+}
+
+/// Columns of the terminal, as COLUMNS or the terminal itself has them; `None` where standard output
+/// goes elsewhere.
+pub fn columns() -> Option<usize> {
+    let named = std::env::var("COLUMNS").ok();
+    let named = named.and_then(|text| text.trim().parse().ok());
+    let own = || {
+        is_terminal()
+            .then(|| console::Term::stdout().size_checked())
+            .flatten()
+    };
+    named
+        .or_else(|| own().map(|(_, columns)| usize::from(columns)))
+        .filter(|columns| *columns >= 20)
+}
+
+/// The word that begins a message, `error` or `warning`, in colour as clap has it where standard
+/// error is a terminal and NO_COLOR is not set.
+pub fn label(word: &str) -> String {
+    let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if !wanted || dumb || !std::io::stderr().is_terminal() {
+        return format!("{word}:");
+    }
+    let colour = match word {
+        "error" => "31",
+        "warning" => "33",
+        _ => "36",
+    };
+    format!("\u{1b}[1;{colour}m{word}:\u{1b}[0m")
+}

@@ -1,0 +1,53 @@
+//! What may be meant otherwise, though it can be worked with.
+
+use super::DesignError;
+use super::face::FaceContent;
+use super::quantity::{self, four_digits};
+use super::reader::Section;
+use super::tile::TileEntry;
+
+/// Doubts about a design that is sound: an enormous table, a fit that swallows the shape.
+pub(super) fn find(
+    root: &Section,
+    entries: &[TileEntry; 2],
+    contents: &[Vec<FaceContent>; 2],
+    table: [f64; 2],
+) -> Vec<DesignError> {
+    let fits = entries.iter().zip(contents).flat_map(|(entry, contents)| {
+        let faces = entry.base.faces.iter().zip(contents);
+        faces.filter_map(|(face, content)| loose(entry, &face.name, content))
+    });
+    enormous(root, table).into_iter().chain(fits).collect()
+}
+
+/// A table so large that another unit may have been meant.
+fn enormous(root: &Section, table: [f64; 2]) -> Option<DesignError> {
+    let [x, y] = table;
+    let proposals = quantity::TABLE_SIZE.doubt(x.max(y))?;
+    let size = root.section("table", "[table]").ok()??.get("size")?;
+    let meant = match proposals.as_slice() {
+        [] => String::new(),
+        some => format!(": did you mean {}?", some.join(" or ")),
+    };
+    Some(size.error(
+        format!("the table measures {x} m by {y} m{meant}"),
+        "lengths are in metres; far starts and the roadmap use the whole table",
+    ))
+}
+
+/// A face drawn back by as much as its line is deep: nothing is left that could interlock.
+fn loose(entry: &TileEntry, face: &str, content: &FaceContent) -> Option<DesignError> {
+    let heights = content.polyline.iter().map(|p| p[1].abs());
+    let depth = heights.fold(0.0, f64::max);
+    (content.fit > 0.0 && depth > 0.0 && content.fit >= depth).then(|| {
+        entry.section.error_at(
+            content.fit_span,
+            format!(
+                "`fit` = {} m draws face {face} back by as much as its shape is deep, {} m, so that it no longer guides",
+                content.fit,
+                four_digits(depth)
+            ),
+            "play is a few tenths of a millimetre: fit = 0.0005",
+        )
+    })
+}

@@ -1,0 +1,329 @@
+//! Designs to start from, written to measure: sound as they are.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use super::quantity::{four_digits, rounded_down};
+use super::{Design, DesignError};
+use crate::tile::barcode::Barcode;
+
+/// Magnets that are sold (m): along the axis, along the face, through the thickness.
+const BLOCKS: [[f64; 3]; 5] = [
+    [0.010, 0.010, 0.003],
+    [0.008, 0.008, 0.003],
+    [0.005, 0.005, 0.002],
+    [0.003, 0.003, 0.002],
+    [0.002, 0.002, 0.001],
+];
+/// Widest spacing of magnets (m), that of the paper's tile.
+const WIDEST: f64 = 0.040;
+/// Least spacing, in widths of a magnet: closer ones hardly tell one code from another.
+const CLOSEST: f64 = 1.6;
+/// Least way from a tile's middle to its faces, in magnets: what lies on one face is not to act
+/// through the tile on others.
+const ACROSS: f64 = 8.0;
+/// Largest radius of a tile (m).
+const LARGEST: f64 = 1.5;
+/// Share of a face that magnets may take.
+const USED: f64 = 0.85;
+/// Mass of the paper's tile over its volume (kg / m^3).
+const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
+/// Most sides: with more, a tile is a disc, and its faces can hardly be told apart.
+const MOST_SIDES: u32 = 24;
+/// Most magnets: the codes for more are not searched here.
+const MOST_MAGNETS: usize = 16;
+
+/// The line that the target faces follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Straight.
+    Flat,
+    /// A trapezoid with leaning sides.
+    Tab,
+    /// A segment of a circle.
+    Arc,
+    /// A sine wave.
+    Sine,
+    /// A triangle wave.
+    Triangle,
+}
+
+impl Shape {
+    /// The shapes by name.
+    pub const NAMES: [(&str, Self); 5] = [
+        ("flat", Self::Flat),
+        ("tab", Self::Tab),
+        ("arc", Self::Arc),
+        ("sine", Self::Sine),
+        ("triangle", Self::Triangle),
+    ];
+
+    /// The profile on a face of the given length (m), as a design file has it, with what it is
+    /// called.
+    fn profile(self, side: f64) -> Option<(String, &'static str)> {
+        let part = |share: f64| rounded_down(side * share);
+        let teeth = |form: &str| {
+            let depth = part(0.03);
+            format!("{{ shape = \"teeth\", form = \"{form}\", count = 2, depth = {depth} }}")
+        };
+        match self {
+            Self::Flat => None,
+            Self::Tab => Some((
+                format!(
+                    "{{ shape = \"tab\", width = {}, depth = {}, draft = 0.3 }}",
+                    part(0.47),
+                    part(0.047)
+                ),
+                "a tab in its slot",
+            )),
+            Self::Arc => Some((
+                format!(
+                    "{{ shape = \"arc\", width = {}, depth = {} }}",
+                    part(0.6),
+                    part(0.047)
+                ),
+                "an arc in its hollow",
+            )),
+            Self::Sine => Some((teeth("sine"), "two waves in theirs")),
+            Self::Triangle => Some((teeth("triangle"), "two teeth in theirs")),
+        }
+    }
+}
+
+/// What a design to start from is to be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Sides of both tiles.
+    pub sides: u32,
+    /// Length of a side (m).
+    pub side: f64,
+    /// Magnets on each target face.
+    pub magnets: usize,
+    /// The line of the target faces.
+    pub shape: Shape,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            sides: 4,
+            side: 0.43,
+            magnets: 4,
+            shape: Shape::Tab,
+        }
+    }
+}
+
+/// Why there is no such design, and what to ask for instead.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{wrong}\n  help: {mend}")]
+pub struct StartError {
+    wrong: String,
+    mend: String,
+}
+
+fn wrong(wrong: impl Into<String>, mend: impl Into<String>) -> StartError {
+    StartError {
+        wrong: wrong.into(),
+        mend: mend.into(),
+    }
+}
+
+impl Start {
+    /// The text of a design file called `name`: magnets as large and as far apart as there is room
+    /// for, with the code that slides least into wrong places, on the target faces alone.
+    ///
+    /// # Errors
+    /// Where there is no such tile or no room for the magnets.
+    pub fn design(&self, name: &str) -> Result<String, StartError> {
+        self.check()?;
+        let inner = self.radius() * (PI / f64::from(self.sides)).cos();
+        let largest = (inner / ACROSS).max(BLOCKS[BLOCKS.len() - 1][0]);
+        let roomy = BLOCKS.iter().filter(|block| block[0] <= largest);
+        let roomy = roomy.flat_map(|block| {
+            let room = (USED * self.side - block[1]) / (self.magnets.max(2) - 1) as f64;
+            // Closer ones keep clear of flanks.
+            let pitches = [1.0, 0.9, 0.8, 0.7].map(|share| tenths(share * room.min(WIDEST)));
+            let pitches = pitches.into_iter();
+            let enough = pitches.filter(|pitch| *pitch >= CLOSEST * block[1]);
+            enough.map(|pitch| (*block, pitch))
+        });
+        let mut last = None;
+        for (block, pitch) in roomy {
+            // As far behind the surface as curved lines need, and no farther.
+            for inset in (0..=8).map(|k| tenths(block[0] * f64::from(k) / 10.0)) {
+                let text = self.text(name, block, pitch, inset);
+                match Design::parse(&text, name) {
+                    Ok(design) if design.warnings.is_empty() => return Ok(text),
+                    Ok(design) => last = design.warnings.into_iter().next(),
+                    Err(fault) => last = Some(fault),
+                }
+            }
+        }
+        Err(self.no_room(last))
+    }
+
+    fn check(&self) -> Result<(), StartError> {
+        let Self {
+            sides,
+            side,
+            magnets,
+            ..
+        } = *self;
+        if !(3..=MOST_SIDES).contains(&sides) {
+            let fault = format!("a tile of {sides} sides cannot be started from");
+            return Err(wrong(fault, format!("give 3 to {MOST_SIDES}: --sides 6")));
+        }
+        if !(1..=MOST_MAGNETS).contains(&magnets) {
+            return Err(wrong(
+                format!("{magnets} magnets on a face are none or too many to choose a code for"),
+                format!(
+                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start from fewer and edit the code"
+                ),
+            ));
+        }
+        let largest = rounded_down(LARGEST * side / self.radius());
+        if !(0.01..=largest).contains(&side) {
+            return Err(wrong(
+                format!("{sides} sides of {side} m make no tile that can be held and floated"),
+                format!("give sides of 0.01 to {largest} m: --side 0.12, or --side \"12 cm\""),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Of the circle through the corners (m).
+    fn radius(&self) -> f64 {
+        self.side / (2.0 * (PI / f64::from(self.sides)).sin())
+    }
+
+    fn no_room(&self, fault: Option<DesignError>) -> StartError {
+        let smallest = BLOCKS[BLOCKS.len() - 1][1];
+        let spacing = CLOSEST * smallest;
+        let most = ((USED * self.side - smallest) / spacing).floor().max(0.0) + 1.0;
+        let needed = (spacing * (self.magnets - 1) as f64 + smallest) / USED;
+        let side = (needed * 1e3).ceil() / 1e3;
+        match fault {
+            Some(fault) if needed <= self.side => wrong(
+                format!("the magnets do not fit into this shape: {}", fault.message),
+                "ask for fewer --magnets, a longer --side, or --shape flat",
+            ),
+            _ => wrong(
+                format!(
+                    "{} magnets have no room on a side of {} m",
+                    self.magnets, self.side
+                ),
+                format!("ask for --magnets {most} or fewer, or for --side {side} or longer"),
+            ),
+        }
+    }
+
+    fn text(&self, name: &str, block: [f64; 3], pitch: f64, inset: f64) -> String {
+        let Self {
+            sides,
+            side,
+            magnets,
+            shape,
+        } = *self;
+        let area = f64::from(sides) * side * side / (4.0 * (PI / f64::from(sides)).tan());
+        let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
+        let mass = four_digits(DENSITY * area * thickness);
+        let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;
+        let (from, to) = match sides {
+            4 => ("east".to_owned(), "west".to_owned()),
+            _ => ("0".to_owned(), (sides / 2).to_string()),
+        };
+        let code = code(magnets);
+        let mate = Barcode::parse(&code).map_or(String::new(), |code| code.mate().to_string());
+        let (profile, how) = match shape.profile(side) {
+            Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
+            None => Default::default(),
+        };
+        let size = block.map(|x| x.to_string()).join(", ");
+        let tile =
+            format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
+        let mut text = String::new();
+        let _ = write!(
+            text,
+            "\
+# Lengths are in m, masses in kg, fields in T, angles in rad; \"12 cm\" and \"30 deg\" are read too.
+# All keys with remarks: tilebind init -
+
+name = \"{name}\"
+description = \"tiles of {sides} sides that bind{how}\"
+
+[table]
+size = [{table}, {table}]
+
+[magnet]
+size = [{size}]  # along its axis, along the face, through the thickness
+remanence = 1.2
+pitch = {pitch}                  # centre to centre along the face
+inset = {inset}                  # from the face's surface to the magnet
+
+[fixed]
+{tile}
+
+# Faces are numbered counter-clockwise from the one towards +x, face 0. Only the faces that are to
+# bind carry magnets, so that nothing else binds as strongly.
+[fixed.faces]
+{from} = {{ code = \"{code}\"{profile} }}
+
+[moving]
+{tile}
+
+[moving.faces]
+{to} = {{ mates = \"{from}\" }}     # the exact complement: its code is {mate}
+
+[target]
+fixed = \"{from}\"
+moving = \"{to}\"
+"
+        );
+        text
+    }
+}
+
+/// Down to tenths of a millimetre.
+fn tenths(length: f64) -> f64 {
+    four_digits((length * 1e4 + 1e-6).floor() / 1e4)
+}
+
+/// The code whose strongest wrong match with its own mate is weakest: slid by k places, the places
+/// that attract less those that repel. Of several the first, `N` before `S`.
+fn code(magnets: usize) -> String {
+    let worst = |bits: u32| {
+        let slid = (1..magnets).map(|k| {
+            let differ = (bits ^ (bits >> k)) & ((1 << (magnets - k)) - 1);
+            (magnets - k) as i32 - 2 * differ.count_ones() as i32
+        });
+        slid.max().unwrap_or(0)
+    };
+    let best =
+        (0..1_u32 << (magnets - 1)).min_by_key(|&bits| (worst(bits), bits.count_ones(), bits));
+    let best = best.unwrap_or(0);
+    let letter = |k: usize| match best >> (magnets - 1 - k) & 1 {
+        0 => 'N',
+        _ => 'S',
+    };
+    (0..magnets).map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_those_that_slide_least() {
+        assert_eq!((code(1), code(4)), ("N".to_owned(), "NNNS".to_owned()));
+        // Barker's: no slide leaves more than one magnet's worth of attraction.
+        for magnets in [2, 3, 4, 5, 7, 11, 13] {
+            let code: Vec<i32> = code(magnets)
+                .bytes()
+                .map(|b| if b == b'N' { 1 } else { -1 })
+                .collect();
+            let slid = |k: usize| code.iter().zip(&code[k..]).map(|(a, b)| a * b).sum::<i32>();
+            assert!((1..magnets).all(|k| slid(k) <= 1), "{code:?}");
+        }
+    }
+}

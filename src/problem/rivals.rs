@@ -1,0 +1,66 @@
+//! Faces that bind beside those that are meant to.
+
+use super::Problem;
+use crate::configuration::Configuration;
+use crate::tile::face_to_face;
+
+/// Two faces bind as strongly as the target where they reach this share of its energy.
+const AS_STRONG: f64 = 0.95;
+/// Configurations closer than this (m, metric of the space) are the same meeting.
+const SAME: f64 = 1e-6;
+
+/// Two faces, set flush against each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Which face of the fixed tile, which of the moving one.
+    pub faces: (usize, usize),
+    /// Where the moving tile then is.
+    pub configuration: Configuration,
+    /// U there (J).
+    pub energy: f64,
+}
+
+impl Problem {
+    /// The pairs of faces that bind as strongly as the target although they are not meant to: flush
+    /// against each other, pushed out into contact where their shapes overlap, they have 0.95 of
+    /// the bond's energy or more. What a symmetry makes of the target is no other pair. Slid and
+    /// tilted meetings are not looked at.
+    pub fn rivals(&self) -> Vec<Meeting> {
+        let Some(pair) = &self.pair else {
+            return Vec::new();
+        };
+        let potential = self.potential();
+        let bond = potential.energy(&pair.bound);
+        if bond >= 0.0 {
+            return Vec::new();
+        }
+        let wanted: Vec<_> = self
+            .symmetries
+            .iter()
+            .map(|s| s.apply(&pair.bound))
+            .collect();
+        let [fixed, moving] = self.faces();
+        let pairs = (0..fixed.len()).flat_map(|f| (0..moving.len()).map(move |m| (f, m)));
+        let meetings = pairs.map(|(f, m)| {
+            let flush = face_to_face(&fixed[f], &moving[m], 0.0, 0.0);
+            let lift = self.lift(&flush, fixed[f].normal());
+            let position = flush.position() + fixed[f].normal() * lift;
+            let configuration = Configuration::new(position.x, position.y, flush.theta);
+            Meeting {
+                faces: (f, m),
+                configuration,
+                energy: potential.energy(&configuration),
+            }
+        });
+        let is_wanted = |meeting: &Meeting| {
+            let distance = |q: &Configuration| self.space.distance(q, &meeting.configuration);
+            meeting.faces == pair.target || wanted.iter().any(|q| distance(q) < SAME)
+        };
+        let is_strong = |meeting: &Meeting| {
+            meeting.energy <= AS_STRONG * bond && self.is_free(&meeting.configuration)
+        };
+        meetings
+            .filter(|meeting| is_strong(meeting) && !is_wanted(meeting))
+            .collect()
+    }
+}

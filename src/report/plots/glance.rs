@@ -1,0 +1,163 @@
+//! A design at a glance: both tiles where they bind, and the figures beside them.
+
+use nalgebra::Vector2;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::marks::{View, tile};
+use super::picture::{Area, Picture, PictureError};
+use super::scale::minus;
+use super::style::{
+    FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION, title,
+};
+use crate::configuration::Configuration;
+use crate::design::Design;
+use crate::inspection::Inspection;
+use crate::potential::MagnetModel;
+use crate::report::inspection::{force, wrong};
+use crate::tile::Tile;
+use crate::units::si;
+
+const SIZE: (u32, u32) = (1000, 640);
+/// Space for the title above and the figures below the tiles (pixels).
+const HEAD: f64 = 50.0;
+const FOOT: f64 = 190.0;
+const MARGIN: f64 = 40.0;
+/// Height of a line of text (pixels).
+const LINE: f64 = 22.0;
+/// Most faults that are told on the picture.
+const TOLD: usize = 3;
+
+/// Draws a design.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn draw(design: &Design, inspection: &Inspection) -> Result<Picture, PictureError> {
+    Picture::draw(SIZE, |root, _| {
+        title(root, &design.name)?;
+        let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
+        let tiles = [&design.pair.fixed, &design.pair.moving];
+        let view = view(tiles, poses);
+        for ((one, q), fill) in tiles.into_iter().zip(poses).zip([FIXED_FILL, MOVING_FILL]) {
+            tile(root, &view, one, &q, fill)?;
+        }
+        for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
+            let centre = view.pixel(q.transform(one.outline.centroid()));
+            let middle = (HPos::Center, VPos::Center);
+            Text::new(LABEL)
+                .bold()
+                .colour(SOFT)
+                .write(root, name, centre, middle)?;
+            faces(root, &view, one, &q)?;
+        }
+        figures(root, inspection)?;
+        faults(root, design, inspection)
+    })
+}
+
+/// How the two tiles fill the space between title and figures.
+fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
+    let corners = tiles
+        .into_iter()
+        .zip(poses)
+        .flat_map(|(tile, q)| tile.outline.vertices().iter().map(move |v| q.transform(*v)));
+    let infinity = Vector2::repeat(f64::INFINITY);
+    let (low, high) = corners.fold((infinity, -infinity), |(low, high), p| {
+        (low.inf(&p), high.sup(&p))
+    });
+    let size = high - low;
+    let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
+    let room = [width - 2.0 * MARGIN, height - HEAD - FOOT - 2.0 * MARGIN];
+    View {
+        centre: (low + high) / 2.0,
+        origin: (width / 2.0, (HEAD + height - FOOT) / 2.0),
+        turn: 0.0,
+        scale: (room[0] / size.x).min(room[1] / size.y),
+    }
+}
+
+/// Names of the faces, inside of their magnets.
+fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(), PictureError> {
+    for (number, face) in tile.faces.iter().enumerate() {
+        let magnets = tile.magnets.iter().filter(|magnet| magnet.face == number);
+        let depths = magnets.map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
+        let depth = depths.fold(0.0, f64::max) + 16.0 / view.scale;
+        let at = view.pixel(q.transform(face.middle() - face.normal() * depth));
+        let text = Text::new(SMALL).colour(INK);
+        text.write(root, &face.name, at, (HPos::Center, VPos::Center))?;
+    }
+    Ok(())
+}
+
+/// What holds the tiles, a line for each model.
+fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
+    let top = f64::from(SIZE.1) - FOOT + 10.0;
+    let columns = [MARGIN, 200.0, 380.0, 640.0];
+    let head = [
+        "magnets as",
+        "bond",
+        "pull at contact",
+        "pull-off, straight",
+    ];
+    let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
+    for hold in &inspection.models {
+        let name = match hold.model {
+            MagnetModel::Dipole => "dipoles",
+            MagnetModel::Cuboid => "blocks",
+        };
+        let row = [
+            name.to_owned(),
+            minus(&si(hold.energy, "J", 4)),
+            minus(&force(hold.contact)),
+            minus(&force(hold.pull_off)),
+        ];
+        rows.push((row, Text::new(LABEL)));
+    }
+    for (k, (row, text)) in rows.iter().enumerate() {
+        for (cell, x) in row.iter().zip(columns) {
+            let at = (x, top + LINE * k as f64);
+            text.write(root, cell, at, (HPos::Left, VPos::Top))?;
+        }
+    }
+    Ok(())
+}
+
+/// What is wrong, below the figures, in the order of importance.
+fn faults(root: &Area, design: &Design, inspection: &Inspection) -> Result<(), PictureError> {
+    let top = f64::from(SIZE.1) - FOOT + 10.0 + 4.0 * LINE;
+    let faults = wrong(design, inspection);
+    if faults.is_empty() {
+        let text = Text::new(SMALL).colour(SOFT);
+        let sound = "nothing wrong at a glance; whether the tiles find each other, analyse tells";
+        return text.write(root, sound, (MARGIN, top), (HPos::Left, VPos::Top));
+    }
+    let text = Text::new(SMALL).colour(VERMILLION);
+    let room = f64::from(SIZE.0) - 2.0 * MARGIN;
+    let lines = faults
+        .iter()
+        .take(TOLD)
+        .flat_map(|fault| wrapped(&text, fault, room));
+    let most = ((f64::from(SIZE.1) - top) / (TITLE - 1.0)) as usize;
+    for (k, line) in lines.take(most).enumerate() {
+        let at = (MARGIN, top + (TITLE - 1.0) * k as f64);
+        text.write(root, &line, at, (HPos::Left, VPos::Top))?;
+    }
+    Ok(())
+}
+
+/// A sentence in lines that fit into so many pixels.
+fn wrapped(text: &Text, sentence: &str, room: f64) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in sentence.split_whitespace() {
+        let longer = match lines.last().map_or("", String::as_str) {
+            "" => word.to_owned(),
+            line => format!("{line} {word}"),
+        };
+        if text.width(&longer) <= room || lines.last().is_some_and(String::is_empty) {
+            lines.pop();
+            lines.push(longer);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}

@@ -1,0 +1,374 @@
+//! What a new user meets first: designs to start from, mistakes, a design at a glance, files for the
+//! workshop.
+
+use std::fs;
+
+use super::{json, numbers, tilebind};
+use crate::folder::contents;
+use crate::program::{command, stderr, stdout};
+
+/// Every design that can be asked for is sound, binds, and has no rival of its bond.
+#[test]
+fn designs_to_start_from_are_sound_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    for (sides, side) in [("3", "20 cm"), ("4", "0.05"), ("6", "0.12"), ("12", "0.1")] {
+        for shape in ["flat", "tab", "arc", "sine", "triangle"] {
+            for magnets in ["1", "3", "4"] {
+                let name = format!("{sides}-{shape}-{magnets}.toml");
+                let file = folder.path().join(&name);
+                let file = file.to_str().unwrap();
+                let asked = ["--sides", sides, "--side", side, "--shape", shape];
+                let output =
+                    tilebind(&[&["init", file, "--magnets", magnets], &asked[..]].concat());
+                assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
+                let shown = json(&["show", file, "--json"]);
+                assert_eq!(shown["wrong"], serde_json::json!([]), "{name}");
+                assert!(shown["pull_contact_N"].as_f64().unwrap() > 0.0, "{name}");
+                let code = shown["fixed"][0]["code"].as_str().unwrap();
+                assert_eq!(code.len().to_string(), magnets, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_design_to_start_from_docks() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, out] = ["hexagon.toml", "out"].map(|name| folder.path().join(name));
+    let [file, out] = [&file, &out].map(|path| path.to_str().unwrap());
+    let asked = [
+        "--sides",
+        "6",
+        "--side",
+        "0.12",
+        "--magnets",
+        "3",
+        "--shape",
+        "arc",
+    ];
+    assert!(
+        tilebind(&[&["init", file], &asked[..]].concat())
+            .status
+            .success()
+    );
+    let quick = [
+        "--milestones",
+        "1500",
+        "--far-starts",
+        "100",
+        "--certify-seconds",
+        "0",
+    ];
+    let report = json(&[&["analyse", file, "--out", out, "--json"], &quick[..]].concat());
+    let states = report["states"].as_array().unwrap();
+    assert_eq!(states[0]["kind"], "bound");
+    assert!(states[0]["capture"]["share"].as_f64().unwrap() > 0.25);
+    let energy = |k: usize| states[k]["energy_J"].as_f64().unwrap();
+    assert!((1..states.len()).all(|k| energy(k) > 0.5 * energy(0)));
+}
+
+#[test]
+fn impossible_designs_say_what_to_ask_for() {
+    for (asked, said) in [
+        (&["--sides", "2"][..], "give 3 to 24"),
+        (&["--magnets", "40"], "give 1 to 16"),
+        (&["--side", "500"], "give sides of 0.01 to"),
+        (
+            &["--side", "2 cm", "--magnets", "8"],
+            "or for --side 0.029 or longer",
+        ),
+        (&["--shape", "dovetail"], "a shape is one of flat, tab"),
+        (&["--side", "2 kg"], "such as 0.12 (m) or \"12 cm\""),
+    ] {
+        let output = tilebind(&[&["init", "-"], asked].concat());
+        assert_eq!(output.status.code(), Some(2), "{asked:?}");
+        assert!(stderr(&output).contains(said), "{}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    // What is proposed is possible.
+    let mended = ["--side", "0.029", "--magnets", "8", "--shape", "flat"];
+    assert!(
+        tilebind(&[&["init", "-"], &mended[..]].concat())
+            .status
+            .success()
+    );
+}
+
+#[test]
+fn all_faults_of_a_file_are_told() {
+    let output = tilebind(&["show", "tests/designs/bad/all-kinds-of-faults.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert_eq!(told.matches("= help:").count(), 8, "{told}");
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn what_is_doubtful_is_not_taken_without_a_word() {
+    let design = "shapes/paper-tile.toml";
+    let output = tilebind(&["energy", design, "--pose", "104,0,0"]);
+    assert!(
+        stderr(&output).contains("did you mean 0.104,0"),
+        "{}",
+        stderr(&output)
+    );
+    let output = tilebind(&["energy", design, "--pose", "0.43,0,90"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("90 deg"), "{}", stderr(&output));
+    let here = json(&["energy", design, "--pose", "43 cm,-40 mm,0 deg"]);
+    assert_eq!(here, json(&["energy", design, "--pose", "0.43,-0.04,0"]));
+}
+
+#[test]
+fn energies_of_a_file_of_poses() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("poses.csv");
+    let name = file.to_str().unwrap();
+    let design = "shapes/paper-tile.toml";
+    fs::write(&file, "# two\ns,x,y,theta\n0,0.43,0,0\n1,44 cm,0.01,0.1\n").unwrap();
+    let entries = json(&["energy", design, "--poses", name]);
+    let typed = ["--pose", "0.43,0,0", "--pose", "0.44,0.01,0.1"];
+    assert_eq!(entries, json(&[&["energy", design], &typed[..]].concat()));
+    for (text, said) in [
+        ("x,y\n1,2\n", "line 1: there is no column `theta`"),
+        ("0.43,0,0\n0.43,zero,0\n", "line 2: y is `zero`"),
+        ("", "there are no poses"),
+    ] {
+        fs::write(&file, text).unwrap();
+        let output = tilebind(&["energy", design, "--poses", name]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(said), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_design_at_a_glance() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("tile.svg");
+    let shown = tilebind(&[
+        "show",
+        "shapes/tab-20mm.toml",
+        "-o",
+        picture.to_str().unwrap(),
+    ]);
+    assert_eq!(shown.status.code(), Some(0), "{}", stderr(&shown));
+    let text = stdout(&shown);
+    for said in [
+        "east and west bind with",
+        "dipoles",
+        "blocks",
+        " g)",
+        "NNNS at -60, -20, 20, 60 mm",
+    ] {
+        assert!(text.contains(said), "{said} in\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 110),
+        "{text}"
+    );
+    assert!(fs::read_to_string(&picture).unwrap().starts_with("<svg"));
+    let shown = json(&["show", "shapes/tab-20mm.toml", "--json"]);
+    // The force at contact is that of `energy`.
+    let energy = json(&["energy", "shapes/tab-20mm.toml", "--pose", "0.43,0,0"]);
+    let pull = -numbers(&energy[0]["force_N"])[0];
+    assert!((shown["pull_contact_N"].as_f64().unwrap() / pull - 1.0).abs() < 1e-9);
+    let grams = shown["pull_contact_g"].as_f64().unwrap();
+    assert!((grams * 9.80665e-3 / pull - 1.0).abs() < 1e-9);
+    assert!(shown["pull_off_N"].as_f64().unwrap() >= pull);
+}
+
+#[test]
+fn what_is_wrong_with_a_design_is_shown() {
+    let hooked = stdout(&tilebind(&["show", "shapes/dovetail.toml"]));
+    assert!(hooked.contains("the shapes hook"), "{hooked}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("all.toml");
+    // The same code on every face, a shape on the target's alone.
+    let text = fs::read_to_string("tests/designs/good/flat.toml").unwrap();
+    let shaped = "east = { profile = { shape = \"tab\", width = 0.2, depth = 0.02, draft = 0.3 } }";
+    let text = text.replace("[moving]\n", &format!("{shaped}\n\n[moving]\n"));
+    fs::write(&file, &text).unwrap();
+    let name = file.to_str().unwrap();
+    let shown = stdout(&tilebind(&["show", name]));
+    let told = "12 other pairs of faces bind as strongly: give them other codes";
+    assert!(shown.contains(told), "{shown}");
+    // A design without them says nothing of the kind.
+    let shown = stdout(&tilebind(&["show", "shapes/paper-tile.toml"]));
+    assert!(!shown.contains("as strongly"), "{shown}");
+}
+
+/// The corners of the closed lines of a DXF file (mm), by layer.
+fn polylines(text: &str) -> Vec<(String, Vec<[f64; 2]>)> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    assert_eq!(lines.len() % 2, 0, "codes and values come in pairs");
+    let mut all: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
+    let mut entity = "";
+    for pair in lines.chunks(2) {
+        match (pair[0], entity) {
+            ("0", _) => entity = pair[1],
+            ("8", "POLYLINE") => all.push((pair[1].to_owned(), Vec::new())),
+            ("10", "VERTEX") => {
+                all.last_mut()
+                    .unwrap()
+                    .1
+                    .push([pair[1].parse().unwrap(), 0.0]);
+            }
+            ("20", "VERTEX") => {
+                all.last_mut().unwrap().1.last_mut().unwrap()[1] = pair[1].parse().unwrap();
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(lines[lines.len() - 1], "EOF");
+    all
+}
+
+fn area(corners: &[[f64; 2]]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges.map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
+}
+
+#[test]
+fn files_for_the_workshop_are_to_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let cut = ["--kerf", "0.2 mm", "--clearance", "0.15 mm"];
+    let made = tilebind(&[&["make", "shapes/tab-20mm.toml", "-o", out], &cut[..]].concat());
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let files = contents(folder.path());
+    let names: Vec<&String> = files.keys().collect();
+    assert_eq!(
+        names,
+        [
+            "fixed.dxf",
+            "fixed.svg",
+            "moving.dxf",
+            "moving.svg",
+            "sheet.md"
+        ]
+    );
+    let read = |name: &str| String::from_utf8(files[name].clone()).unwrap();
+    let lines = polylines(&read("fixed.dxf"));
+    let [(outline, corners), pockets @ ..] = &lines[..] else {
+        panic!("no lines");
+    };
+    assert_eq!(outline, "OUTLINE");
+    // A square of 430 mm with a tab of 200 (at its base) by 20 mm, half a kerf outside of it.
+    let top = 200.0 - 2.0 * 20.0 * 0.3_f64.tan();
+    let tile = 430.0 * 430.0 + (200.0 + top) / 2.0 * 20.0;
+    let rim = 4.0 * 430.0 - 200.0 + top + 2.0 * 20.0 / 0.3_f64.cos();
+    assert!(
+        (area(corners) - tile - 0.1 * rim).abs() < 0.01 * rim,
+        "{}",
+        area(corners)
+    );
+    // Pockets: 10 by 10 mm, 0.15 larger on every side, half a kerf inside of that.
+    assert!(!pockets.is_empty());
+    for (layer, corners) in pockets {
+        assert_eq!(layer, "POCKETS");
+        assert!((area(corners) - 10.1 * 10.1).abs() < 0.01, "{corners:?}");
+    }
+    assert!(
+        read("fixed.svg").contains("width=\"440.200mm\"") || read("fixed.svg").contains("mm\"")
+    );
+    let sheet = read("sheet.md");
+    for said in [
+        "N35 (1.19 T",
+        "| pole outwards |",
+        "east 1",
+        "kerf of 0.200 mm",
+    ] {
+        assert!(sheet.contains(said), "{said} in\n{sheet}");
+    }
+    let wrong = tilebind(&["make", "shapes/tab-20mm.toml", "-o", out, "--kerf", "0.2"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(stderr(&wrong).contains("in millimetres write"));
+}
+
+#[test]
+fn messages_are_coloured_only_for_terminals() {
+    let output = command(&["show", "tests/designs/bad/no-table.toml"])
+        .env("NO_COLOR", "1")
+        .output()
+        .unwrap();
+    assert!(
+        stderr(&output).starts_with("error: "),
+        "{}",
+        stderr(&output)
+    );
+}
+
+/// Tables fit a narrow terminal, and the deepest trap is always among their rows.
+#[test]
+fn the_summary_fits_its_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let quick = [
+        "--milestones",
+        "1000",
+        "--far-starts",
+        "50",
+        "--certify-seconds",
+        "0",
+    ];
+    let output = command(
+        &[
+            &["analyse", "shapes/paper-tile.toml", "--out", out],
+            &quick[..],
+        ]
+        .concat(),
+    )
+    .env("COLUMNS", "80")
+    .output()
+    .unwrap();
+    let told = stdout(&output);
+    let rows: Vec<&str> = told
+        .lines()
+        .skip_while(|l| !l.starts_with("state"))
+        .collect();
+    let end = rows
+        .iter()
+        .position(|l| l.starts_with("and ") || l.starts_with("no ") || l.starts_with("a barrier"));
+    assert!(
+        rows[..end.unwrap()].iter().all(|l| l.chars().count() <= 80),
+        "{told}"
+    );
+    assert!(
+        rows[..end.unwrap()].iter().any(|l| l.starts_with("trap B")),
+        "{told}"
+    );
+}
+
+#[test]
+fn docking_tells_the_paper_s_figures_for_the_paper_s_tile_only() {
+    let run = |design: &str| {
+        let output = tilebind(&[
+            "dock",
+            design,
+            "--runs",
+            "4",
+            "--duration",
+            "1",
+            "--quiet",
+            "--json",
+        ]);
+        let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        json["paper_figure_6"].clone()
+    };
+    assert!(run("shapes/paper-tile.toml").is_object());
+    assert!(run("shapes/tab-20mm.toml").is_null());
+    let output = tilebind(&[
+        "dock",
+        "shapes/tab-20mm.toml",
+        "--runs",
+        "4",
+        "--duration",
+        "1",
+    ]);
+    let told = stdout(&output);
+    assert!(
+        !told.contains("paper") && !told.contains("Open Dynamics"),
+        "{told}"
+    );
+    assert!(told.contains("--out DIR"), "{told}");
+}
