@@ -27,6 +27,7 @@ pub mod figures;
 pub mod files;
 pub mod json;
 pub mod names;
+mod packing;
 pub mod page;
 pub mod plots;
 pub mod summary;
