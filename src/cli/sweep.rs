@@ -245,8 +245,11 @@ impl Sweep {
         }
         files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
         let page = Page::of_sweep(&report).beside(files.iter().map(|(name, _)| name));
-        let designs = report.designs();
-        files.extend(designs.map(|(name, text)| (name, text.as_bytes().to_vec())));
+        // Named after what they hold: one that is there was written before, and may have been edited.
+        let new = report
+            .designs()
+            .filter(|(name, _)| !folder.join(name).exists());
+        files.extend(new.map(|(name, text)| (name, text.as_bytes().to_vec())));
         files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
         interrupt::without(|| {
             store.tidy();

@@ -162,7 +162,7 @@ impl<'a> Sweep<'a> {
         let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();
         let possible = self.assessment(point.index).is_some() && point.text().is_some();
         let few = self.points.len() <= MOST_DESIGNS;
-        (possible && few && !needs_drawings).then(|| format!("{DESIGNS}/{}.toml", point.index))
+        (possible && few && !needs_drawings).then(|| format!("{DESIGNS}/{}.toml", point.name))
     }
 
     /// The designs of points by their files.
