@@ -97,7 +97,7 @@ def check_sweep(check, program, folder):
         design = browser.run("document.querySelector('#point code').textContent.split(' ')[2]")
         check.that((out / design).is_file(), f"the point's design is there ({design})")
         ink = ("((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, k) => k % 4 === 3 && v).length)")
-        check.that(browser.run(f"{ink}({row}.lastChild.firstChild)") > 100, "a row shows its tiles")
+        check.that(browser.run(f"{ink}({row}.cells[0].firstChild)") > 100, "a row shows its tiles")
         check.that(browser.run(f"{ink}(document.querySelector('#point canvas'))") > 100, "the point shows its tiles")
         change = "document.getElementById('%s').value = %d; document.getElementById('%s').dispatchEvent(new Event('change'))"
         before = picture(browser)

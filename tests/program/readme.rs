@@ -35,12 +35,17 @@ fn commands(text: &str) -> Vec<String> {
     found
 }
 
-/// A command made short: fewer milestones, starts, runs and points do the same in less time.
+/// A command made short: fewer milestones, starts, runs and points, and one design of those that are
+/// swept, do the same in less time.
 fn shortened(command: &str) -> String {
     let words = command.strip_prefix(CARGO).or(command.strip_prefix(NAME));
     let words: Vec<&str> = words.unwrap().split_whitespace().collect();
     let mut short: Vec<String> = Vec::new();
     for word in &words {
+        let is_design = |word: &str| word.ends_with(".toml");
+        if words[0] == "sweep" && is_design(word) && short.iter().any(|w| is_design(w)) {
+            continue;
+        }
         let fewer = word.parse::<usize>().is_ok() && short.last().is_some_and(|w| w == "--runs");
         short.push(match word {
             _ if fewer => "8".to_owned(),

@@ -10,9 +10,10 @@ function readTheme() {
   }
 }
 
-/** Clears a canvas and fits it to its width on the page; `shape` is height over width. */
-function fresh(canvas, shape) {
-  const width = Math.max(160, canvas.clientWidth);
+/** Clears a canvas and fits it to its width on the page, if that is not below `least`; `shape` is
+    height over width. */
+function fresh(canvas, shape, least = 160) {
+  const width = Math.max(least, canvas.clientWidth);
   const height = Math.round(width * shape);
   const ratio = Math.max(1, window.devicePixelRatio || 1);
   canvas.width = Math.round(width * ratio);

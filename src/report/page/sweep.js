@@ -2,6 +2,8 @@
 
 const SIGNS = "bands: certified bounds, 95 % for shares; \u25cb no trap; ^ caged, proved; \u00d7 impossible";
 
+const MAP_SIGNS = "\u25cb no trap; \u2013 not known; \u221e caged, proved; \u00d7 impossible";
+
 function legend(series) {
   const key = make("p", "", "legend");
   if (series.length > 1) {
@@ -35,7 +37,7 @@ function chooser(id, name, entries) {
 /** The tiles of a point, bound. */
 function drawThumbnail(canvas, point) {
   const tiles = charts.tiles[charts.points[point].tiles ?? -1];
-  const { pen, width, height } = fresh(canvas, 0.56);
+  const { pen, width, height } = fresh(canvas, 0.56, 60);
   if (!tiles) return;
   const corners = [...tiles.fixed.outline, ...tiles.moving.outline.map((p) => placed(p, tiles.bound))];
   const [xs, ys] = [0, 1].map((k) => corners.map((p) => p[k]));
@@ -147,7 +149,7 @@ function showCharts() {
   }
   for (const map of charts.maps) {
     const plain = charts.panels.filter(({ figures }) => figures.length === 1);
-    add(map.title, [make("p", SIGNS, "legend")], (grid) => plain.map((panel) => new MapPanel(grid, map, panel)));
+    add(map.title, [make("p", MAP_SIGNS, "legend")], (grid) => plain.map((panel) => new MapPanel(grid, map, panel)));
   }
   addChosen(section, panels, watch, drawAll);
   rows.forEach((row, point) => {
@@ -157,19 +159,12 @@ function showCharts() {
     row.addEventListener("blur", () => hover(null));
     choosable(row, () => pin(point));
     if (!charts.tiles.length) return;
-    const canvas = make("canvas");
-    const cell = make("td");
-    cell.append(canvas);
-    row.append(cell);
+    row.cells[0].prepend(make("canvas"));
   });
-  if (charts.tiles.length) {
-    const head = document.querySelectorAll("#tables table")[0].tHead.rows[0];
-    head.append(make("th", "tiles", "text"));
-  }
   const anew = () => {
     readTheme();
     for (const panel of panels) panel.draw();
-    rows.forEach((row, point) => charts.tiles.length && drawThumbnail(row.lastChild.firstChild, point));
+    rows.forEach((row, point) => charts.tiles.length && drawThumbnail(row.cells[0].firstChild, point));
     showPoint();
   };
   anew();

@@ -58,7 +58,7 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             fact(
                 "bond",
                 both.join(" / "),
-                "as point dipoles / as blocks (--model cuboid)".to_owned(),
+                "as point dipoles / as blocks".to_owned(),
             )
         }
         None => {
