@@ -52,6 +52,43 @@
 //! }
 //! # Ok::<(), tilebind::design::DesignError>(())
 //! ```
+//!
+//! # Limits
+//!
+//! - Point dipoles are too weak near contact (see `results/README.md`); they are the default
+//!   because they are fast and rank codes and shapes alike.
+//! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
+//!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds. Within
+//!   the certificate's time limit results are the same bytes on any number of threads.
+//! - Curves are polygons with chords within 0.2 mm.
+//! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
+//!   one outline without holes and at most 64 faces.
+//! - TopSearch's files have one transition state between two kinds of state, the lowest.
+//! - Barriers of blocks behind shields are not certified (of dipoles behind shields they are), nor
+//!   those of the nearest-face rule, whose energy jumps.
+//! - Overdamped capture is not tossing and turning: no inertia and no shaking. `tilebind dock`
+//!   moves tiles with inertia, contact and drag.
+//! - Magnets and tiles stay in one plane; no tilting, no lifting, no iron in `analyse`.
+//! - Bounds of very small barriers, and of barriers that took more than 20 000 further cells, stay
+//!   wider than a twentieth of the barrier; `tilebind barrier --tolerance` narrows a single one.
+//! - Edges of blocks in contact are checked in their middle, not bounded: their guarantee is the
+//!   certificate's.
+//! - Barriers that are not certified (minor traps in `compare` and `sweep`, shielded blocks) are
+//!   upper estimates; moving tiles found some of them too high. An escape is the lowest certified
+//!   way to the bond, to `free` or to the lower state that the roadmap found nearest; of other
+//!   lower states nothing is proved.
+//! - Docking shares depend on the restitution more than on anything else: 9.8 % at 0.01, 7.8 % at
+//!   0.1, and no bounce of real tiles has been measured.
+//!
+//! # Working on it
+//!
+//! `cargo check --all-targets` tells of mistakes within seconds; `cargo run --profile quick --
+//! analyse ...` and `cargo test --profile quick --test landscape -- seam` build incrementally (into
+//! `target/quick`).
+//! After an edit in `src/report`, building and analysing `shapes/tab-20mm.toml` take 7 to 13 s on
+//! two cores; after one in the kernels of `src/potential`, which are inlined everywhere, the build
+//! takes about 70 s of processor time. The first build takes 2 min 36 s.
+//! The program is then half as fast as a release build, which is the one to measure.
 
 pub mod calibration;
 pub mod cell;

@@ -10,9 +10,10 @@ use tilebind::landscape::CompletenessSettings;
 use tilebind::observer::Observer;
 use tilebind::pipeline;
 use tilebind::report::summary;
-use tilebind::report::writer::{self, Extent, WriteError};
+use tilebind::report::writer::{self, Contents, Extent, WriteError};
 
 use super::failure::fail_if_contradicted;
+use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
 use super::{Failure, input, interrupt, memory, style, tell};
 
@@ -36,6 +37,7 @@ Examples:
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
   tilebind analyse my.toml --out my-results --dynamics
   tilebind analyse my.toml --out my-results --arrays
+  tilebind analyse my.toml --out my-results --figure-width 85mm --figure-font 8
   tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'"
 )]
 pub struct Analyse {
@@ -99,6 +101,9 @@ pub struct Analyse {
     arrays: bool,
 
     #[command(flatten)]
+    figures: FigureOptions,
+
+    #[command(flatten)]
     print: PrintOptions,
 }
 
@@ -108,19 +113,25 @@ impl Analyse {
         interrupt::prepare()?;
         let design = self.design.load()?;
         self.check_out()?;
+        let sheet = self.figures.sheet()?;
         memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
 
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);
         progress.stage("pictures", 0.95);
-        let extent = if self.compact {
-            Extent::Compact
-        } else {
-            Extent::Full
+        let contents = Contents {
+            extent: if self.compact {
+                Extent::Compact
+            } else {
+                Extent::Full
+            },
+            arrays: self.arrays,
+            sheet,
+            command: command_line(),
         };
-        let files = writer::files(&design, &analysis, extent, self.arrays, start)
-            .map_err(WriteError::from)?;
+        let files =
+            writer::files(&design, &analysis, &contents, start).map_err(WriteError::from)?;
         let kept = interrupt::without(|| writer::write(&self.out, &files))?;
         progress.finish();
         for path in kept {

@@ -10,11 +10,12 @@ use tilebind::design::{Design, MagnetModel};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
 use tilebind::report::page::Page;
-use tilebind::report::plots::ranking;
+use tilebind::report::plots::{Sheet, ranking};
 use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
+use super::figures::{FigureOptions, command_line};
 use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
 use super::word::Word;
@@ -60,6 +61,9 @@ pub struct Compare {
     work: WorkOptions,
 
     #[command(flatten)]
+    figures: FigureOptions,
+
+    #[command(flatten)]
     print: PrintOptions,
 }
 
@@ -68,6 +72,7 @@ impl Compare {
         interrupt::prepare()?;
         let designs = self.load()?;
         input::check_folder(&self.out)?;
+        let sheet = self.figures.sheet()?;
         let settings = self.options.settings();
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
@@ -86,17 +91,20 @@ impl Compare {
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);
-        let picture = ranking::draw(&comparison).map_err(WriteError::from)?;
+        let shown = ranking::draw(&comparison, &Sheet::SCREEN).map_err(WriteError::from)?;
+        let drawn = ranking::draw(&comparison, &sheet).map_err(WriteError::from)?;
         let json = comparison.json();
-        let page = Page::of_comparison(&comparison, picture.svg.clone());
-        let files = [
-            (writer::PAGE, page.to_html().into_bytes()),
-            ("compare.csv", comparison.csv().into_bytes()),
-            ("compare.md", comparison.markdown().into_bytes()),
-            ("ranking.svg", picture.svg.into_bytes()),
-            ("ranking.png", picture.png),
-            ("compare.json", json.clone().into_bytes()),
+        let mut files = vec![
+            ("compare.csv".to_owned(), comparison.csv().into_bytes()),
+            ("compare.md".to_owned(), comparison.markdown().into_bytes()),
         ];
+        // The numbers of the ranking are those of the table.
+        files.extend(drawn.files().filter(|(name, _)| !name.ends_with(".csv")));
+        files.push(("compare.json".to_owned(), json.clone().into_bytes()));
+        let page = Page::of_comparison(&comparison, shown.svg().to_owned())
+            .made_by(&command_line())
+            .beside(files.iter().map(|(name, _)| name));
+        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
         interrupt::without(|| writer::write_each(&self.out, &files))?;
         progress.finish();
         self.print.results(&json, || {

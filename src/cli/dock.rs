@@ -8,10 +8,11 @@ use tilebind::dynamics::docking::{
 };
 use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
 use tilebind::report::page::{Illustration, Page};
-use tilebind::report::plots::dock;
+use tilebind::report::plots::{Figure, PictureError, Sheet, dock, paths};
 use tilebind::report::{docking as report, writer};
 
 use super::docking_starts::StartOptions;
+use super::figures::{FigureOptions, command_line};
 use super::options::{PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt};
 
@@ -46,7 +47,7 @@ pub struct Dock {
           value_parser = input::count)]
     runs: usize,
 
-    /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and the pictures
+    /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and pictures/
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -104,6 +105,9 @@ pub struct Dock {
     work: WorkOptions,
 
     #[command(flatten)]
+    figures: FigureOptions,
+
+    #[command(flatten)]
     print: PrintOptions,
 }
 
@@ -121,7 +125,9 @@ impl Dock {
         let problem = design.problem();
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
+            input::check_folder(&folder.join(writer::PICTURES))?;
         }
+        let sheet = self.figures.sheet()?;
         self.work.use_threads()?;
         let settings = self.settings();
         if let Some(index) = self.trajectory.filter(|index| *index >= self.runs) {
@@ -141,9 +147,12 @@ impl Dock {
         let json = report::json(&design, &docking, &map);
         if let Some(folder) = &self.out {
             let mut files = vec![
-                ("dock.json", json.clone().into_bytes()),
-                ("runs.csv", report::runs_csv(&docking).into_bytes()),
-                ("map.csv", report::map_csv(&map).into_bytes()),
+                ("dock.json".to_owned(), json.clone().into_bytes()),
+                (
+                    "runs.csv".to_owned(),
+                    report::runs_csv(&docking).into_bytes(),
+                ),
+                ("map.csv".to_owned(), report::map_csv(&map).into_bytes()),
             ];
             let trace = |run: &DockingRun| {
                 let snapshots = docking::trajectory(&problem, &settings, run.index, INTERVAL);
@@ -154,7 +163,7 @@ impl Dock {
             let played: Vec<_> = played.collect::<Result<_, Failure>>()?;
             let picked = &played[0].1;
             files.push((
-                "trajectory.csv",
+                "trajectory.csv".to_owned(),
                 report::trajectory_csv(picked).into_bytes(),
             ));
             let drawn: Vec<(End, Vec<Snapshot>)> = docking
@@ -163,20 +172,30 @@ impl Dock {
                 .take(DRAWN)
                 .map(|run| Ok((run.end, trace(run)?.1)))
                 .collect::<Result<_, Failure>>()?;
-            let picture = |error| Failure::from(writer::WriteError::from(error));
-            let chances = dock::map(&design, &map).map_err(picture)?;
-            let paths = dock::trajectories(&design, &drawn).map_err(picture)?;
-            let pictures = [("Chance of a match", &chances), ("Trajectories", &paths)];
-            let pictures = pictures.map(|(title, picture)| Illustration {
-                title: title.to_owned(),
-                svg: picture.svg.clone(),
-            });
-            let page = Page::of_docking(&design, &problem, &docking, &played, pictures.into());
-            files.push((writer::PAGE, page.to_html().into_bytes()));
-            files.push(("chances.svg", chances.svg.into_bytes()));
-            files.push(("chances.png", chances.png));
-            files.push(("trajectories.svg", paths.svg.into_bytes()));
-            files.push(("trajectories.png", paths.png));
+            let picture = |error: PictureError| Failure::from(writer::WriteError::from(error));
+            let coarse = DockingMap::new(&docking, dock::cells(docking.runs.len()));
+            let figures = |sheet: &Sheet| {
+                let chances = dock::chances(&design, &coarse, sheet)?;
+                Ok([chances, paths::trajectories(&design, &drawn, sheet)?])
+            };
+            let figures = |sheet| figures(sheet).map_err(picture);
+            let titles = ["Chance of a match", "Paths"].into_iter();
+            let shown = titles
+                .zip(&figures(&Sheet::SCREEN)?)
+                .map(illustration)
+                .collect();
+            let page = Page::of_docking(&design, &problem, &docking, &played, shown);
+            let named = |(name, bytes)| (format!("{}/{name}", writer::PICTURES), bytes);
+            files.extend(
+                figures(&sheet)?
+                    .into_iter()
+                    .flat_map(Figure::files)
+                    .map(named),
+            );
+            let page = page
+                .made_by(&command_line())
+                .beside(files.iter().map(|(name, _)| name));
+            files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
             interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
@@ -237,6 +256,13 @@ impl Dock {
             chosen.extend(runs.first());
         }
         chosen
+    }
+}
+
+fn illustration((title, figure): (&str, &Figure)) -> Illustration {
+    Illustration {
+        title: title.to_owned(),
+        svg: figure.svg().to_owned(),
     }
 }
 

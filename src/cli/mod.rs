@@ -11,6 +11,7 @@ pub mod dock;
 mod docking_starts;
 pub mod energy;
 mod failure;
+mod figures;
 pub mod init;
 mod input;
 mod interrupt;

@@ -7,12 +7,13 @@ use serde_json::json;
 use tilebind::report::json;
 use tilebind::report::page::Page;
 use tilebind::report::plots::curve_data;
-use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::report::sweep::{DESIGNS, Sweep as Report, counts};
 use tilebind::report::writer::{self, WriteError};
 use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
+use super::figures::FigureOptions;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, memory, print, style};
@@ -89,11 +90,16 @@ pub struct Sweep {
     work: WorkOptions,
 
     #[command(flatten)]
+    figures: FigureOptions,
+
+    #[command(flatten)]
     print: PrintOptions,
 }
 
 impl Sweep {
     pub fn run(self) -> Result<(), Failure> {
+        // Told before any work.
+        self.figures.sheet()?;
         if let Some(file) = &self.status {
             let (plan, folder) = self.read(file)?;
             return self.status(&plan, &folder);
@@ -231,16 +237,20 @@ impl Sweep {
         let mut files = vec![
             ("sweep.csv".to_owned(), report.csv().into_bytes()),
             (PLAN.to_owned(), plan.to_text().into_bytes()),
-            (
-                writer::PAGE.to_owned(),
-                Page::of_sweep(&report).to_html().into_bytes(),
-            ),
         ];
-        for (name, picture) in curve_data::pictures(&report).map_err(WriteError::from)? {
-            files.push((format!("pictures/{name}.svg"), picture.svg.into_bytes()));
-            files.push((format!("pictures/{name}.png"), picture.png));
+        let sheet = self.figures.sheet()?;
+        for figure in curve_data::pictures(&report, &sheet).map_err(WriteError::from)? {
+            let named = |(name, bytes)| (format!("{}/{name}", writer::PICTURES), bytes);
+            files.extend(figure.files().map(named));
         }
         files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
+        let page = Page::of_sweep(&report).beside(files.iter().map(|(name, _)| name));
+        // Named after what they hold: one that is there was written before, and may have been edited.
+        let new = report
+            .designs()
+            .filter(|(name, _)| !folder.join(name).exists());
+        files.extend(new.map(|(name, text)| (name, text.as_bytes().to_vec())));
+        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
         interrupt::without(|| {
             store.tidy();
             writer::write_each(folder, &files)
@@ -268,7 +278,7 @@ impl Sweep {
 
 /// Refuses folders that neither points nor tables and pictures can be written to.
 fn check_folders(folder: &Path) -> Result<(), Failure> {
-    ["points", "pictures"]
+    ["points", writer::PICTURES, DESIGNS]
         .into_iter()
         .try_for_each(|inner| input::check_folder(&folder.join(inner)))
 }

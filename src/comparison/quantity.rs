@@ -15,6 +15,8 @@ use Reading::Number;
 
 /// Why a bond has no capture range, in short.
 pub const NOT_HEAD_ON: &str = "not head-on";
+/// Why there is no figure of the deepest trap.
+pub const NO_TRAPS: &str = "no traps";
 
 /// A figure, and between which bounds it lies where bounds are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -230,7 +232,7 @@ fn bond(assessment: &Assessment) -> Result<&Bond, &'static str> {
 }
 
 fn trap(assessment: &Assessment) -> Result<&Trap, &'static str> {
-    assessment.deepest_trap.as_ref().ok_or("no traps")
+    assessment.deepest_trap.as_ref().ok_or(NO_TRAPS)
 }
 
 fn climb(climb: Option<Estimate>) -> Result<Reading, &'static str> {

@@ -14,6 +14,24 @@
 //! | `barriers` | from, to (ids of states, -1 for free), saddle energy with its bounds, saddle pose |
 //! | `milestones` | pose and energy; an edge's `from` and `to` are places in this list |
 //! | `edges` | from, to, highest energy and where it is on the way (0 to 1), length, work and -ln of the transition probability either way |
+//!
+//! ```python
+//! import matplotlib.pyplot as plt
+//! import numpy as np
+//!
+//! array = lambda name: np.load(f"target/paper-tile/arrays/{name}.npy")
+//! lowest = np.fmin.reduce(array("around_energy_J"))  # over theta; NaN where the tiles would overlap
+//! states, milestones, edges = array("states"), array("milestones"), array("edges")
+//!
+//! figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5))
+//! mesh = left.pcolormesh(array("around_x_m"), array("around_y_m"), np.cbrt(lowest), cmap="RdBu_r")
+//! left.plot(states["x_m"], states["y_m"], "k.")
+//! figure.colorbar(mesh, label="cube root of the lowest energy (J)")
+//! ends = [np.stack([milestones[k][edges[e]] for e in ("from", "to")]) for k in ("x_m", "y_m")]
+//! deep = edges["peak_J"] < -1e-4  # ways that stay below -0.1 mJ
+//! right.plot(ends[0][:, deep], ends[1][:, deep], lw=0.3)
+//! plt.savefig("paper-tile.png")
+//! ```
 
 use std::borrow::Borrow;
 

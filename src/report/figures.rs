@@ -49,7 +49,7 @@ fn text(measure: Measure, reading: &Reading) -> String {
 /// An energy with its bounds: `65.46 mJ [64.84 to 65.46 mJ]`.
 fn energy(estimate: &Estimate) -> String {
     if estimate.value.is_infinite() {
-        return "no way, proved".to_owned();
+        return "caged, proved".to_owned();
     }
     let value = si(estimate.value, "J", DIGITS);
     match (estimate.low, estimate.high) {

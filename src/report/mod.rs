@@ -32,6 +32,7 @@ pub mod files;
 pub mod inspection;
 pub mod json;
 pub mod names;
+mod packing;
 pub mod page;
 pub mod plots;
 pub mod summary;

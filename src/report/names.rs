@@ -40,6 +40,14 @@ pub fn face_names(design: &Design, state: &State) -> Vec<[String; 2]> {
         .collect()
 }
 
+/// A face in a sentence: `east face`, `face 3`.
+pub(super) fn face(name: &str) -> String {
+    match name.parse::<usize>() {
+        Ok(number) => format!("face {number}"),
+        Err(_) => format!("{name} face"),
+    }
+}
+
 /// A place as an entry names it: a state's id, or `free`.
 pub(super) fn place(place: Place) -> Value {
     match place {

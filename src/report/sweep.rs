@@ -10,6 +10,10 @@ use super::json;
 use crate::comparison::Assessment;
 use crate::sweep::{Outcome, Plan, Point, Progress, Store};
 
+/// The folder of the designs of points.
+pub const DESIGNS: &str = "designs";
+/// Of more points the designs are not written.
+const MOST_DESIGNS: usize = 400;
 /// Reasons that the summary gives.
 const REASONS: usize = 5;
 
@@ -151,6 +155,21 @@ impl<'a> Sweep<'a> {
         }
         let designs = (0..self.outcomes.len()).filter_map(|index| self.assessment(index));
         out + &checked(designs)
+    }
+
+    /// The file of a point's design beside the results; `None` where it is impossible, or needs
+    /// drawings, which lie elsewhere.
+    pub fn design_file(&self, point: &Point) -> Option<String> {
+        let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();
+        let possible = self.assessment(point.index).is_some() && point.text().is_some();
+        let few = self.points.len() <= MOST_DESIGNS;
+        (possible && few && !needs_drawings).then(|| format!("{DESIGNS}/{}.toml", point.name))
+    }
+
+    /// The designs of points by their files.
+    pub fn designs(&self) -> impl Iterator<Item = (String, &str)> {
+        let points = self.points.iter();
+        points.filter_map(|point| Some((self.design_file(point)?, point.text()?)))
     }
 
     /// A point by its values: `depth = 0.05, model = dipole`.

@@ -6,6 +6,12 @@
 //! U = 0, which are a basin too. `min.data` has lines `i E`, `ts.data` lines `i j E` (J), of several
 //! transition states between two minima the lowest; `min.coords` and `ts.coords` have x, y (m) and
 //! theta (rad) of each line, `pairlist` the pairs that are joined. TopSearch wants all five.
+//!
+//! TopSearch 0.0.3 (`pip install topsearch`) reads `topsearch/` with `read_network` and draws the
+//! paper tile's graph: the same ten minima (nine kinds of state and free tiles), the shifted bonds
+//! joining the bond first and all joined at the top. It draws on a linear scale in 100 levels, so
+//! that the merges at -140 and -47 µJ fall into one. It wants LaTeX for its letters;
+//! `matplotlib.rcParams["text.usetex"] = False` after the import does without.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::earlier::{Earlier, content};
-pub use super::files::{Files, PAGE, REPORT};
+pub use super::files::{Files, PAGE, PICTURES, REPORT};
 use super::json::Report;
 use super::names::{alternative_file, pathway_file};
 use super::page::Page;
-use super::plots::{self, NamedPicture, PictureError, Scene};
+use super::plots::{self, PictureError, Scene, Sheet};
 use super::{arrays, csv, dynamics, topsearch};
 use crate::design::Design;
 use crate::landscape::Barrier;
 use crate::pipeline::Analysis;
 
 /// The folders of an analysis within that of its results.
-pub const FOLDERS: [&str; 4] = ["pathways", "pictures", arrays::FOLDER, topsearch::FOLDER];
+pub const FOLDERS: [&str; 4] = ["pathways", PICTURES, arrays::FOLDER, topsearch::FOLDER];
 
 /// Why results could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -40,27 +40,49 @@ pub enum WriteError {
 pub enum Extent {
     /// Everything.
     Full,
-    /// Without the pathways of copies, the page and the files for TopSearch, and pictures as SVG
-    /// only: for results that are kept.
+    /// Without the pathways of copies, the page and the files for TopSearch, pictures as SVG (and
+    /// PDF) only and without their numbers: for results that are kept.
     Compact,
 }
 
-/// All files of an analysis begun at `start`: report, tables, pathways, pictures, page, and arrays
-/// if they are asked for.
+/// What is written, and how.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// How much.
+    pub extent: Extent,
+    /// Whether arrays for NumPy too.
+    pub arrays: bool,
+    /// How pictures are laid out.
+    pub sheet: Sheet,
+    /// The command line that gives the same results, for the page.
+    pub command: String,
+}
+
+/// All files of an analysis begun at `start`: report, tables, pathways, pictures with their numbers,
+/// page, and arrays if they are asked for.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
 pub fn files(
     design: &Design,
     analysis: &Analysis,
-    extent: Extent,
-    with_arrays: bool,
+    contents: &Contents,
     start: Instant,
 ) -> Result<Files, PictureError> {
+    let extent = contents.extent;
     let mut files = tables(design, analysis, extent);
-    files.extend(pictures(design, analysis, extent)?);
-    if with_arrays {
+    files.extend(pictures(design, analysis, contents)?);
+    if contents.arrays {
         files.extend(arrays::files(design, analysis));
+    }
+    if contents.extent == Extent::Full {
+        let listed = [REPORT.to_owned()];
+        let linked = |name: &&String| !name.contains('/') || name.starts_with(PICTURES);
+        let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
+        let page = Page::of_analysis(design, analysis, &scene)
+            .made_by(&contents.command)
+            .beside(files.keys().filter(linked).chain(&listed));
+        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
     }
     let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
     if extent == Extent::Compact {
@@ -103,22 +125,30 @@ fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
     files
 }
 
-/// The pictures, the page, and the graph for TopSearch.
-fn pictures(design: &Design, analysis: &Analysis, extent: Extent) -> Result<Files, PictureError> {
+/// The pictures, and the graph for TopSearch.
+fn pictures(
+    design: &Design,
+    analysis: &Analysis,
+    contents: &Contents,
+) -> Result<Files, PictureError> {
     let mut files = Files::new();
     let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
-    for NamedPicture { name, picture } in plots::draw_all(&scene)? {
-        files.insert(format!("pictures/{name}.svg"), picture.svg.into());
-        if extent == Extent::Full {
-            files.insert(format!("pictures/{name}.png"), picture.png);
-        }
+    let is_full = contents.extent == Extent::Full;
+    for figure in plots::draw_all(&scene, &contents.sheet)? {
+        let kept = figure
+            .files()
+            .filter(|(name, _)| is_full || is_vector(name));
+        files.extend(kept.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
     }
-    if extent == Extent::Full {
-        let page = Page::of_analysis(design, analysis, &scene);
-        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
+    if is_full {
         files.extend(topsearch::files(&scene, analysis.ring[1]));
     }
     Ok(files)
+}
+
+/// Whether a picture can be enlarged.
+fn is_vector(name: &str) -> bool {
+    name.ends_with(".svg") || name.ends_with(".pdf")
 }
 
 /// Writes files into a folder, which is made if need be. Each is written under a temporary name;

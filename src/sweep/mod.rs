@@ -14,6 +14,36 @@
 //! are the same bytes however the work was divided.
 //!
 //! A design that is impossible at some value is an [`Outcome`] like any other, with the reason.
+//!
+//! # On a cluster
+//!
+//! A sweep divides into parts that know nothing of each other: plan it, work on its parts wherever
+//! there is a core, merge.
+//!
+//! ```sh
+//! tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.046:24 \
+//!     --plan target/depths/plan.json
+//! sbatch --array=1-8 tests/slurm/sweep.sbatch target/depths/plan.json
+//! tilebind sweep --status target/depths/plan.json
+//! tilebind sweep --merge target/depths/plan.json
+//! ```
+//!
+//! `tests/slurm/sweep.sbatch` works on one part a task. `tilebind` must be on the `PATH` and the
+//! sweep's folder on a file system that all nodes share. Array numbers start from 1; submit the
+//! whole array, from the folder in which the sweep was planned. An array that was cancelled or ran
+//! out of time is submitted again as it was, or with another number of tasks: finished points stay.
+//! `--merge` writes the bytes that the same sweep in one process writes.
+//!
+//! The same with GNU parallel, on one machine:
+//!
+//! ```sh
+//! parallel -j 2 tilebind sweep --run target/depths/plan.json --shard {}/8 --threads 1 ::: $(seq 8)
+//! tilebind sweep --merge target/depths/plan.json
+//! ```
+//!
+//! `tests/slurm/run.sh target/release/tilebind` (as root) tries the job array on a real Slurm with
+//! two nodes on this machine: cancelled half-way, submitted again, merged and compared byte for byte
+//! with the sweep in one process. Where Slurm cannot be installed it says so and skips.
 
 mod document;
 mod drawings;

@@ -66,6 +66,13 @@ pub struct Point {
     text: Result<String, String>,
 }
 
+impl Point {
+    /// The design's text with the values set, where they can be set.
+    pub fn text(&self) -> Option<&str> {
+        self.text.as_deref().ok()
+    }
+}
+
 /// Part `number`, from 1, of `of` parts of a sweep: every `of`th point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {

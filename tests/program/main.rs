@@ -9,4 +9,5 @@ mod folder;
 mod pictures;
 #[path = "../shared/program.rs"]
 mod program;
+mod readme;
 mod sweep;

@@ -3,24 +3,52 @@
 use serde::Serialize;
 
 use super::finite;
-use crate::comparison::quantity::{Measure, Place, QUANTITIES, placed};
+use super::thumbnail::Thumbnail;
+use crate::comparison::quantity::{Measure, NO_TRAPS, Place, QUANTITIES, placed};
 use crate::comparison::{Assessment, Quantity};
 use crate::report::figures::cell;
-use crate::report::plots::curve_data::{Content, contents};
+use crate::report::plots::curve_data::{Content, Variable, contents, variables};
+use crate::report::plots::curve_names::series_name;
 use crate::report::sweep::Sweep;
 
 /// What a page needs to draw curves and maps.
 #[derive(Clone, Debug, Serialize)]
 pub struct Charts {
+    /// The varied numbers, with their units.
+    axes: Vec<String>,
+    /// All figures, in the order in which points have them.
+    figures: Vec<ChartFigure>,
+    /// The tiles of points; none where there are many points.
+    tiles: Vec<Thumbnail>,
     points: Vec<ChartPoint>,
     panels: Vec<ChartPanel>,
     curves: Vec<ChartCurves>,
     maps: Vec<ChartMap>,
 }
 
+/// A figure that can be chosen.
+#[derive(Clone, Debug, Serialize)]
+struct ChartFigure {
+    label: &'static str,
+    /// SI unit, or `%` for a share.
+    unit: &'static str,
+}
+
 /// A point of the sweep.
 #[derive(Clone, Debug, Serialize)]
 struct ChartPoint {
+    /// What it is called.
+    name: String,
+    /// What it has in common with others, but for the varied numbers.
+    series: String,
+    /// Its places on the axes; null where it is not a number.
+    places: Vec<Option<f64>>,
+    /// Which of the tiles are its own.
+    tiles: Option<usize>,
+    /// The file of its design beside the page.
+    design: Option<String>,
+    /// The figures that it has not for want of a trap.
+    without: Vec<usize>,
     /// What is said of it under the pointer.
     readout: String,
     /// Of each figure the value and its bounds (SI), a value of null where there is no way at all;
@@ -66,8 +94,21 @@ impl Charts {
     /// The charts of a finished sweep.
     pub fn new(sweep: &Sweep) -> Self {
         let panels = placed(|quantity| quantity.panel).into_iter();
+        let variables = variables(sweep);
+        let mut tiles = Vec::new();
+        let points = 0..sweep.points.len();
+        let points = points.map(|k| point(sweep, k, &variables, &mut tiles));
         let mut charts = Self {
-            points: (0..sweep.points.len()).map(|k| point(sweep, k)).collect(),
+            points: points.collect(),
+            axes: variables.iter().map(|axis| axis.shown().1).collect(),
+            figures: QUANTITIES
+                .iter()
+                .map(|quantity| ChartFigure {
+                    label: quantity.label,
+                    unit: unit(quantity),
+                })
+                .collect(),
+            tiles,
             panels: panels.map(|(place, shown)| panel(place, &shown)).collect(),
             curves: Vec::new(),
             maps: Vec::new(),
@@ -111,31 +152,60 @@ fn tidy(value: f64) -> f64 {
 }
 
 fn panel(place: Place, shown: &[&Quantity]) -> ChartPanel {
-    let measure = shown[0].measure;
     let shows = |known: &Quantity| shown.iter().any(|quantity| quantity.key == known.key);
     ChartPanel {
         heading: place.heading,
-        unit: match measure {
-            Measure::Share => "%",
-            _ => measure.unit(),
-        },
+        unit: unit(shown[0]),
         figures: (0..QUANTITIES.len())
             .filter(|&k| shows(&QUANTITIES[k]))
             .collect(),
     }
 }
 
-fn point(sweep: &Sweep, index: usize) -> ChartPoint {
-    let called = sweep.called(&sweep.points[index]);
-    match sweep.assessment(index) {
-        Some(assessment) => ChartPoint {
-            readout: format!("{called}: {}", readout(assessment)),
-            figures: QUANTITIES.iter().map(|q| figure(q, assessment)).collect(),
-        },
-        None => ChartPoint {
-            readout: format!("{called}: {}", sweep.reason(index).unwrap_or_default()),
-            figures: Vec::new(),
-        },
+fn unit(quantity: &Quantity) -> &'static str {
+    match quantity.measure {
+        Measure::Share => "%",
+        measure => measure.unit(),
+    }
+}
+
+fn point(
+    sweep: &Sweep,
+    index: usize,
+    variables: &[Variable],
+    tiles: &mut Vec<Thumbnail>,
+) -> ChartPoint {
+    let point = &sweep.points[index];
+    let name = sweep.called(point);
+    let place = |axis: &Variable| Some(tidy(axis.shown().0 * axis.value(point)?));
+    let plain = ChartPoint {
+        series: series_name(sweep, point),
+        places: variables.iter().map(place).collect(),
+        tiles: None,
+        design: sweep.design_file(point),
+        without: Vec::new(),
+        readout: format!("{name}: {}", sweep.reason(index).unwrap_or_default()),
+        figures: Vec::new(),
+        name,
+    };
+    let Some(assessment) = sweep.assessment(index) else {
+        return plain;
+    };
+    let lacks = |quantity: &Quantity| (quantity.read)(assessment).err() == Some(NO_TRAPS);
+    ChartPoint {
+        readout: format!("{}: {}", plain.name, readout(assessment)),
+        figures: QUANTITIES.iter().map(|q| figure(q, assessment)).collect(),
+        without: (0..QUANTITIES.len())
+            .filter(|&k| lacks(&QUANTITIES[k]))
+            .collect(),
+        tiles: Thumbnail::of(sweep, point).map(|thumbnail| {
+            let known = tiles.iter().position(|known| *known == thumbnail);
+            known.unwrap_or_else(|| {
+                tiles.push(thumbnail);
+                tiles.len() - 1
+            })
+        }),
+        ..plain
     }
 }
 

@@ -44,6 +44,7 @@ impl Page {
             columns,
             rows,
             states: Vec::new(),
+            paths: Vec::new(),
         }];
         if !orders.is_empty() {
             tables.push(Table {
@@ -57,15 +58,13 @@ impl Page {
                     .map(|(figure, order)| vec![json!(figure), json!(order)])
                     .collect(),
                 states: Vec::new(),
+                paths: Vec::new(),
             });
         }
         let seeds: Vec<u64> = comparison.designs.iter().map(|d| d.seed).collect();
         Self {
-            title: format!("{} designs side by side", comparison.designs.len()),
             subtitle: format!("ranked by {by}"),
             facts,
-            landscape: None,
-            charts: None,
             pictures: vec![Illustration {
                 title: format!("Ranked by {by}"),
                 svg: ranking,
@@ -76,6 +75,7 @@ impl Page {
                 env!("CARGO_PKG_VERSION"),
                 seeds.first().copied().unwrap_or_default()
             ),
+            ..Self::titled(format!("{} designs side by side", comparison.designs.len()))
         }
     }
 
@@ -110,16 +110,13 @@ impl Page {
         let names: Vec<&str> = plan.designs.iter().map(|d| d.name.as_str()).collect();
         let keys: Vec<&str> = plan.axes.iter().map(|axis| axis.key.as_str()).collect();
         Self {
-            title: format!("{}: a sweep", names.join(", ")),
             subtitle: format!("over {}", keys.join(", ")),
             facts: vec![Fact {
                 name: "points".to_owned(),
                 value: sweep.points.len().to_string(),
                 note: counts(&sweep.progress()),
             }],
-            landscape: None,
             charts: Some(Charts::new(sweep)),
-            pictures: Vec::new(),
             tables: vec![Table {
                 title: "Points".to_owned(),
                 note: "Varied keys as the design file has them, in SI units; brackets hold \
@@ -128,11 +125,14 @@ impl Page {
                 columns,
                 rows,
                 states: Vec::new(),
+                paths: Vec::new(),
             }],
             origin: format!(
                 "tilebind {}, seed {}; plan.json holds what reproduces it",
                 plan.tilebind, plan.seed
             ),
+            command: "tilebind sweep --run plan.json; tilebind sweep --merge plan.json".to_owned(),
+            ..Self::titled(format!("{}: a sweep", names.join(", ")))
         }
     }
 }

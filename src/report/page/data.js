@@ -107,6 +107,10 @@ function positionAt(volume, plane, u, v) {
   return weight > 0 ? sum / weight : NaN;
 }
 
+const stateOf = (id) => world.states.find((state) => state.id === id);
+/** Kinds of states: copies that symmetry makes have one class. */
+const classOf = (id) => stateOf(id)?.class ?? null;
+
 // Poses
 
 const turned = ([x, y], angle) => {

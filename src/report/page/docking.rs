@@ -35,11 +35,9 @@ impl Page {
             .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
         let landscape = Some(Landscape::new(design, &scene, played.collect()));
         Self {
-            title: format!("{}: docking", design.name),
             subtitle: design.description.clone(),
             facts: facts(docking),
             landscape,
-            charts: None,
             pictures,
             tables: vec![traps(docking), settings(design, docking)],
             origin: format!(
@@ -48,6 +46,7 @@ impl Page {
                 docking.settings.seed,
                 design.sha256
             ),
+            ..Self::titled(format!("{}: docking", design.name))
         }
     }
 }
@@ -137,6 +136,7 @@ fn traps(docking: &Docking) -> Table {
         ],
         rows: rows.collect(),
         states: Vec::new(),
+        paths: Vec::new(),
     }
 }
 

@@ -10,9 +10,10 @@ function readTheme() {
   }
 }
 
-/** Clears a canvas and fits it to its width on the page; `shape` is height over width. */
-function fresh(canvas, shape) {
-  const width = Math.max(160, canvas.clientWidth);
+/** Clears a canvas and fits it to its width on the page, if that is not below `least`; `shape` is
+    height over width. */
+function fresh(canvas, shape, least = 160) {
+  const width = Math.max(least, canvas.clientWidth);
   const height = Math.round(width * shape);
   const ratio = Math.max(1, window.devicePixelRatio || 1);
   canvas.width = Math.round(width * ratio);
@@ -196,4 +197,52 @@ function extent(poses) {
 function pointer(canvas, event) {
   const box = canvas.getBoundingClientRect();
   return [event.clientX - box.left, event.clientY - box.top];
+}
+
+/** The outline of the moving tile where the pointer is. */
+function ghost(pen, pose, at) {
+  pen.save();
+  pen.setLineDash([5, 4]);
+  pen.strokeStyle = theme.here;
+  pen.lineWidth = 1.6;
+  line(pen, world.moving.outline.map((vertex) => at(placed(vertex, pose))), true);
+  pen.restore();
+}
+
+/** Fills a plot with the hatching of what is blocked. */
+function hatch(pen, plot) {
+  const [left, top, right, bottom] = plot.box;
+  pen.fillStyle = theme.hatch;
+  pen.fillRect(left, top, right - left, bottom - top);
+  pen.strokeStyle = theme["hatch-line"];
+  pen.lineWidth = 1.5;
+  const height = bottom - top;
+  for (let x = left - height; x < right; x += 9) line(pen, [[x, bottom], [x + height, top]]);
+}
+
+/** The colours with their energies. */
+function drawColourBar() {
+  const { pen, width } = fresh(element("colour-bar"), 44 / Math.max(160, element("colour-bar").clientWidth));
+  const left = 30, right = width - 30;
+  for (let x = left; x < right; x++) {
+    pen.fillStyle = `rgb(${colourOf((x - left) / (right - left) * 2 - 1).join()})`;
+    pen.fillRect(x, 2, 1.5, 16);
+  }
+  pen.strokeStyle = pen.fillStyle = theme.ink;
+  pen.strokeRect(left, 2, right - left, 16);
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  const taken = [];
+  // Zero first, then outwards: where numbers would collide the later ones are left out.
+  for (const energy of energyTicks(-1, 1).sort((a, b) => Math.abs(a) - Math.abs(b))) {
+    const x = left + (right - left) * (positionOf(energy) + 1) / 2;
+    line(pen, [[x, 18], [x, 23]]);
+    const text = energy ? si(energy, "J", 1) : "0";
+    const half = pen.measureText(text).width / 2 + 5;
+    if (x + half > width + 5 || x - half < -5 || taken.some(([from, to]) => x - half < to && from < x + half)) continue;
+    taken.push([x - half, x + half]);
+    pen.fillText(text, x, 26);
+  }
+  element("colour-bar").dataset.labels = JSON.stringify(taken.sort((a, b) => a[0] - b[0]));
+  element("colour-scale").textContent = `energy U, logarithmic beyond \u00b1${si(linear, "J", 2)}`;
 }

@@ -53,14 +53,14 @@ pub struct Landscape {
 }
 
 /// A tile to draw.
-#[derive(Clone, Debug, Serialize)]
-struct Drawn {
-    outline: Vec<[f64; 2]>,
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Drawn {
+    pub(super) outline: Vec<[f64; 2]>,
     magnets: Vec<DrawnMagnet>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct DrawnMagnet {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct DrawnMagnet {
     position: [f64; 2],
     /// Direction of the moment.
     angle: f64,
@@ -181,12 +181,12 @@ fn point(p: Vector2<f64>) -> [f64; 2] {
     pair([p.x, p.y])
 }
 
-fn pose(q: &Configuration) -> [f64; 3] {
+pub(super) fn pose(q: &Configuration) -> [f64; 3] {
     q.to_array().map(|value| fixed(value, 7))
 }
 
 impl Drawn {
-    fn new(tile: &Tile) -> Self {
+    pub(super) fn new(tile: &Tile) -> Self {
         Self {
             outline: tile.outline.vertices().iter().map(|v| point(*v)).collect(),
             magnets: tile

@@ -2,7 +2,7 @@
 
 /** The path that is shown, how far along it one is (0 to 1) and where that is; the pose under the
     pointer; the chosen state. */
-const now = { route: null, progress: 0, place: null, probe: null, chosen: null, playing: false };
+const now = { route: null, path: null, progress: 0, place: null, probe: null, chosen: null, playing: false, linear: false };
 /** Seconds that a path takes to play, and a second of a trajectory. */
 const DURATION = 9, SECOND = 2;
 const durationOf = ({ points, timed }) => timed ? SECOND * (points.at(-1)[0] - points[0][0]) : DURATION;
@@ -23,7 +23,31 @@ function showPage() {
     image.src = URL.createObjectURL(new Blob([source], { type: "image/svg+xml" }));
     element("pictures").append(make("h2", title), image);
   }
-  for (const table of page.tables) buildTable(table, choose);
+  for (const table of page.tables) buildTable(table, choose, choosePath);
+  listFiles(page.files);
+  element("reproduce").hidden = !page.citation;
+  element("command").hidden = !page.command;
+  element("command").textContent = page.command;
+  element("citation").textContent = page.citation;
+}
+
+/** Links to the files beside the page, those of one stem together. */
+function listFiles(files) {
+  const stems = new Map();
+  for (const file of files) {
+    const stem = file.replace(/\.[a-z]+$/, "");
+    stems.set(stem, [...stems.get(stem) ?? [], file]);
+  }
+  for (const [stem, all] of [...stems].sort()) {
+    const entry = make("li", `${stem} `);
+    for (const file of all) {
+      const link = make("a", file.slice(stem.length + 1));
+      link.href = file.split("/").map(encodeURIComponent).join("/");
+      entry.append(link, " ");
+    }
+    element("files").querySelector("ul").append(entry);
+  }
+  element("files").hidden = files.length === 0;
 }
 
 let views = null;
@@ -67,17 +91,31 @@ function goTo(progress) {
 
 function takePath(index) {
   now.route = prepared(world.pathways[index]);
+  now.path = index;
   element("path").value = index;
   goTo(0);
+  markChosen();
 }
 
+/** Shows a state's pose, and the way out of it or of another of its kind. */
 function choose(state) {
   if (!views) return;
   now.chosen = state;
-  markChosen();
-  const index = world.pathways.findIndex((path) => path.ends[0] === state && state !== null);
+  const starts = (same) => world.pathways.findIndex(({ ends }) => ends[0] !== null && state !== null && same(ends[0]));
+  const own = starts((id) => id === state);
+  const index = own >= 0 ? own : starts((id) => classOf(id) === classOf(state));
   if (index >= 0 && !now.playing) takePath(index);
+  markChosen();
   redraw();
+}
+
+/** Takes a way from its beginning. */
+function choosePath(index) {
+  if (!views) return;
+  now.playing = false;
+  now.chosen = world.pathways[index].ends[0];
+  takePath(index);
+  element("landscape").scrollIntoView({ block: "start" });
 }
 
 function play() {
@@ -106,13 +144,19 @@ function slider(id, view, planes) {
 
 function watchPointer(view) {
   const look = (event) => {
-    const found = view.probe(event);
+    const state = view.stateAt(event);
+    const found = state ? { text: `${state.name}, ${energyText(state.energy)}: click to see it` } : view.probe(event);
+    view.canvas.style.cursor = state ? "pointer" : "";
     now.probe = found?.pose ?? null;
     view.readout.textContent = found?.text ?? "";
     redraw();
   };
   view.canvas.addEventListener("pointermove", look);
   view.canvas.addEventListener("pointerdown", look);
+  view.canvas.addEventListener("click", (event) => {
+    const state = view.stateAt(event);
+    if (state) choose(state.id);
+  });
   view.canvas.addEventListener("pointerleave", () => {
     now.probe = null;
     redraw();
@@ -141,7 +185,16 @@ async function showLandscape() {
   element("profile").addEventListener("pointermove", drag);
   element("player").hidden = world.pathways.length === 0;
   element("merging").hidden = world.tree.length === 0;
-  if (world.tree.length) buildTree(choose);
+  if (world.tree.length) {
+    buildTree(choose);
+    hintScroll(element("tree"), "graph");
+    element("tree-scale").addEventListener("click", (event) => {
+      now.linear = !now.linear;
+      event.target.setAttribute("aria-pressed", now.linear);
+      buildTree(choose);
+      markChosen();
+    });
+  }
   if (world.pathways.length) {
     takePath(0);
     // Where the way in is steepest says more than its far end.

@@ -26,6 +26,8 @@ class MapView {
   constructor(id, volume, { xName, yName, xUnit, yUnit, shape }) {
     Object.assign(this, { canvas: element(id), volume, xName, yName, xUnit, yUnit, shape });
     this.readout = element(`${id}-readout`);
+    /** The states on the map and where they are drawn. */
+    this.spots = [];
     this.ranges = [2, 1].map((k) => [volume.axes[k][0], volume.axes[k].at(-1)]);
     this.plane = 0;
   }
@@ -33,6 +35,30 @@ class MapView {
   /** A place on the map as fractions of its width and height. */
   fractions(values) {
     return values.map((value, k) => (value - this.ranges[k][0]) / (this.ranges[k][1] - this.ranges[k][0]));
+  }
+
+  /** The state that is drawn under the pointer. */
+  stateAt(event) {
+    const [px, py] = pointer(this.canvas, event);
+    const apart = ({ at: [x, y] }) => Math.hypot(x - px, y - py);
+    // The last is on top.
+    const near = [...this.spots].reverse().filter((spot) => apart(spot) < 10);
+    return near.sort((a, b) => apart(a) - apart(b))[0]?.state ?? null;
+  }
+
+  /** Marks a state, paler where it lies out of the plane. */
+  mark(pen, state, at, here) {
+    pen.globalAlpha = here ? 1 : 0.4;
+    marker(pen, state.kind, at, here ? 5.5 : 3.5);
+    if (state.class === classOf(now.chosen)) {
+      pen.globalAlpha = 1;
+      pen.strokeStyle = theme.here;
+      pen.lineWidth = 2;
+      pen.beginPath();
+      pen.arc(...at, 9, 0, 2 * Math.PI);
+      pen.stroke();
+    }
+    this.spots.push({ state, at });
   }
 
   /** Value of the slider's coordinate. */
@@ -123,11 +149,11 @@ class AroundView extends MapView {
     plot.clip(pen);
     drawTile(pen, world.fixed, [0, 0, 0], at, theme.fixed);
     if (now.route) seamed(pen, now.route.points.map((p) => plot.at(p[1], p[2])), "#222", 1.8);
+    this.spots = [];
     for (const here of [false, true]) {
-      pen.globalAlpha = here ? 1 : 0.4;
       for (const state of this.states) {
         const inPlane = Math.abs(this.within(state.pose[2] - this.level)) <= this.step / 2 + 1e-9;
-        if (inPlane === here) marker(pen, state.kind, plot.at(...state.pose), here ? 5.5 : 3.5);
+        if (inPlane === here) this.mark(pen, state, plot.at(...state.pose), here);
       }
     }
     pen.globalAlpha = 1;
@@ -200,12 +226,11 @@ class InFrontView extends MapView {
       piece.push(plot.at(slide, tilt));
     }
     flush();
+    this.spots = [];
     for (const state of world.states) {
       const c = this.coordinates(state.pose);
       if (!c || inFrontOf(state.pose).distance < this.landing(c.tilt, c.slide) - 1e-3) continue;
-      const near = Math.abs(c.gap - this.level) < 1e-3;
-      pen.globalAlpha = near ? 1 : 0.4;
-      marker(pen, state.kind, plot.at(c.slide, c.tilt), near ? 5.5 : 3.5);
+      this.mark(pen, state, plot.at(c.slide, c.tilt), Math.abs(c.gap - this.level) < 1e-3);
     }
     pen.globalAlpha = 1;
     const here = now.place && this.coordinates(now.place.pose);
@@ -229,44 +254,4 @@ class InFrontView extends MapView {
 function energyAt(pose, position) {
   if (world.dipoles) return energyText(dipoleEnergy(pose));
   return position === position ? `about ${energyText(energyOf(position), 2)}` : "not on the map's grid";
-}
-
-function ghost(pen, pose, at) {
-  pen.save();
-  pen.setLineDash([5, 4]);
-  pen.strokeStyle = theme.here;
-  pen.lineWidth = 1.6;
-  line(pen, world.moving.outline.map((vertex) => at(placed(vertex, pose))), true);
-  pen.restore();
-}
-
-/** Fills a plot with the hatching of what is blocked. */
-function hatch(pen, plot) {
-  const [left, top, right, bottom] = plot.box;
-  pen.fillStyle = theme.hatch;
-  pen.fillRect(left, top, right - left, bottom - top);
-  pen.strokeStyle = theme["hatch-line"];
-  pen.lineWidth = 1.5;
-  const height = bottom - top;
-  for (let x = left - height; x < right; x += 9) line(pen, [[x, bottom], [x + height, top]]);
-}
-
-/** The colours with their energies. */
-function drawColourBar() {
-  const { pen, width } = fresh(element("colour-bar"), 44 / Math.max(160, element("colour-bar").clientWidth));
-  const left = 30, right = width - 30;
-  for (let x = left; x < right; x++) {
-    pen.fillStyle = `rgb(${colourOf((x - left) / (right - left) * 2 - 1).join()})`;
-    pen.fillRect(x, 2, 1.5, 16);
-  }
-  pen.strokeStyle = pen.fillStyle = theme.ink;
-  pen.strokeRect(left, 2, right - left, 16);
-  pen.textAlign = "center";
-  pen.textBaseline = "top";
-  const ticks = energyTicks(-1, 1).filter((u) => width > 420 || u === 0 || Math.abs(u) > 0.003 * world.most);
-  for (const energy of ticks) {
-    const x = left + (right - left) * (positionOf(energy) + 1) / 2;
-    line(pen, [[x, 18], [x, 23]]);
-    pen.fillText(energy ? si(energy, "J", 1) : "0", x, 26);
-  }
 }

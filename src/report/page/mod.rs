@@ -8,18 +8,19 @@
 mod charts;
 mod comparison;
 mod docking;
+mod html;
 pub(super) mod landscape;
 mod packed;
 mod pathways;
 mod tables;
+mod thumbnail;
 mod tree;
 mod words;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use serde_json::Value;
-use sha2::{Digest, Sha256};
+
+use html::{CITATION, escaped, filled, hash};
 
 pub use charts::Charts;
 pub use landscape::Landscape;
@@ -32,7 +33,7 @@ use crate::pipeline::Analysis;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -41,6 +42,8 @@ const SCRIPTS: [&str; 9] = [
     include_str!("tree.js"),
     include_str!("tables.js"),
     include_str!("charts.js"),
+    include_str!("chart_maps.js"),
+    include_str!("sweep.js"),
     include_str!("main.js"),
 ];
 
@@ -63,6 +66,12 @@ pub struct Page {
     pub tables: Vec<Table>,
     /// How it was made: version, seed, checksum.
     pub origin: String,
+    /// The command line that makes the same page; empty where it is not known.
+    pub command: String,
+    /// What to cite, as BibTeX.
+    pub citation: &'static str,
+    /// The files beside it that it links to, by their names from its folder.
+    pub files: Vec<String>,
 }
 
 /// A quantity told in a few words.
@@ -114,6 +123,8 @@ pub struct Table {
     pub rows: Vec<Vec<Value>>,
     /// For each row the state whose pose it shows when clicked; empty where rows show none.
     pub states: Vec<usize>,
+    /// For each row the pathway that it takes when clicked; empty where rows take none.
+    pub paths: Vec<Option<usize>>,
 }
 
 /// A column of a table.
@@ -138,6 +149,7 @@ impl Table {
                 .map(|(name, value)| vec![Value::from(name), value])
                 .collect(),
             states: Vec::new(),
+            paths: Vec::new(),
         }
     }
 }
@@ -155,25 +167,56 @@ impl Column {
 impl Page {
     /// The page of an analysis.
     pub fn of_analysis(design: &Design, analysis: &Analysis, scene: &Scene) -> Self {
+        let played = pathways::played(scene);
         Self {
-            title: design.name.clone(),
             subtitle: design.description.clone(),
             facts: tables::facts(design, analysis, scene),
-            landscape: Some(Landscape::new(design, scene, pathways::played(scene))),
-            charts: None,
-            pictures: Vec::new(),
             tables: vec![
                 tables::states(design, analysis, scene),
-                tables::barriers(analysis, scene),
+                tables::barriers(analysis, scene, &played),
+                pathways::table(&played),
                 tables::settings(design, analysis),
             ],
+            landscape: Some(Landscape::new(design, scene, played)),
             origin: format!(
                 "tilebind {}, seed {}, design sha256 {}",
                 env!("CARGO_PKG_VERSION"),
                 analysis.settings.seed,
                 design.sha256
             ),
+            ..Self::titled(design.name.clone())
         }
+    }
+
+    /// A page with nothing on it but its title.
+    fn titled(title: String) -> Self {
+        Self {
+            title,
+            subtitle: String::new(),
+            facts: Vec::new(),
+            landscape: None,
+            charts: None,
+            pictures: Vec::new(),
+            tables: Vec::new(),
+            origin: String::new(),
+            command: String::new(),
+            citation: CITATION,
+            files: Vec::new(),
+        }
+    }
+
+    /// The page with the command line that makes it.
+    #[must_use]
+    pub fn made_by(self, command: &str) -> Self {
+        let command = command.to_owned();
+        Self { command, ..self }
+    }
+
+    /// The page with links to files beside it, by their names from its folder.
+    #[must_use]
+    pub fn beside<'a>(self, files: impl IntoIterator<Item = &'a String>) -> Self {
+        let files = files.into_iter().cloned().collect();
+        Self { files, ..self }
     }
 
     /// The file.
@@ -194,35 +237,6 @@ impl Page {
         ];
         filled(MARKUP, &parts)
     }
-}
-
-/// A template with its placeholders replaced, each found once; what replaces one is not searched
-/// for another.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
-    let mut places: Vec<_> = parts
-        .iter()
-        .filter_map(|(name, value)| Some((template.find(name)?, *name, value)))
-        .collect();
-    places.sort_by_key(|(at, ..)| *at);
-    let mut text = String::new();
-    let mut rest = 0;
-    for (at, name, value) in places {
-        text.push_str(&template[rest..at]);
-        text.push_str(value);
-        rest = at + name.len();
-    }
-    text.push_str(&template[rest..]);
-    text
-}
-
-/// A source of a content security policy.
-fn hash(content: &str) -> String {
-    let digest = STANDARD.encode(Sha256::digest(content.as_bytes()));
-    format!("'sha256-{digest}'")
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 /// A number with `digits` significant digits, 0 for what is not finite.
@@ -252,16 +266,7 @@ mod tests {
     use super::*;
 
     fn page(title: &str) -> Page {
-        Page {
-            title: title.into(),
-            subtitle: String::new(),
-            facts: Vec::new(),
-            landscape: None,
-            charts: None,
-            pictures: Vec::new(),
-            tables: Vec::new(),
-            origin: String::new(),
-        }
+        Page::titled(title.into())
     }
 
     #[test]

@@ -2,13 +2,11 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use serde::Serialize;
-use std::io::Write;
 
 use super::fixed;
 use crate::landscape::volume::Volume;
+use crate::report::packing::deflated;
 use crate::report::plots::scale::EnergyScale;
 
 /// Steps between the two ends of the energy scale. Half a step is a 0.06 % change of an energy far
@@ -67,14 +65,6 @@ fn differences(values: &[u16], rows: usize, columns: usize) -> Vec<u16> {
             values[i].wrapping_sub(predicted)
         })
         .collect()
-}
-
-fn deflated(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(6));
-    encoder
-        .write_all(bytes)
-        .and_then(|()| encoder.finish())
-        .expect("memory takes all that is written")
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! The pathways and trajectories that a page plays.
 
 use serde::Serialize;
+use serde_json::json;
 
-use super::{finite, fixed, rounded};
+use super::{Column, Table, finite, fixed, rounded};
 use crate::dynamics::Snapshot;
-use crate::landscape::{Pathway, Place};
+use crate::landscape::{Barrier, Pathway, PathwayCost, Place};
 use crate::problem::Problem;
 use crate::report::csv;
 use crate::report::plots::Scene;
@@ -23,6 +24,14 @@ pub struct Played {
     ends: [Option<usize>; 2],
     /// Certified bounds of its highest energy (J).
     bounds: Option<[f64; 2]>,
+    /// By what it is the best.
+    by: &'static str,
+    /// What all climbs on it add up to (J), and its length (m): what it takes as against its height.
+    work: f64,
+    length: f64,
+    /// From where to where; `None` for a trajectory.
+    #[serde(skip)]
+    places: Option<[Place; 2]>,
     /// s (m) or t (s), x (m), y (m), theta (rad), U (J), clearance (m), kinetic energy (J).
     points: Vec<[f64; 7]>,
 }
@@ -44,45 +53,138 @@ impl Played {
             timed: true,
             ends: [None; 2],
             bounds: None,
+            by: "",
+            work: 0.0,
+            length: 0.0,
+            places: None,
             points: points.collect(),
         }
+    }
+
+    /// A pathway by what it is the best by.
+    fn of_pathway(
+        name: String,
+        [from, to]: [Place; 2],
+        by: &'static str,
+        pathway: &Pathway,
+    ) -> Self {
+        let state = |place| match place {
+            Place::State(id) => Some(id),
+            Place::Free => None,
+        };
+        let climbs = pathway
+            .windows(2)
+            .map(|pair| pair[1].energy - pair[0].energy);
+        let ends = pathway.first().zip(pathway.last());
+        Self {
+            name,
+            timed: false,
+            ends: [from, to].map(state),
+            bounds: None,
+            by,
+            work: rounded(climbs.filter(|climb| *climb > 0.0).sum(), 6),
+            length: ends.map_or(0.0, |(first, last)| fixed(last.s - first.s, 6)),
+            places: Some([from, to]),
+            points: points(pathway),
+        }
+    }
+
+    /// Whether it is the way over a barrier.
+    pub fn is_over(&self, barrier: &Barrier) -> bool {
+        self.by == LOWEST && self.places == Some([barrier.from, barrier.to])
+    }
+
+    /// How far its highest energy lies above its start's (J).
+    fn climb(&self) -> f64 {
+        let energies = self.points.iter().map(|point| point[4]);
+        let highest = energies.fold(f64::NEG_INFINITY, f64::max);
+        highest - self.points.first().map_or(highest, |point| point[4])
+    }
+}
+
+/// What the ways are the best by.
+const LOWEST: &str = "lowest highest point";
+const LEAST_WORK: &str = "least work";
+const MOST_PROBABLE: &str = "most probable";
+
+/// The ways that are played between the bond, the deepest trap and `free`, with what they take.
+pub fn table(played: &[Played]) -> Table {
+    let others = played.iter().filter(|way| way.by != LOWEST);
+    let ends: Vec<Place> = others.flat_map(|way| way.places).flatten().collect();
+    let between = |way: &Played| {
+        way.places
+            .is_some_and(|at| at.iter().all(|p| ends.contains(p)))
+    };
+    let shown: Vec<usize> = (0..played.len()).filter(|&k| between(&played[k])).collect();
+    let number = |value: f64| json!(finite(value, 7));
+    let row = |way: &Played| {
+        vec![
+            json!(way.name.split(',').next()),
+            json!(way.by),
+            number(way.climb()),
+            number(way.work),
+            number(way.length),
+        ]
+    };
+    Table {
+        title: "Ways".to_owned(),
+        note: "Between the bond, the deepest trap and free. Barrier: the highest energy above the start. Work: what \
+               all climbs add up to. One with a low barrier may be long or climb often; the others \
+               take the least work, or are the most probable at the thermal energy. A click plays \
+               a way."
+            .to_owned(),
+        columns: vec![
+            Column::new("way", ""),
+            Column::new("chosen by", ""),
+            Column::new("barrier", "J"),
+            Column::new("work", "J"),
+            Column::new("length", "m"),
+        ],
+        rows: shown.iter().map(|&k| row(&played[k])).collect(),
+        states: Vec::new(),
+        paths: shown.into_iter().map(Some).collect(),
     }
 }
 
 /// The way into the bond, the lowest way out of each class of states, and other barriers, as many
-/// as there is room for.
+/// as there is room for; then the ways between the bond, the deepest trap and `free` that are the
+/// best by something else.
 pub fn played(scene: &Scene) -> Vec<Played> {
-    let docking = scene.docking().map(|pathway| Played {
-        name: "docking: free to bond A".to_owned(),
-        timed: false,
-        ends: [None, scene.inventory.bound_state],
-        bounds: None,
-        points: points(&pathway),
+    let bond = scene.inventory.bound_state.map(Place::State);
+    let docking = scene.docking().zip(bond).map(|(pathway, bond)| {
+        let name = format!("docking: free to {}", scene.name_of(bond));
+        Played::of_pathway(name, [Place::Free, bond], LOWEST, &pathway)
     });
     let mut known = Vec::new();
     let barriers = scene.main_escapes().into_iter().chain(scene.barriers());
     let others = barriers.filter_map(|barrier| {
-        let ends = (barrier.from, barrier.to);
+        let ends = [barrier.from, barrier.to];
         if barrier.pathway.len() < 2 || known.contains(&ends) {
             return None;
         }
         known.push(ends);
-        let [from, to] = [barrier.from, barrier.to];
+        let bounds = barrier.bounds.both();
         Some(Played {
-            name: format!("{} to {}", scene.name_of(from), scene.name_of(to)),
-            timed: false,
-            ends: [from, to].map(|place| match place {
-                Place::State(id) => Some(id),
-                Place::Free => None,
-            }),
-            bounds: barrier
-                .bounds
-                .both()
-                .and_then(|(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?])),
-            points: points(&barrier.pathway),
+            bounds: bounds.and_then(|(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?])),
+            ..Played::of_pathway(between(scene, ends), ends, LOWEST, &barrier.pathway)
         })
     });
-    docking.into_iter().chain(others).take(MOST).collect()
+    let mut played: Vec<Played> = docking.into_iter().chain(others).take(MOST).collect();
+    let alternatives = scene.inventory.alternatives.iter();
+    played.extend(alternatives.filter(|way| way.pathway.len() > 1).map(|way| {
+        let ends = [way.from, way.to];
+        let by = match way.by {
+            PathwayCost::Work => LEAST_WORK,
+            PathwayCost::Probability => MOST_PROBABLE,
+        };
+        let name = format!("{}, {by}", between(scene, ends));
+        Played::of_pathway(name, ends, by, &way.pathway)
+    }));
+    played
+}
+
+fn between(scene: &Scene, [from, to]: [Place; 2]) -> String {
+    format!("{} to {}", scene.name_of(from), scene.name_of(to))
 }
 
 fn points(pathway: &Pathway) -> Vec<[f64; 7]> {

@@ -13,7 +13,8 @@ function columnFormat(column, table) {
   const digits = column.unit === "m" ? 5 : 4;
   const [scale, prefix] = prefixOf(Math.max(1e-12, ...alike.map(Math.abs)), digits);
   const significant = (v) => decimal(v, Math.min(6, decimalsOf(v, digits)));
-  return { show: (v) => column.unit === "m" ? decimal(v / scale, 2) : significant(v / scale), unit: prefix + column.unit };
+  const places = scale < 1 ? 2 : 3;
+  return { show: (v) => column.unit === "m" ? decimal(v / scale, places) : significant(v / scale), unit: prefix + column.unit };
 }
 
 /** What a cell sorts by: a pair is that and what is shown. */
@@ -28,7 +29,36 @@ function make(name, text = "", className = "") {
   return made;
 }
 
-function buildTable(table, choose) {
+/** Says that a box scrolls, where it does. */
+function hintScroll(box, what) {
+  const hint = make("p", `the ${what} goes on: scroll sideways \u2192`, "more");
+  hint.hidden = true;
+  box.before(hint);
+  const look = () => {
+    const scrolls = box.scrollWidth > box.clientWidth + 1;
+    hint.hidden = !scrolls;
+    box.classList.toggle("scrolls", scrolls);
+    // What scrolls must be reached without a pointer too.
+    if (scrolls) box.tabIndex = 0;
+    else box.removeAttribute("tabindex");
+  };
+  new ResizeObserver(look).observe(box);
+  for (const inner of box.children) new ResizeObserver(look).observe(inner);
+}
+
+/** Lets a row be chosen by a click, or by Enter or the space bar. */
+function choosable(row, chosen) {
+  row.className = "shows";
+  row.tabIndex = 0;
+  row.addEventListener("click", chosen);
+  row.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    chosen();
+  });
+}
+
+function buildTable(table, choose, choosePath) {
   const numeric = table.columns.map((_, k) => isNumeric(table.rows, k));
   const formats = table.columns.map((column) => columnFormat(column, table));
   const rows = table.rows.map((cells, index) => {
@@ -39,9 +69,13 @@ function buildTable(table, choose) {
     });
     const state = table.states[index];
     if (state !== undefined) {
-      row.className = "shows";
       row.dataset.state = state;
-      row.addEventListener("click", () => choose(state));
+      choosable(row, () => choose(state));
+    }
+    const path = table.paths[index] ?? null;
+    if (path !== null) {
+      row.dataset.path = path;
+      choosable(row, () => choosePath(path));
     }
     return { row, cells };
   });
@@ -78,4 +112,5 @@ function buildTable(table, choose) {
   scroll.append(whole);
   const parts = [make("h2", table.title), ...(table.note ? [make("p", table.note)] : []), scroll];
   element("tables").append(...parts);
+  hintScroll(scroll, "table");
 }

@@ -4,6 +4,7 @@ use std::borrow::Borrow;
 
 use serde_json::json;
 
+use super::pathways::Played;
 use super::{Column, Fact, Table, finite};
 use crate::design::Design;
 use crate::landscape::{Kind, Place};
@@ -45,14 +46,26 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         Some(row(design, analysis, &names, kind))
     };
     let mut facts = Vec::new();
-    let magnets = format!("magnets as {}s", design.interaction.model.name());
     let Some(bond) = first(true) else {
         let value = energy(analysis.bound.1);
         let note = "the tiles do not stay where the target faces coincide".to_owned();
         facts.push(fact("no bond", value, note));
         return facts;
     };
-    facts.push(fact("bond", energy(bond.state.energy), magnets));
+    facts.push(match bond.state.block_energy {
+        Some(blocks) => {
+            let both = [bond.state.energy, blocks].map(|u| energy(u).replace(' ', "\u{a0}"));
+            fact(
+                "bond",
+                both.join(" / "),
+                "as point dipoles / as blocks".to_owned(),
+            )
+        }
+        None => {
+            let magnets = format!("magnets as {}s", design.interaction.model.name());
+            fact("bond", energy(bond.state.energy), magnets)
+        }
+    });
     if let Some(share) = bond.capture.filter(|share| share.of > 0) {
         facts.push(Fact::of_share("far starts that bind", &share));
     }
@@ -104,15 +117,21 @@ pub fn states(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
     }
 }
 
-/// The barriers between classes.
-pub fn barriers(analysis: &Analysis, scene: &Scene) -> Table {
+/// The barriers between classes; a click on one plays its way.
+pub fn barriers(analysis: &Analysis, scene: &Scene, played: &[Played]) -> Table {
     let columns = columns::barriers(Output::Page);
     Table {
         title: "Barriers".to_owned(),
         note:
             "The highest energy on the best way found, its certified bounds, and its height seen \
-               from either end."
+               from either end. A click plays the way."
                 .to_owned(),
+        paths: analysis
+            .inventory
+            .barriers
+            .iter()
+            .map(|barrier| played.iter().position(|way| way.is_over(barrier)))
+            .collect(),
         ..of_columns(&columns, &analysis.inventory.barriers, |place| {
             scene.name_of(place)
         })
@@ -138,6 +157,7 @@ fn of_columns<Row>(
         columns: heads.collect(),
         rows: rows.into_iter().map(|row| cells(row.borrow())).collect(),
         states: Vec::new(),
+        paths: Vec::new(),
     }
 }
 

@@ -61,16 +61,14 @@ impl Page {
             });
         }
         let bar = &request.bar;
+        let title = format!(
+            "{} words of {} magnets",
+            answer.words.len(),
+            request.task.magnets
+        );
         Self {
-            title: format!(
-                "{} words of {} magnets",
-                answer.words.len(),
-                request.task.magnets
-            ),
             subtitle: headline(request, answer),
             facts,
-            landscape: None,
-            charts: None,
             pictures,
             tables: vec![words(request, &answer.words)],
             origin: format!(
@@ -81,6 +79,7 @@ impl Page {
                 bar.model.name(),
                 si(bar.pitch, "m", 3)
             ),
+            ..Self::titled(title)
         }
     }
 }
@@ -122,6 +121,7 @@ fn words(request: &Request, words: &[Word]) -> Table {
         ],
         rows: rows.collect(),
         states: Vec::new(),
+        paths: Vec::new(),
     }
 }
 

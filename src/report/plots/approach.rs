@@ -3,21 +3,26 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::heat::{Interpolated, Key, Range, STATE_KEYS, colour_bar, frame, keys};
-use super::marks::{Mark, marker, outline};
-use super::picture::{Area, Picture, PictureError, Underlay};
+use super::composition::{Composition, Panel, part};
+use super::heat::{Interpolated, Range, frame, legend};
+use super::key::{Key, STATE_KEYS};
+use super::marks::{Box4, Mark, marker, outline};
+use super::picture::{Area, PictureError, Underlay};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, INK, LABEL, Text, chart, pixel, title, units};
+use super::style::{Axis, INK, LABEL, Text, chart, pixel, units};
+use super::{energy, length};
 use crate::landscape::approach::{Approach, ApproachSlices, SliceSettings};
 use crate::landscape::map::{Grid, Sample};
+use crate::report::csv::table;
+use crate::report::names::face;
 use crate::units::prefix_of;
 
-const SIZE: (u32, u32) = (1000, 640);
-/// Width and height of a panel (pixels).
-const PANEL: (f64, f64) = (490.0, 520.0);
+const WIDTH: f64 = 1000.0;
+/// The least width (pixels) of a panel beside the other.
+const LEAST: f64 = 360.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
-const MARGIN: [f64; 4] = [84.0, 14.0, 62.0, 84.0];
+const MARGIN: [f64; 4] = [34.0, 20.0, 62.0, 84.0];
 /// Pixels of an embedded image along either side.
 const IMAGE: usize = 330;
 /// Grid points along either side.
@@ -47,54 +52,70 @@ struct ApproachPanel<'a> {
     states: Vec<(f64, f64, Mark)>,
 }
 
-pub fn draw(
-    scene: &Scene,
+/// The picture of a scene's slices.
+pub fn composed<'a>(
+    scene: &'a Scene,
     approach: &Approach,
-    slices: &ApproachSlices,
-    scale: &EnergyScale,
-) -> Result<Picture, PictureError> {
-    let panels = [
-        ApproachPanel {
-            grid: &slices.gap,
-            quantity: "gap",
-            condition: "slide 0",
-            states: Vec::new(),
-        },
-        ApproachPanel {
-            grid: &slices.slide,
-            quantity: "slide",
-            condition: "in contact",
-            states: states_in_front(scene, approach),
-        },
-    ];
+    slices: &'a ApproachSlices,
+    scale: &'a EnergyScale,
+) -> Composition<'a> {
+    let gap = ApproachPanel {
+        grid: &slices.gap,
+        quantity: "gap",
+        condition: "slide 0",
+        states: Vec::new(),
+    };
+    let slide = ApproachPanel {
+        grid: &slices.slide,
+        quantity: "slide",
+        condition: "in contact",
+        states: states_in_front(scene, approach),
+    };
+    let panels = [gap, slide];
     let energies = panels
         .iter()
         .flat_map(|panel| panel.grid.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let fixed = &scene.pair.target_face().name;
-    let moving = &scene.pair.moving.faces[scene.pair.target.1].name;
-    Picture::draw(SIZE, |root, underlays| {
-        let text = format!(
-            "{}: {moving} face in front of the fixed {fixed} face",
-            scene.name
-        );
-        title(root, &text)?;
-        let (upper, _) = root.split_vertically(units(PANEL.1));
-        let (first, rest) = upper.split_horizontally(units(PANEL.0));
-        let (second, _) = rest.split_horizontally(units(PANEL.0));
-        for (area, panel) in [first, second].iter().zip(&panels) {
-            panel.draw(area, root, underlays, scale, &range)?;
-        }
-        let top = PANEL.1 + 32.0;
-        let bar = [MARGIN[3], top, 720.0, top + 20.0];
-        colour_bar(root, underlays, scale, &range, bar)?;
-        let mut entries = STATE_KEYS.to_vec();
-        if panels.iter().any(ApproachPanel::has_blocked) {
-            entries.push((Key::Blocked, "no contact"));
-        }
-        keys(root, underlays, (770.0, top), &entries)
-    })
+    let mut entries = STATE_KEYS.to_vec();
+    if panels.iter().any(ApproachPanel::has_blocked) {
+        entries.push((Key::Blocked, "no contact"));
+    }
+    let fixed = face(&scene.pair.target_face().name);
+    let moving = face(&scene.pair.moving.faces[scene.pair.target.1].name);
+    let height = |width: f64| MARGIN[0] + 0.95 * (width - MARGIN[1] - MARGIN[3]) + MARGIN[2];
+    let panels = panels.map(|panel| {
+        Panel::new(
+            panel.quantity,
+            LEAST,
+            height,
+            move |root, underlays, place| panel.draw(root, place, underlays, scale, &range),
+        )
+    });
+    Composition {
+        name: "approach".to_owned(),
+        title: format!("{}: {moving} in front of the fixed {fixed}", scene.name),
+        note: None,
+        width: WIDTH,
+        panels: panels.into(),
+        key: Some(legend(scale, range, entries)),
+    }
+}
+
+/// The numbers of the picture.
+pub fn data(slices: &ApproachSlices) -> String {
+    let head = ["panel", "tilt_rad", "gap_or_slide_m", "energy_J"];
+    let panels = [("gap", &slices.gap), ("slide", &slices.slide)];
+    let rows = panels.into_iter().flat_map(|(name, grid)| {
+        let samples = grid.values.iter().enumerate();
+        samples.filter_map(move |(k, sample)| {
+            let sample = sample.as_ref()?;
+            let at = [grid.x[k % grid.x.len()], grid.y[k / grid.x.len()]];
+            let [tilt, height] = at.map(length);
+            Some(vec![name.to_owned(), tilt, height, energy(sample.energy)])
+        })
+    });
+    table(head, rows)
 }
 
 /// Tilt (rad), slide (m) and mark of the states that touch the target face with the target face.
@@ -117,8 +138,8 @@ impl ApproachPanel<'_> {
 
     fn draw(
         &self,
-        area: &Area,
         root: &Area,
+        place: Box4,
         underlays: &mut Vec<Underlay>,
         scale: &EnergyScale,
         range: &Range,
@@ -131,7 +152,8 @@ impl ApproachPanel<'_> {
         let x_axis = Axis::linear(tilt_range, 7, "tilt (°)");
         let name = format!("{} ({prefix}m)", self.quantity);
         let y_axis = Axis::linear(heights.start / unit..heights.end / unit, 9, name);
-        let chart = chart(area, MARGIN, &x_axis, &y_axis, false)?;
+        let area = part(root, place);
+        let chart = chart(&area, MARGIN, &x_axis, &y_axis, false)?;
         let ends = [x_axis.range.start, x_axis.range.end];
         let frame = frame(&chart, &ends, &[y_axis.range.start, y_axis.range.end]);
         let interpolated = Interpolated::new(self.grid, scale);

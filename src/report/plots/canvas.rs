@@ -1,7 +1,7 @@
-//! A plotters backend that draws the same picture twice: as SVG text and as pixels.
+//! A plotters backend that draws the same picture several times: as SVG text, as pixels, as PDF.
 //!
 //! plotters' own bitmap backend has no text without system fonts and little smoothing; here each
-//! drawing call goes to plotters' SVG backend and to a [`Raster`].
+//! drawing call goes to plotters' SVG backend and, as paths, to each [`Painter`].
 
 use std::io::Error;
 
@@ -10,24 +10,57 @@ use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
     FontStyle,
 };
+use tiny_skia::{Path, PathBuilder, Transform};
 
-use super::raster::{PLOTTERS_FONT_SCALE, Raster, text_width};
+use super::shapes::{Lettering, PLOTTERS_FONT_SCALE, Painter, polyline, text_width};
 
 type Outcome = Result<(), DrawingErrorKind<Error>>;
 
 pub struct Canvas<'a> {
     svg: SVGBackend<'a>,
-    raster: &'a mut Raster,
+    painters: Vec<&'a mut dyn Painter>,
+    lettering: Lettering,
 }
 
 impl<'a> Canvas<'a> {
     /// A canvas of `size` drawing units that appends to `svg`.
-    pub fn new(svg: &'a mut String, raster: &'a mut Raster, size: (u32, u32)) -> Self {
+    pub fn new(
+        svg: &'a mut String,
+        painters: Vec<&'a mut dyn Painter>,
+        lettering: Lettering,
+        size: (u32, u32),
+    ) -> Self {
         Self {
             svg: SVGBackend::with_string(svg, size),
-            raster,
+            painters,
+            lettering,
         }
     }
+
+    fn fill(&mut self, path: Option<Path>, colour: BackendColor) {
+        if let Some(path) = path {
+            for painter in &mut self.painters {
+                painter.fill(&path, colour, Transform::identity());
+            }
+        }
+    }
+
+    /// Along the path, `width` units wide, or all of its inside.
+    fn paint(&mut self, path: Option<Path>, colour: BackendColor, width: Option<u32>) {
+        match (path, width) {
+            (Some(path), Some(width)) => {
+                for painter in &mut self.painters {
+                    painter.stroke(&path, colour, width);
+                }
+            }
+            (path, _) => self.fill(path, colour),
+        }
+    }
+}
+
+/// The corners of a rectangle, the first one twice.
+fn corners((x0, y0): BackendCoord, (x1, y1): BackendCoord) -> [BackendCoord; 5] {
+    [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
 }
 
 impl DrawingBackend for Canvas<'_> {
@@ -46,8 +79,8 @@ impl DrawingBackend for Canvas<'_> {
     }
 
     fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Outcome {
-        self.raster
-            .rectangle(point, (point.0 + 1, point.1 + 1), color, None);
+        let square = corners(point, (point.0 + 1, point.1 + 1));
+        self.fill(polyline(&square, true), color);
         self.svg.draw_pixel(point, color)
     }
 
@@ -57,8 +90,8 @@ impl DrawingBackend for Canvas<'_> {
         to: BackendCoord,
         style: &S,
     ) -> Outcome {
-        self.raster
-            .stroke_polyline(&[from, to], style.color(), style.stroke_width());
+        let path = polyline(&[from, to], false);
+        self.paint(path, style.color(), Some(style.stroke_width()));
         self.svg.draw_line(from, to, style)
     }
 
@@ -69,9 +102,9 @@ impl DrawingBackend for Canvas<'_> {
         style: &S,
         fill: bool,
     ) -> Outcome {
-        let stroke = (!fill).then(|| style.stroke_width());
-        self.raster
-            .rectangle(upper_left, bottom_right, style.color(), stroke);
+        let path = polyline(&corners(upper_left, bottom_right), fill);
+        let width = (!fill).then(|| style.stroke_width());
+        self.paint(path, style.color(), width);
         self.svg.draw_rect(upper_left, bottom_right, style, fill)
     }
 
@@ -81,8 +114,8 @@ impl DrawingBackend for Canvas<'_> {
         style: &S,
     ) -> Outcome {
         let points: Vec<_> = path.into_iter().collect();
-        self.raster
-            .stroke_polyline(&points, style.color(), style.stroke_width());
+        let path = polyline(&points, false);
+        self.paint(path, style.color(), Some(style.stroke_width()));
         self.svg.draw_path(points, style)
     }
 
@@ -93,8 +126,9 @@ impl DrawingBackend for Canvas<'_> {
         style: &S,
         fill: bool,
     ) -> Outcome {
-        let stroke = (!fill).then(|| style.stroke_width());
-        self.raster.circle(center, radius, style.color(), stroke);
+        let path = PathBuilder::from_circle(center.0 as f32, center.1 as f32, radius as f32);
+        let width = (!fill).then(|| style.stroke_width());
+        self.paint(path, style.color(), width);
         self.svg.draw_circle(center, radius, style, fill)
     }
 
@@ -104,7 +138,7 @@ impl DrawingBackend for Canvas<'_> {
         style: &S,
     ) -> Outcome {
         let points: Vec<_> = path.into_iter().collect();
-        self.raster.fill_polygon(&points, style.color());
+        self.fill(polyline(&points, true), style.color());
         self.svg.fill_polygon(points, style)
     }
 
@@ -114,7 +148,11 @@ impl DrawingBackend for Canvas<'_> {
         style: &S,
         pos: BackendCoord,
     ) -> Outcome {
-        self.raster.text(text, style, pos);
+        if let Some((path, transform)) = self.lettering.outline(text, style, pos) {
+            for painter in &mut self.painters {
+                painter.fill(&path, style.color(), transform);
+            }
+        }
         self.svg.draw_text(text, style, pos)
     }
 

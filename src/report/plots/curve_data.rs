@@ -1,28 +1,13 @@
 //! What the pictures of a sweep show: its points sorted into series over one or two numbers.
 
-use super::PictureError;
+use super::curve_names::{Common, LENGTHS, common, file, titled};
 use super::style::Axis;
-use super::{curve_map, curves, picture::Picture};
+use super::{Figure, PictureError, Sheet, curve_map, curves};
 use crate::comparison::Assessment;
-use crate::report::sweep::{Sweep, short};
+use crate::report::sweep::Sweep;
 use crate::sweep::{Point, Value};
 use ordered_float::OrderedFloat;
 
-/// Keys of the design that are lengths: their axes are in mm.
-const LENGTHS: [&str; 12] = [
-    "depth",
-    "width",
-    "offset",
-    "span",
-    "side",
-    "thickness",
-    "pitch",
-    "inset",
-    "fit",
-    "size",
-    "x",
-    "y",
-];
 /// Most pictures of a sweep.
 const MOST_PICTURES: usize = 24;
 
@@ -30,8 +15,9 @@ const MOST_PICTURES: usize = 24;
 #[derive(Clone, Debug)]
 pub struct Variable {
     /// Which of the plan's axes.
-    axis: usize,
-    key: String,
+    pub axis: usize,
+    /// Its key in the design.
+    pub key: String,
     /// From the lowest, two at least.
     pub values: Vec<f64>,
 }
@@ -51,6 +37,11 @@ impl Variable {
         } else {
             (1.0, last)
         }
+    }
+
+    /// What a point has of it.
+    pub fn value(&self, point: &Point) -> Option<f64> {
+        point.values[self.axis].number()
     }
 
     /// The axis, a little longer than the numbers.
@@ -116,26 +107,20 @@ pub enum Content<'a> {
     Map(Map),
 }
 
-/// What all points of a picture of a map, or of a curve, have in common.
-type Common = Vec<(String, String)>;
-
 /// The pictures of a sweep by the stems of their files: curves where one number is varied, maps
 /// where two are; none otherwise. Everything else that is varied tells series and pictures apart.
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn pictures(sweep: &Sweep) -> Result<Vec<(String, Picture)>, PictureError> {
-    let draw = |(name, content)| {
-        let picture = match content {
-            Content::Curves(variable, group) => curves::draw(&group, &variable)?,
-            Content::Map(map) => {
-                let results = map.cells.iter();
-                let results = results.map(|cell| cell.map(|index| sweep.assessment(index)));
-                let results: Vec<_> = results.collect();
-                curve_map::draw(&map.title, &map.x, &map.y, &results)?
-            }
-        };
-        Ok((name, picture))
+pub fn pictures(sweep: &Sweep, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+    let draw = |(name, content): (String, _)| match content {
+        Content::Curves(variable, group) => curves::draw(&name, &group, &variable, sheet),
+        Content::Map(map) => {
+            let results = map.cells.iter();
+            let results = results.map(|cell| cell.map(|index| sweep.assessment(index)));
+            let results: Vec<_> = results.collect();
+            curve_map::draw(&name, &map, &results, sheet)
+        }
     };
     contents(sweep).into_iter().map(draw).collect()
 }
@@ -222,7 +207,7 @@ fn curves_of<'a>(
 }
 
 /// The axes along which more than one number is varied.
-fn variables(sweep: &Sweep) -> Vec<Variable> {
+pub fn variables(sweep: &Sweep) -> Vec<Variable> {
     let axes = sweep.plan.axes.iter().enumerate();
     axes.filter_map(|(axis, varied)| {
         let values: Option<Vec<f64>> = varied.values.iter().map(Value::number).collect();
@@ -236,55 +221,6 @@ fn variables(sweep: &Sweep) -> Vec<Variable> {
         })
     })
     .collect()
-}
-
-/// The design, where there are several, and the varied words of a point.
-fn common(sweep: &Sweep, point: &Point, fixed: &[usize]) -> Common {
-    let mut common = Vec::new();
-    if sweep.plan.designs.len() > 1 {
-        let name = sweep.plan.designs[point.design].name.clone();
-        common.push(("design".to_owned(), name));
-    }
-    common.extend(fixed.iter().map(|&axis| {
-        let key = short(&sweep.plan.axes[axis].key).to_owned();
-        (key, point.values[axis].to_string())
-    }));
-    common
-}
-
-fn titled(sweep: &Sweep, common: &Common) -> String {
-    let mut parts: Vec<String> = common
-        .iter()
-        .map(|(key, value)| format!("{key} {value}"))
-        .collect();
-    if let [design] = &sweep.plan.designs[..] {
-        parts.insert(0, design.name.clone());
-    }
-    let keys = variables(sweep);
-    let keys: Vec<&str> = keys.iter().map(|number| short(&number.key)).collect();
-    let over = format!("over {}", keys.join(" and "));
-    if parts.is_empty() {
-        over
-    } else {
-        format!("{}: {over}", parts.join(", "))
-    }
-}
-
-/// The stem of a picture's file.
-fn file(kind: &str, common: &Common) -> String {
-    let mut stem = kind.to_owned();
-    for (_, value) in common {
-        let plain = |c: char| {
-            if c.is_alphanumeric() || c == '.' {
-                c
-            } else {
-                '-'
-            }
-        };
-        stem.push('-');
-        stem.extend(value.chars().map(plain));
-    }
-    stem
 }
 
 /// The points of a map by their places in the sweep.

@@ -3,63 +3,95 @@
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::curve_data::Variable;
-use super::curves::{caption, cross};
+use super::composition::{Composition, Panel, remark};
+use super::curve::{caption, cross};
+use super::curve_data::{Map, Variable};
+use super::curves::numbers;
 use super::marks::{Box4, outline};
-use super::picture::{Area, Picture, PictureError};
+use super::picture::{Area, PictureError};
 use super::ranking::block;
 use super::scale::{colour, minus};
-use super::style::{GRID, INK, LABEL, SMALL, SOFT, Text, title};
-use crate::comparison::quantity::placed;
+use super::style::{GRID, INK, LABEL, SMALL, SOFT, Text};
+use super::{Figure, Sheet};
+use crate::comparison::quantity::{NO_TRAPS, placed};
 use crate::comparison::{Assessment, Quantity};
+use crate::report::csv::{number, table};
 use crate::report::figures::Shown;
 
 const WIDTH: f64 = 1200.0;
-const HEAD: f64 = 60.0;
-const PANEL: (f64, f64) = (400.0, 380.0);
-const COLUMNS: usize = 3;
+const HEIGHT: f64 = 380.0;
+/// The least width (pixels) of a panel beside another.
+const LEAST: f64 = 360.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [52.0, 18.0, 62.0, 76.0];
 /// Cells narrower or lower than this (pixels) hold no number.
 const ROOM: (f64, f64) = (38.0, 17.0);
 
-/// A panel a figure, a cell a point; `cells` row by row from the lowest. Crosses mark impossible
-/// designs.
+/// A panel a figure, a cell a point; the cells of `results` row by row from the lowest.
 ///
 /// # Errors
 /// See [`PictureError`].
 pub fn draw(
-    text: &str,
-    x: &Variable,
-    y: &Variable,
-    cells: &[Option<Option<&Assessment>>],
-) -> Result<Picture, PictureError> {
-    let panels = placed(|quantity| quantity.panel.filter(|_| quantity.mapped));
-    let rows = panels.len().div_ceil(COLUMNS);
-    let height = HEAD + PANEL.1 * rows as f64;
-    Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        title(root, text)?;
-        for (k, (shown, quantities)) in panels.iter().enumerate() {
-            let (column, row) = (k % COLUMNS, k / COLUMNS);
-            let left = PANEL.0 * column as f64 + MARGIN[3];
-            let top = HEAD + PANEL.1 * row as f64 + MARGIN[0];
-            let place = [
-                left,
-                top,
-                left + PANEL.0 - MARGIN[3] - MARGIN[1],
-                top + PANEL.1 - MARGIN[0] - MARGIN[2],
-            ];
-            let panel = MapPanel {
-                root,
-                quantity: quantities[0],
-                place,
-                size: [x.values.len(), y.values.len()],
-            };
-            panel.draw(shown.heading, cells)?;
-            panel.axes(x, y)?;
-        }
-        Ok(())
-    })
+    name: &str,
+    map: &Map,
+    results: &[Option<Option<&Assessment>>],
+    sheet: &Sheet,
+) -> Result<Figure, PictureError> {
+    let panels = placed(|quantity| quantity.panel.filter(|_| quantity.mapped)).into_iter();
+    let panels = panels.map(|(shown, quantities)| {
+        let quantity = quantities[0];
+        Panel::new(
+            quantity.key,
+            LEAST,
+            |_| HEIGHT,
+            move |root, _, place| {
+                let [left, top, right, bottom] = place;
+                let panel = MapPanel {
+                    root,
+                    quantity,
+                    place: [
+                        left + MARGIN[3],
+                        top + MARGIN[0],
+                        right - MARGIN[1],
+                        bottom - MARGIN[2],
+                    ],
+                    size: [map.x.values.len(), map.y.values.len()],
+                };
+                panel.draw(shown.heading, results)?;
+                panel.axes(&map.x, &map.y)
+            },
+        )
+    });
+    let composition = Composition {
+        name: name.to_owned(),
+        title: map.title.clone(),
+        note: None,
+        width: WIDTH,
+        panels: panels.collect(),
+        key: Some(remark(SIGNS.to_owned())),
+    };
+    Figure::new(&composition, sheet, data(map, results))
+}
+
+/// What the marks mean.
+const SIGNS: &str = "\u{25cb} no trap; \u{2013} not known; \u{221e} caged, proved; \u{d7} impossible \
+    design";
+
+/// Each figure of each cell.
+fn data(map: &Map, results: &[Option<Option<&Assessment>>]) -> String {
+    let names = [&map.x, &map.y].map(|variable| variable.shown().1);
+    let head = [&names[0], &names[1], "figure", "value", "low", "high"];
+    let rows = results.iter().enumerate().flat_map(|(k, result)| {
+        let at = [&map.x, &map.y]
+            .map(Variable::shown)
+            .map(|(factor, _)| factor);
+        let [x, y] = [
+            at[0] * map.x.values[k % map.x.values.len()],
+            at[1] * map.y.values[k / map.x.values.len()],
+        ];
+        numbers((*result).flatten(), [x, y].map(number))
+    });
+    table(head, rows)
 }
 
 struct MapPanel<'a, 'b> {
@@ -86,7 +118,11 @@ impl MapPanel<'_, '_> {
             match (cell, value(cell)) {
                 (None, _) => {}
                 (Some(None), _) => self.impossible(place)?,
-                (Some(Some(_)), None) => self.plain(place, GRID, "-")?,
+                (Some(Some(design)), None) => {
+                    let without = (self.quantity.read)(design).err() == Some(NO_TRAPS);
+                    let sign = if without { "\u{25cb}" } else { "\u{2013}" };
+                    self.plain(place, GRID, sign)?;
+                }
                 (Some(Some(_)), Some(value)) if value.is_infinite() => {
                     self.plain(place, RGBColor(90, 90, 90), "\u{221e}")?;
                 }

@@ -1,26 +1,28 @@
 //! The figures of a sweep as curves over one varied number, bounds as bands around them.
 
-use plotters::prelude::{Color, RGBColor};
+use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::curve_data::{Group, Series, Variable};
-use super::marks::{Pixel, polygon, polyline};
-use super::picture::{Area, Picture, PictureError};
-use super::ranking::disc;
-use super::style::{
-    Axis, BLUE, Chart, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title, units,
-};
-use crate::comparison::quantity::{Measure, placed};
-use crate::comparison::{Estimate, Quantity};
+use super::composition::{Composition, Panel, part, remark, stacked};
+use super::curve::{Curve, Scale, caption, cross, ring, width};
+use super::curve_data::{CurvePoint, Group, Series, Variable};
+use super::marks::{Box4, Pixel, polyline};
+use super::picture::{Area, PictureError};
+use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
+use super::{Figure, Sheet};
+use crate::comparison::quantity::{Measure, NO_TRAPS, placed};
+use crate::comparison::{Assessment, Estimate, Quantity};
+use crate::report::csv::{number, table};
 use crate::report::figures::Shown;
 
 const WIDTH: f64 = 1200.0;
-/// The title and the key of the series (pixels).
-const HEAD: f64 = 84.0;
 const PANEL_HEIGHT: f64 = 262.0;
-const COLUMNS: usize = 3;
+/// The least width (pixels) of a panel beside another.
+const LEAST: f64 = 320.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [34.0, 20.0, 58.0, 78.0];
+/// Numbers that span more powers of ten stand by their logarithms.
+const MOST_DECADES: f64 = 2.0;
 
 /// Okabe and Ito's colours, told apart by colour-blind readers.
 const COLOURS: [RGBColor; 7] = [
@@ -46,76 +48,132 @@ struct CurvePanel<'a> {
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn draw(group: &Group, variable: &Variable) -> Result<Picture, PictureError> {
-    let panels = placed(|quantity| quantity.panel);
-    let rows = panels.len().div_ceil(COLUMNS);
-    let height = HEAD + PANEL_HEIGHT * rows as f64 + 8.0;
-    Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        title(root, &group.title)?;
-        key(root, group)?;
-        let (_, body) = root.split_vertically(units(HEAD));
-        let (body, _) = body.split_vertically(units(PANEL_HEIGHT * rows as f64));
-        let areas = body.split_evenly((rows, COLUMNS));
-        for (area, (place, quantities)) in areas.iter().zip(panels) {
-            let panel = CurvePanel {
-                heading: place.heading,
-                quantities,
-                group,
-            };
-            panel.draw(area, root, variable)?;
+pub fn draw(
+    name: &str,
+    group: &Group,
+    variable: &Variable,
+    sheet: &Sheet,
+) -> Result<Figure, PictureError> {
+    let panels = placed(|quantity| quantity.panel).into_iter();
+    let panels = panels.map(|(place, quantities)| {
+        let key = quantities[0].key;
+        let panel = CurvePanel {
+            heading: place.heading,
+            quantities,
+            group,
+        };
+        Panel::new(
+            key,
+            LEAST,
+            |_| PANEL_HEIGHT,
+            move |root, _, place| panel.draw(root, place, variable),
+        )
+    });
+    let composition = Composition {
+        name: name.to_owned(),
+        title: group.title.clone(),
+        note: (group.left_out > 0).then(|| format!("{} more series in sweep.csv", group.left_out)),
+        width: WIDTH,
+        panels: panels.collect(),
+        key: Some(stacked(key(group), remark(SIGNS.to_owned()))),
+    };
+    Figure::new(&composition, sheet, data(group, variable))
+}
+
+/// What the marks mean.
+const SIGNS: &str = "bands: certified bounds, 95 % intervals of shares; \u{25cb} no trap; ^ caged, \
+    proved; \u{d7} impossible design";
+
+/// Each figure of each point.
+fn data(group: &Group, variable: &Variable) -> String {
+    let head = [
+        "series",
+        &variable.shown().1,
+        "figure",
+        "value",
+        "low",
+        "high",
+    ];
+    let points = group.series.iter().flat_map(|series| {
+        let points = series.points.iter();
+        points.map(move |point| (&series.name, point))
+    });
+    let rows = points.flat_map(|(series, point)| {
+        let at = [series.clone(), number(point.x)];
+        numbers(point.result, at)
+    });
+    table(head, rows)
+}
+
+/// The figures of a design as rows of a table, each with its name, value and bounds, after the cells
+/// that say where.
+pub fn numbers(design: Option<&Assessment>, at: [String; 2]) -> Vec<Vec<String>> {
+    let figures = placed(|quantity| quantity.panel).into_iter();
+    let figures = figures.flat_map(|(_, quantities)| quantities);
+    let row = |quantity: &Quantity| {
+        let numbers = quantity.of(design?)?.finite();
+        let mut row = at.to_vec();
+        row.push(quantity.name(""));
+        row.extend(numbers.map(|value| value.map(number).unwrap_or_default()));
+        Some(row)
+    };
+    figures.filter_map(row).collect()
+}
+
+/// Which colour is which series, in as many lines as it takes.
+fn key<'a>(group: &'a Group<'a>) -> Panel<'a> {
+    const LINE: f64 = 24.0;
+    let font = Text::new(LABEL);
+    let all: &[Series] = if group.series.len() > 1 {
+        &group.series
+    } else {
+        &[]
+    };
+    let places = move |width: f64| -> Vec<Pixel> {
+        let (mut x, mut y) = (22.0, 14.0);
+        let mut place = |series: &Series| {
+            let wide = 31.0 + 1.08 * font.width(&series.name) + 22.0;
+            if x > 22.0 && x + wide > width {
+                (x, y) = (22.0, y + LINE);
+            }
+            let at = (x, y);
+            x += wide;
+            at
+        };
+        all.iter().map(&mut place).collect()
+    };
+    let height = move |width| places(width).last().map_or(0.0, |(_, y)| y + 14.0);
+    Panel::new("", 0.0, height, move |root, _, [left, top, right, _]| {
+        let places = places(right - left);
+        for ((series, colour), (x, y)) in all.iter().zip(COLOURS).zip(places) {
+            let (x, y) = (left + x, top + y);
+            polyline(root, &[(x, y), (x + 24.0, y)], colour, 2.4)?;
+            let at = (x + 31.0, y);
+            font.write(root, &series.name, at, (HPos::Left, VPos::Center))?;
         }
         Ok(())
     })
 }
 
-/// Which colour is which series, and what the marks mean.
-fn key(root: &Area, group: &Group) -> Result<(), PictureError> {
-    let y = HEAD - 24.0;
-    let mut x = 22.0;
-    let font = Text::new(LABEL);
-    for (series, colour) in group.series.iter().zip(COLOURS) {
-        if group.series.len() > 1 {
-            polyline(root, &[(x, y), (x + 24.0, y)], colour, 2.4)?;
-            let at = (x + 31.0, y);
-            font.write(root, &series.name, at, (HPos::Left, VPos::Center))?;
-            x += 31.0 + 1.08 * font.width(&series.name) + 22.0;
-        }
-    }
-    let note = match group.left_out {
-        0 => "bands: certified bounds, 95 % for shares; ^ no way, proved; x impossible".to_owned(),
-        more => format!("{more} more series in sweep.csv"),
-    };
-    let at = (WIDTH - 20.0, 22.0);
-    let font = Text::new(SMALL).colour(SOFT);
-    font.write(root, &note, at, (HPos::Right, VPos::Top))
-}
-
 impl CurvePanel<'_> {
-    fn draw<'a>(
-        &self,
-        area: &Area<'a>,
-        root: &Area<'a>,
-        variable: &Variable,
-    ) -> Result<(), PictureError> {
+    fn draw(&self, root: &Area, place: Box4, variable: &Variable) -> Result<(), PictureError> {
         let (low, high) = self.range();
         let shown = Shown::new(self.measure(), low.abs().max(high.abs()));
         let (unit, name) = (shown.unit, shown.axis());
         let x = variable.axis();
-        let (scale, y, [low, high]) = match self.decades() {
+        let (scale, y, [low, high]) = match self.decades(unit) {
             Some(powers @ [low, high]) => {
                 let y = Axis::decades(low..high, name);
-                (
-                    Scale::Decades(powers),
-                    y,
-                    powers.map(|power| 10f64.powf(power)),
-                )
+                let ends = powers.map(|power| unit * 10f64.powf(power));
+                (Scale::Decades { unit, low }, y, ends)
             }
             None => {
                 let y = Axis::linear(low / unit..high / unit, 5, name);
                 (Scale::Linear { unit }, y, [low, high])
             }
         };
-        let chart = chart(area, MARGIN, &x, &y, true)?;
+        let area = part(root, place);
+        let chart = chart(&area, MARGIN, &x, &y, true)?;
         let at = |x: f64, y: f64| pixel(&chart, x, scale.at(y));
         let (left, top) = at(x.range.start, high);
         let (right, bottom) = at(x.range.end, low);
@@ -138,10 +196,21 @@ impl CurvePanel<'_> {
                 any |= curve.draw(series, quantity)?;
             }
             for point in &series.points {
+                let x = pixel(&chart, point.x, y.range.start).0;
+                let step = 9.0 * number as f64;
                 if point.result.is_none() {
-                    let x = pixel(&chart, point.x, y.range.start).0;
-                    let y = bottom - 7.0 - 9.0 * number as f64;
-                    cross(root, (x, y), 3.5, colour)?;
+                    cross(root, (x, bottom - 7.0 - step), 3.5, colour)?;
+                }
+                if self.has_no_trap(point) {
+                    any = true;
+                    // Without a trap nothing competes: selectivity is beyond any scale.
+                    let best = self.measure() == Measure::Ratio;
+                    let y = if best {
+                        top + 7.0 + step
+                    } else {
+                        bottom - 7.0 - step
+                    };
+                    ring(root, (x, y), colour)?;
                 }
             }
         }
@@ -151,6 +220,14 @@ impl CurvePanel<'_> {
             font.write(root, "none", at, (HPos::Center, VPos::Center))?;
         }
         Ok(())
+    }
+
+    /// Whether a point has no figure for want of a trap.
+    fn has_no_trap(&self, point: &CurvePoint) -> bool {
+        let read = |design| (self.quantities[0].read)(design);
+        point
+            .result
+            .is_some_and(|design| read(design).err() == Some(NO_TRAPS))
     }
 
     fn measure(&self) -> Measure {
@@ -180,12 +257,16 @@ impl CurvePanel<'_> {
         (low - below, high + 0.08 * span)
     }
 
-    /// The range of a ratio that spans more than two powers of ten, as decimal logarithms.
-    fn decades(&self) -> Option<[f64; 2]> {
-        let powers = self.estimates().map(|e| e.value.log10());
-        let (low, high) = extent(powers.filter(|power| power.is_finite()));
-        let wide = self.measure() == Measure::Ratio && high - low > 2.0;
-        wide.then_some([low - 0.1, high + 0.1])
+    /// The range of ratios or energies that span several powers of ten, as decimal logarithms of
+    /// multiples of a unit.
+    fn decades(&self, unit: f64) -> Option<[f64; 2]> {
+        let scales = [Measure::Ratio, Measure::Energy].contains(&self.measure());
+        let powers = self.estimates().map(|e| (e.value / unit).log10());
+        let powers: Vec<f64> = powers.filter(|power| power.is_finite()).collect();
+        let low = powers.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = powers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let wide = scales && high - low > MOST_DECADES && self.range().0 >= 0.0;
+        wide.then_some([low - 0.2, high + 0.2])
     }
 }
 
@@ -194,115 +275,4 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((0.0, 0.0), |(low, high), value| {
         (f64::min(low, value), f64::max(high, value))
     })
-}
-
-/// How values stand along a panel's axis.
-#[derive(Clone, Copy)]
-enum Scale {
-    /// In multiples of a unit.
-    Linear { unit: f64 },
-    /// By their decimal logarithms, in this range.
-    Decades([f64; 2]),
-}
-
-impl Scale {
-    /// Where a value stands; one that has no place, at the lower end.
-    fn at(self, value: f64) -> f64 {
-        match self {
-            Self::Linear { unit } => value / unit,
-            Self::Decades([low, _]) => value.log10().max(low),
-        }
-    }
-}
-
-/// A series' figure on a panel.
-struct Curve<'a, 'b, 'c> {
-    root: &'a Area<'b>,
-    chart: &'a Chart<'c, 'b>,
-    scale: Scale,
-    top: f64,
-    colour: RGBColor,
-    width: f64,
-}
-
-impl Curve<'_, '_, '_> {
-    fn at(&self, x: f64, y: f64) -> Pixel {
-        pixel(self.chart, x, self.scale.at(y))
-    }
-
-    /// Whether there was anything to draw.
-    fn draw(&self, series: &Series, quantity: &Quantity) -> Result<bool, PictureError> {
-        let known: Vec<(f64, Option<Estimate>)> = series
-            .points
-            .iter()
-            .map(|point| (point.x, point.result.and_then(|a| quantity.of(a))))
-            .collect();
-        let finite = |(_, estimate): &(f64, Option<Estimate>)| {
-            estimate.is_some_and(|estimate| estimate.value.is_finite())
-        };
-        for piece in known.split(|point| !finite(point)) {
-            let piece: Vec<(f64, Estimate)> = piece
-                .iter()
-                .filter_map(|(x, e)| Some((*x, (*e)?)))
-                .collect();
-            self.piece(&piece)?;
-        }
-        for (x, _) in known
-            .iter()
-            .filter(|(_, e)| e.is_some_and(|e| e.value.is_infinite()))
-        {
-            let x = self.at(*x, 0.0).0;
-            let arrow = [
-                (x - 5.0, self.top + 10.0),
-                (x, self.top + 2.0),
-                (x + 5.0, self.top + 10.0),
-            ];
-            polyline(self.root, &arrow, self.colour, 2.0)?;
-        }
-        Ok(known.iter().any(|(_, estimate)| estimate.is_some()))
-    }
-
-    /// A curve without a break, with its band.
-    fn piece(&self, piece: &[(f64, Estimate)]) -> Result<(), PictureError> {
-        for bounded in piece.split(|(_, e)| e.low.is_none() || e.high.is_none()) {
-            let edge = |of: fn(&Estimate) -> Option<f64>| -> Vec<Pixel> {
-                let edge = bounded.iter();
-                edge.map(|(x, e)| self.at(*x, of(e).unwrap_or(e.value)))
-                    .collect()
-            };
-            let mut band = edge(|e| e.low);
-            band.extend(edge(|e| e.high).into_iter().rev());
-            if bounded.len() > 1 {
-                polygon(self.root, &band, self.colour.mix(0.25), None)?;
-            } else if let [low, high] = band[..] {
-                polyline(self.root, &[low, high], self.colour.mix(0.5), 4.0)?;
-            }
-        }
-        let line: Vec<Pixel> = piece.iter().map(|(x, e)| self.at(*x, e.value)).collect();
-        polyline(self.root, &line, self.colour, self.width)?;
-        line.iter()
-            .try_for_each(|p| disc(self.root, *p, self.colour))
-    }
-}
-
-/// Later curves are thinner, so that an earlier one can be seen beneath.
-fn width(number: usize, count: usize) -> f64 {
-    1.6 + 2.4 * (count - 1 - number) as f64 / count as f64
-}
-
-/// Writes what a panel shows; `at` is the lower left corner (pixels).
-pub(super) fn caption(root: &Area, text: &str, at: Pixel) -> Result<(), PictureError> {
-    let font = Text::new(LABEL).bold();
-    font.write(root, text, at, (HPos::Left, VPos::Bottom))
-}
-
-/// A cross of half the width `r` (pixels).
-pub(super) fn cross(
-    root: &Area,
-    (x, y): Pixel,
-    r: f64,
-    colour: RGBColor,
-) -> Result<(), PictureError> {
-    polyline(root, &[(x - r, y - r), (x + r, y + r)], colour, 1.6)?;
-    polyline(root, &[(x - r, y + r), (x + r, y - r)], colour, 1.6)
 }

@@ -6,17 +6,30 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::composition::{Composition, Panel, left_out, part, remark};
+use super::energy;
 use super::labels::Labels;
-use super::marks::{Mark, Pixel, marker, polyline};
+use super::marks::{Box4, polyline};
 use super::merge_tree::{Join, Tree, merge};
-use super::picture::{Area, Picture, PictureError};
+use super::picture::{Area, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, GREEN, INK, SMALL, SOFT, Text, chart, pixel, title};
+use super::sheet::Sheet;
+use super::style::{Axis, INK, SMALL, SOFT, Text, chart, pixel};
+use super::tree_lines::Drawing;
 use crate::landscape::{Kind, Place, State};
+use crate::report::csv::table;
 
-const SIZE: (u32, u32) = (1000, 700);
-/// Classes shown.
+const WIDTH: f64 = 1000.0;
+/// Height (pixels) on wide and on narrow sheets.
+const HEIGHTS: [f64; 2] = [606.0, 470.0];
+/// Space around the plot (pixels): top, right, bottom, left.
+const MARGIN: [f64; 4] = [6.0, 20.0, 14.0, 100.0];
+/// Width of a state's label (pixels).
+const LEAF: f64 = 62.0;
+/// Height of a state's label with the marker above it (pixels).
+const LABEL: f64 = 84.0;
+/// Classes shown at most.
 const MOST: usize = 11;
 
 /// The merge tree of the classes, with free tiles at U = 0.
@@ -60,102 +73,183 @@ pub fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
     }
 }
 
-/// The graph of the lowest classes of states; `None` where there is no state.
-pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let all = scene.kinds();
-    if all.is_empty() {
-        return Ok(None);
-    }
-    let kinds = &all[..all.len().min(MOST)];
-    let trees = merge_tree(scene, kinds, scale);
-    let leaves: usize = trees.iter().map(Tree::leaves).sum();
-    let (low, high) = extent(&trees, scale);
-    Picture::draw(SIZE, |root, _| {
-        title(
-            root,
-            &format!("{}: which states merge at which energy", scene.name),
-        )?;
-        if all.len() > kinds.len() {
-            let left_out = format!("{} shallower states not shown", all.len() - kinds.len());
-            Text::new(SMALL).colour(SOFT).write(
-                root,
-                &left_out,
-                (980.0, 22.0),
-                (HPos::Right, VPos::Top),
-            )?;
-        }
-        let x_axis = Axis {
-            range: 0.0..leaves as f64,
-            ticks: Vec::new(),
-            name: String::new(),
-        };
-        let y_axis = Axis {
-            range: low..high,
-            ticks: scale
-                .ticks(low, high)
-                .into_iter()
-                .map(|u| {
-                    let text = if u == 0.0 {
-                        "0".into()
-                    } else {
-                        scale.label(u, 1)
-                    };
-                    (scale.position(u), text)
-                })
-                .collect(),
-            name: "energy U".into(),
-        };
-        let chart = chart(root, [54.0, 20.0, 46.0, 100.0], &x_axis, &y_axis, true)?;
-        let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
-        let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
-        polyline(root, &[left, right], INK, 1.6)?;
-        let frame = [
-            left.0,
-            pixel(&chart, 0.0, high).1,
-            right.0,
-            pixel(&chart, 0.0, low).1,
-        ];
-        let mut drawing = Drawing {
-            root,
-            scale,
-            scene,
-            kinds,
-            at: &at,
-            labels: Labels::new(frame),
-            next_leaf: 0,
-            merges: Vec::new(),
-        };
-        drawing.labels.keep_off_line(&[left, right]);
-        for tree in &trees {
-            let x = drawing.tree(tree)?;
-            let top = tree.energy();
-            let end = (at(x, top).0, frame[1]);
-            polyline(root, &[at(x, top), end], INK, 1.8)?;
-            if let Some(why) = why_apart(scene, tree) {
-                let beside = (end.0 + 6.0, end.1 + 8.0);
-                let font = Text::new(SMALL).colour(SOFT);
-                font.write(root, why, beside, (HPos::Left, VPos::Center))?;
-            }
-        }
-        drawing.merge_labels()?;
-        let mut key = "each line a kind of state: its letter, its energy, \u{d7} the copies of it \
-            that symmetry makes"
-            .to_owned();
-        if scene.barriers().any(|b| b.bounds.both().is_some()) {
-            key.push_str("; green: certified bounds");
-        }
-        Text::new(SMALL).colour(SOFT).write(
-            root,
-            &key,
-            (100.0, f64::from(SIZE.1) - 24.0),
-            (HPos::Left, VPos::Center),
-        )
-    })
-    .map(Some)
+/// How many of the lowest kinds of states have room.
+fn room(sheet: &Sheet) -> usize {
+    let plot = sheet.width(WIDTH) - MARGIN[1] - MARGIN[3];
+    // One more line is for free tiles.
+    ((plot / LEAF) as usize - 1).min(MOST)
 }
 
-/// Positions from below the lowest state's label to above the highest saddle.
-fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
+/// The graph of the lowest classes of states; `None` where there is no state.
+pub fn composed<'a>(
+    scene: &'a Scene,
+    sheet: &Sheet,
+    scale: EnergyScale,
+    name: &str,
+) -> Option<Composition<'a>> {
+    let all = scene.kinds();
+    if all.is_empty() {
+        return None;
+    }
+    let kinds = all[..all.len().min(room(sheet))].to_vec();
+    let trees = merge_tree(scene, &kinds, &scale);
+    let mut key = "each line a kind of state: its letter, its energy, \u{d7} the copies of it \
+        that symmetry makes"
+        .to_owned();
+    if scene.barriers().any(|b| b.bounds.both().is_some()) {
+        key.push_str("; green: certified bounds");
+    }
+    let height = |width: f64| HEIGHTS[usize::from(width < 0.7 * WIDTH)];
+    Some(Composition {
+        name: name.to_owned(),
+        title: format!("{}: which states merge at which energy", scene.name),
+        note: left_out(all.len(), kinds.len(), "not shown"),
+        width: WIDTH,
+        panels: vec![Panel::new("", 0.0, height, move |root, _, place| {
+            graph(root, place, scene, &kinds, &trees, &scale)
+        })],
+        key: Some(remark(key)),
+    })
+}
+
+/// The numbers of the picture: each line with its foot, and where it joins which other.
+pub fn data(scene: &Scene, sheet: &Sheet, scale: &EnergyScale) -> String {
+    let kinds = scene.kinds();
+    let kinds = &kinds[..kinds.len().min(room(sheet))];
+    let mut rows = Vec::new();
+    for tree in merge_tree(scene, kinds, scale) {
+        branches(&tree, scene, kinds, &mut rows);
+        if tree.leaves() == 1 {
+            rows.push(branch(&tree, scene, kinds, None));
+        }
+    }
+    let head = [
+        "states",
+        "energy_J",
+        "copies",
+        "joins_at_J",
+        "lower_J",
+        "upper_J",
+    ];
+    table(head, rows)
+}
+
+/// A row for each line below a tree's top, with the states that hang on it.
+fn branches(tree: &Tree, scene: &Scene, kinds: &[Kind], rows: &mut Vec<Vec<String>>) {
+    let Tree::Merge {
+        energy,
+        bounds,
+        children,
+    } = tree
+    else {
+        return;
+    };
+    for child in children {
+        branches(child, scene, kinds, rows);
+        rows.push(branch(child, scene, kinds, Some((*energy, *bounds))));
+    }
+}
+
+fn branch(
+    tree: &Tree,
+    scene: &Scene,
+    kinds: &[Kind],
+    joins: Option<(f64, Option<(f64, f64)>)>,
+) -> Vec<String> {
+    let kind = |class| kinds.iter().find(|kind| Some(kind.first().class) == class);
+    let names: Vec<String> = tree
+        .classes()
+        .into_iter()
+        .map(|class| kind(class).map_or_else(|| "free".to_owned(), |kind| scene.letters(kind)))
+        .collect();
+    let copies = match tree {
+        Tree::Leaf { class, .. } => kind(*class).map_or(1, Kind::copies).to_string(),
+        Tree::Merge { .. } => String::new(),
+    };
+    let bound = |get: fn((f64, f64)) -> f64| {
+        let bounds = joins.and_then(|(_, bounds)| bounds);
+        bounds.map(|bounds| energy(get(bounds))).unwrap_or_default()
+    };
+    vec![
+        names.join(" "),
+        energy(tree.energy()),
+        copies,
+        joins.map(|(at, _)| energy(at)).unwrap_or_default(),
+        bound(|(lower, _)| lower),
+        bound(|(_, upper)| upper),
+    ]
+}
+
+fn graph(
+    root: &Area,
+    place: Box4,
+    scene: &Scene,
+    kinds: &[Kind],
+    trees: &[Tree],
+    scale: &EnergyScale,
+) -> Result<(), PictureError> {
+    let leaves: usize = trees.iter().map(Tree::leaves).sum();
+    let height = place[3] - place[1] - MARGIN[0] - MARGIN[2];
+    let (low, high) = extent(trees, scale, LABEL / height);
+    let x_axis = Axis {
+        range: 0.0..leaves as f64,
+        ticks: Vec::new(),
+        name: String::new(),
+    };
+    let label = |energy: f64| match energy {
+        0.0 => "0".into(),
+        _ => scale.tick(energy),
+    };
+    let ticks = scale.ticks(low, high).into_iter();
+    let y_axis = Axis {
+        range: low..high,
+        ticks: ticks.map(|u| (scale.position(u), label(u))).collect(),
+        name: scale.axis(),
+    };
+    let area = part(root, place);
+    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
+    let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
+    let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
+    polyline(root, &[left, right], INK, 1.6)?;
+    let frame = [
+        left.0,
+        pixel(&chart, 0.0, high).1,
+        right.0,
+        pixel(&chart, 0.0, low).1,
+    ];
+    let mut drawing = Drawing {
+        root,
+        scale,
+        scene,
+        kinds,
+        at: &at,
+        labels: Labels::new(frame),
+        next_leaf: 0,
+        merges: Vec::new(),
+        feet: Vec::new(),
+    };
+    drawing.labels.keep_off_line(&[left, right]);
+    for tree in trees {
+        let x = drawing.tree(tree)?;
+        let top = tree.energy();
+        let end = (at(x, top).0, frame[1]);
+        polyline(root, &[at(x, top), end], INK, 1.8)?;
+        drawing.labels.keep_off_line(&[at(x, top), end]);
+        if let Some(why) = why_apart(scene, tree) {
+            let beside = (end.0 + 6.0, end.1 + 8.0);
+            let font = Text::new(SMALL).colour(SOFT);
+            font.write(root, why, beside, (HPos::Left, VPos::Center))?;
+            drawing
+                .labels
+                .keep_off_line(&[beside, (beside.0 + font.width(why), beside.1)]);
+        }
+    }
+    drawing.finish()
+}
+
+/// Positions from below the lowest state's label, which takes that share of the height, to above the
+/// highest saddle.
+fn extent(trees: &[Tree], scale: &EnergyScale, label: f64) -> (f64, f64) {
     let highest = |tree: &Tree| match tree {
         Tree::Merge {
             energy,
@@ -168,104 +262,6 @@ fn extent(trees: &[Tree], scale: &EnergyScale) -> (f64, f64) {
     let high = trees.iter().map(highest).fold(0.0, f64::max);
     let (low, high) = (scale.position(low), scale.position(high));
     let span = (high - low).max(0.2);
-    (low - 0.16 * span, high + 0.14 * span)
-}
-
-struct Drawing<'a, 'b> {
-    root: &'a Area<'b>,
-    scale: &'a EnergyScale,
-    scene: &'a Scene<'a>,
-    kinds: &'a [Kind<'a>],
-    at: &'a dyn Fn(f64, f64) -> Pixel,
-    labels: Labels,
-    next_leaf: usize,
-    /// Where two lines join, and the saddle energy there.
-    merges: Vec<(Pixel, f64)>,
-}
-
-impl Drawing<'_, '_> {
-    /// Draws a tree up to its own energy and gives the x it stands at.
-    fn tree(&mut self, tree: &Tree) -> Result<f64, PictureError> {
-        match tree {
-            Tree::Leaf { class, energy } => self.leaf(*class, *energy),
-            Tree::Merge {
-                energy,
-                bounds,
-                children,
-            } => {
-                let mut ends = Vec::new();
-                for child in children.iter() {
-                    let x = self.tree(child)?;
-                    let line = [(self.at)(x, child.energy()), (self.at)(x, *energy)];
-                    polyline(self.root, &line, INK, 1.8)?;
-                    self.labels.keep_off_line(&line);
-                    ends.push(x);
-                }
-                let (first, last) = (ends[0], ends[ends.len() - 1]);
-                let bar = [(self.at)(first, *energy), (self.at)(last, *energy)];
-                polyline(self.root, &bar, INK, 1.8)?;
-                self.labels.keep_off_line(&bar);
-                let x = (first + last) / 2.0;
-                if let Some(bounds) = bounds {
-                    self.error_bar(x, *bounds)?;
-                }
-                self.merges.push(((self.at)(x, *energy), *energy));
-                Ok(x)
-            }
-        }
-    }
-
-    fn error_bar(&self, x: f64, (lower, upper): (f64, f64)) -> Result<(), PictureError> {
-        let (bottom, top) = ((self.at)(x, lower), (self.at)(x, upper));
-        polyline(self.root, &[bottom, top], GREEN, 3.0)?;
-        for (cx, cy) in [bottom, top] {
-            polyline(self.root, &[(cx - 8.0, cy), (cx + 8.0, cy)], GREEN, 3.0)?;
-        }
-        Ok(())
-    }
-
-    fn leaf(&mut self, class: Option<usize>, energy: f64) -> Result<f64, PictureError> {
-        let x = self.next_leaf as f64 + 0.5;
-        self.next_leaf += 1;
-        let foot = (self.at)(x, energy);
-        let kind = class.and_then(|class| {
-            let mut kinds = self.kinds.iter();
-            kinds.find(|kind| kind.first().class == class)
-        });
-        let (mark, lines) = match kind {
-            None => (Mark::Free, vec!["free".to_owned(), "0 J".to_owned()]),
-            Some(kind) => {
-                let first = kind.first();
-                let name = self.scene.name_of(Place::State(first.id));
-                let mut lines = vec![name, self.scale.label(energy, 3)];
-                if kind.copies() > 1 {
-                    lines.push(format!("\u{d7}{}", kind.copies()));
-                }
-                (first.kind.into(), lines)
-            }
-        };
-        marker(self.root, mark, foot, 7.0)?;
-        self.labels.keep_off(foot, 8.0);
-        for (k, text) in lines.iter().enumerate() {
-            let y = foot.1 + 13.0 + 17.0 * k as f64;
-            Text::new(SMALL).write(self.root, text, (foot.0, y), (HPos::Center, VPos::Top))?;
-            self.labels.keep_off((foot.0, y + 8.0), 32.0);
-        }
-        Ok(x)
-    }
-
-    fn merge_labels(&mut self) -> Result<(), PictureError> {
-        for (place, energy) in std::mem::take(&mut self.merges) {
-            let text = self.scale.label(energy, 3);
-            let above = nalgebra::Vector2::new(0.3, -1.0);
-            self.labels.place(
-                self.root,
-                &text,
-                Text::new(SMALL).colour(SOFT),
-                place,
-                above,
-            )?;
-        }
-        Ok(())
-    }
+    let whole = 1.14 * span / (1.0 - label);
+    (low - label * whole, high + 0.14 * span)
 }

@@ -4,28 +4,30 @@
 use nalgebra::Vector2;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::heat::{Interpolated, Key, POLE_KEYS, Range, STATE_KEYS, colour_bar, frame, keys};
-use super::labels::{Labels, label_column};
-use super::marks::{Box4, Mark, Pixel, View, marker, outline, seamed_line, tile};
-use super::picture::{Area, Bitmap, Picture, PictureError, Underlay};
+use super::composition::{Composition, Panel, left_out, part};
+use super::heat::{Interpolated, Range, frame, legend};
+use super::key::{Key, POLE_KEYS, STATE_KEYS};
+use super::map_marks::{NAMED, name_around, name_in_front, ways_and_states};
+use super::marks::{Box4, Mark, View, outline, tile};
+use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, FIXED_FILL, INK, LABEL, SMALL, SOFT, Text, chart, title, units};
+use super::sheet::Sheet;
+use super::style::{Axis, FIXED_FILL, INK, LABEL, Text, chart, units};
+use super::{energy, length};
 use crate::configuration::Configuration;
-use crate::landscape::StateKind;
 use crate::landscape::map::{EnergyMap, Window};
+use crate::report::csv::table;
 use crate::tile::Pair;
 use crate::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
-/// Top of the plots (pixels).
-const TOP: f64 = 84.0;
-/// Left and right of the two plots (pixels).
-const WHOLE: (f64, f64) = (84.0, 604.0);
-const TARGET: (f64, f64) = (700.0, 980.0);
-/// Below the plots: axes, colour bar, keys (pixels).
-const AXES: f64 = 62.0;
-const FOOT: f64 = 156.0;
+/// Space around a plot (pixels): top, right, bottom, left.
+const MARGIN: [f64; 4] = [34.0, 16.0, 62.0, 84.0];
+/// Shares of the width of the two plots, and the least widths (pixels) at which they stand side by
+/// side.
+const WEIGHTS: [f64; 2] = [0.62, 0.38];
+const LEAST: [f64; 2] = [420.0, 280.0];
 /// Share of the enlargement's width that lies behind the bound position.
 const LABELS: f64 = 0.4;
 /// Grid points along the longer side of a map.
@@ -37,10 +39,6 @@ const MANY_PARTS: usize = 200;
 const ORIENTATIONS: usize = 48;
 /// Pixels of an embedded image a pixel of the picture.
 const IMAGE: f64 = 0.8;
-/// Pathways drawn.
-const PATHWAYS: usize = 8;
-/// Classes of states that are named.
-const NAMED: usize = 12;
 
 /// The two maps of the picture.
 pub struct Maps {
@@ -51,28 +49,43 @@ pub struct Maps {
 }
 
 impl Maps {
-    pub fn new(scene: &Scene) -> Self {
-        let whole = whole_window(scene);
-        let target = target_window(scene, plot_height(&whole));
+    /// The maps for plots as a sheet has them.
+    pub fn new(scene: &Scene, sheet: &Sheet) -> Self {
+        let [whole, target] = plot_sizes(sheet, scene);
+        let whole = whole_window(scene, whole);
+        let target = target_window(scene, target);
         let [whole, target] =
             [whole, target].map(|window| EnergyMap::new(scene.problem, &window, ORIENTATIONS));
         Self { whole, target }
     }
 }
 
-fn whole_window(scene: &Scene) -> Window {
-    let half = scene.reach();
+/// Width and height of the two plots (pixels).
+fn plot_sizes(sheet: &Sheet, scene: &Scene) -> [[f64; 2]; 2] {
+    let width = sheet.width(WIDTH);
+    let sides = MARGIN[1] + MARGIN[3];
+    let beside = width >= LEAST[0] + LEAST[1] && !sheet.separate;
+    let widths = WEIGHTS.map(|weight| width * if beside { weight } else { 1.0 } - sides);
+    let [x, y] = scene.reach();
+    let height = widths[0] * (y / x).clamp(0.6, 1.55);
+    widths.map(|width| [width, height])
+}
+
+/// In proportion to the plot.
+fn whole_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
+    let [x, y] = scene.reach();
+    let half = [x.max(y * width / height), y.max(x * height / width)];
     window(scene, Vector2::zeros(), 0.0, half.map(|h| -h), half)
 }
 
 /// Away from the target face along x, along it along y, the bound position at the origin; in
 /// proportion to the plot. What lies behind the bound position is mostly blocked and leaves room
 /// for labels.
-fn target_window(scene: &Scene, height: f64) -> Window {
+fn target_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
     let face = scene.pair.target_face();
     let normal = face.normal();
     let half = 0.6 * face.length();
-    let across = 2.0 * half * (TARGET.1 - TARGET.0) / height;
+    let across = 2.0 * half * width / height;
     window(
         scene,
         scene.pair.bound.position(),
@@ -106,126 +119,138 @@ fn window(
     }
 }
 
-fn plot_height(whole: &Window) -> f64 {
-    let [x, y] = [0, 1].map(|k| whole.high[k] - whole.low[k]);
-    ((WHOLE.1 - WHOLE.0) * y / x).clamp(320.0, 800.0)
-}
-
-pub fn draw(scene: &Scene, maps: &Maps, scale: &EnergyScale) -> Result<Picture, PictureError> {
+/// The picture of a scene's maps.
+pub fn composed<'a>(
+    scene: &'a Scene,
+    maps: &'a Maps,
+    sheet: &Sheet,
+    scale: &'a EnergyScale,
+) -> Composition<'a> {
     let energies = [&maps.whole, &maps.target]
         .into_iter()
         .flat_map(|map| map.lowest.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let bottom = TOP + plot_height(&maps.whole.window);
-    let height = bottom + AXES + FOOT;
-    Picture::draw((WIDTH as u32, height as u32), |root, underlays| {
-        title(root, &format!("{}: lowest energy over θ", scene.name))?;
-        let plots = [
-            Plot {
-                map: &maps.whole,
-                place: [WHOLE.0, TOP, WHOLE.1, bottom],
-                heading: "all around the fixed tile",
-                axes: ["x", "y"],
-            },
-            Plot {
-                map: &maps.target,
-                place: [TARGET.0, TOP, TARGET.1, bottom],
-                heading: "in front of the target face",
-                axes: ["away from bound", "along the face"],
-            },
-        ];
-        for plot in &plots {
-            plot.draw(root, underlays, scale, &range)?;
-        }
-        let [whole, target] = plots.map(|plot| plot.view());
-        let origin = Configuration::new(0.0, 0.0, 0.0);
-        tile(root, &whole.0, &scene.pair.fixed, &origin, FIXED_FILL)?;
-        for (view, place) in [whole, target] {
-            pathways(root, &view, scene, place)?;
-            states(root, &view, scene, place)?;
-        }
-        name_states(root, scene, scale, whole, target)?;
-
-        let top = bottom + AXES + 24.0;
-        let bar = [WHOLE.0, top, WIDTH - 20.0, top + 20.0];
-        colour_bar(root, underlays, scale, &range, bar)?;
-        let top = top + 72.0;
-        let mut left = WHOLE.0;
-        let marks = [
-            (Key::Mark(Mark::Saddle), "saddle"),
-            (Key::Pathway, "pathway out"),
-        ];
-        let blocked = [(Key::Blocked, "tiles would overlap")];
-        for column in [&STATE_KEYS[..], &marks, &POLE_KEYS, &blocked] {
-            keys(root, underlays, (left, top), column)?;
-            left += 220.0;
-        }
-        let left_out = scene.kinds().len().saturating_sub(NAMED);
-        if left_out > 0 {
-            let text = format!("{left_out} shallower kinds of state not named");
-            let at = (WIDTH - 20.0, 24.0);
-            Text::new(SMALL)
-                .colour(SOFT)
-                .write(root, &text, at, (HPos::Right, VPos::Top))?;
-        }
-        Ok(())
-    })
+    let plot = |map, heading, axes| Plot {
+        map,
+        heading,
+        axes,
+        scale,
+        range,
+    };
+    let whole = plot(&maps.whole, "all around the fixed tile", ["x", "y"]);
+    let axes = ["away from bound", "along the face"];
+    let target = plot(&maps.target, "in front of the target face", axes);
+    let [_, height] = plot_sizes(sheet, scene)[0];
+    let height = move |_| MARGIN[0] + height + MARGIN[2];
+    let named = move |state: &Configuration| target.shows(state);
+    let panels = vec![
+        Panel::new("around", LEAST[0], height, move |root, underlays, place| {
+            let view = whole.draw(root, underlays, place)?;
+            let origin = Configuration::new(0.0, 0.0, 0.0);
+            tile(root, &view.0, &scene.pair.fixed, &origin, FIXED_FILL)?;
+            ways_and_states(root, view, scene)?;
+            name_around(root, scene, scale, view, named)
+        })
+        .weighing(WEIGHTS[0]),
+        Panel::new("target", LEAST[1], height, move |root, underlays, place| {
+            let view = target.draw(root, underlays, place)?;
+            ways_and_states(root, view, scene)?;
+            name_in_front(root, scene, scale, view, named)
+        })
+        .weighing(WEIGHTS[1]),
+    ];
+    let mut entries = STATE_KEYS.to_vec();
+    entries.push((Key::Mark(Mark::Saddle), "saddle"));
+    entries.push((Key::Pathway, "pathway out"));
+    entries.extend(POLE_KEYS);
+    entries.push((Key::Blocked, "tiles would overlap"));
+    Composition {
+        name: "map".to_owned(),
+        title: format!("{}: lowest energy over \u{3b8}", scene.name),
+        note: left_out(scene.kinds().len(), NAMED, "not named"),
+        width: WIDTH,
+        panels,
+        key: Some(legend(scale, range, entries)),
+    }
 }
 
+/// The numbers of the picture.
+pub fn data(maps: &Maps) -> String {
+    let head = ["panel", "x_m", "y_m", "theta_rad", "energy_J"];
+    let panels = [("around", &maps.whole), ("target", &maps.target)];
+    let rows = panels.into_iter().flat_map(|(name, map)| {
+        let samples = map.lowest.values.iter().flatten();
+        samples.map(move |sample| {
+            let [x, y, theta] = sample.configuration.to_array();
+            let mut row = vec![name.to_owned()];
+            row.extend([x, y, theta].map(length));
+            row.push(energy(sample.energy));
+            row
+        })
+    });
+    table(head, rows)
+}
+
+/// A map as it is plotted.
+#[derive(Clone, Copy)]
 struct Plot<'a> {
     map: &'a EnergyMap,
-    place: Box4,
     heading: &'a str,
     axes: [&'a str; 2],
+    scale: &'a EnergyScale,
+    range: Range,
 }
 
 impl Plot<'_> {
+    /// Whether a configuration lies within the plot.
+    fn shows(&self, q: &Configuration) -> bool {
+        let window = &self.map.window;
+        let at = window.locate(q.position());
+        (0..2).all(|k| (window.low[k]..=window.high[k]).contains(&at[k]))
+    }
+
+    /// Draws the map with its axes; tells how the plane became pixels and the plot's frame.
     fn draw(
         &self,
         root: &Area,
         underlays: &mut Vec<Underlay>,
-        scale: &EnergyScale,
-        range: &Range,
-    ) -> Result<(), PictureError> {
-        let [left, top, right, bottom] = self.place;
+        place: Box4,
+    ) -> Result<(View, Box4), PictureError> {
         let window = &self.map.window;
         let longer = (0..2)
             .flat_map(|k| [window.low[k].abs(), window.high[k].abs()])
             .fold(0.0, f64::max);
         // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
         let (unit, prefix) = prefix_of(0.999 * longer);
+        let plot = place[2] - place[0] - MARGIN[1] - MARGIN[3];
         let [x, y] = [0, 1].map(|k| {
             let range = window.low[k] / unit..window.high[k] / unit;
-            let count = if k == 0 && right - left < 400.0 { 5 } else { 9 };
+            let count = if k == 0 && plot < 400.0 { 5 } else { 9 };
             Axis::linear(range, count, format!("{} ({prefix}m)", self.axes[k]))
         });
-        let (area, _) = root.split_horizontally(units(right));
-        let (_, area) = area.split_horizontally(units(left - WHOLE.0));
-        let (area, _) = area.split_vertically(units(bottom + AXES));
-        let margin = [top, 0.0, AXES, WHOLE.0];
-        let chart = chart(&area, margin, &x, &y, false)?;
+        let area = part(root, place);
+        let chart = chart(&area, MARGIN, &x, &y, false)?;
         let [x, y] = [x, y].map(|axis| [axis.range.start, axis.range.end]);
         let frame = frame(&chart, &x, &y);
-        debug_assert!((frame[0] - left).abs() < 1.0 && (frame[3] - bottom).abs() < 1.0);
         underlays.push(Underlay {
-            bitmap: self.image(scale, range),
+            bitmap: self.image(frame),
             rectangle: frame.map(units),
         });
         outline(root, frame, INK)?;
         Text::new(LABEL).bold().write(
             root,
             self.heading,
-            (left, top - 10.0),
+            (frame[0], frame[1] - 10.0),
             (HPos::Left, VPos::Bottom),
-        )
+        )?;
+        Ok((self.view(frame), frame))
     }
 
-    fn image(&self, scale: &EnergyScale, range: &Range) -> Bitmap {
-        let [left, top, right, bottom] = self.place;
+    fn image(&self, [left, top, right, bottom]: Box4) -> Bitmap {
         let size = [right - left, bottom - top].map(|side| (IMAGE * side).round() as usize);
-        let interpolated = Interpolated::new(&self.map.lowest, scale);
-        range.bitmap((size[0], size[1]), |u, v| {
+        let interpolated = Interpolated::new(&self.map.lowest, self.scale);
+        self.range.bitmap((size[0], size[1]), |u, v| {
             let border_distance = interpolated
                 .corners(u, v)
                 .map(|(i, w)| w * self.map.border_distance[i]);
@@ -236,89 +261,14 @@ impl Plot<'_> {
         })
     }
 
-    fn view(&self) -> (View, Box4) {
-        let [left, _, right, bottom] = self.place;
+    fn view(&self, [left, _, right, bottom]: Box4) -> View {
         let window = &self.map.window;
         let scale = (right - left) / (window.high[0] - window.low[0]);
-        let view = View {
+        View {
             origin: (left - window.low[0] * scale, bottom + window.low[1] * scale),
             scale,
             centre: window.origin,
             turn: -window.angle,
-        };
-        (view, self.place)
-    }
-}
-
-fn pathways(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), PictureError> {
-    for barrier in scene.main_escapes().into_iter().take(PATHWAYS) {
-        let points: Vec<_> = barrier
-            .pathway
-            .iter()
-            .map(|p| view.pixel(p.configuration.position()))
-            .collect();
-        for piece in points.split(|p| !inside(frame, *p)) {
-            seamed_line(root, piece, INK, 1.8)?;
         }
     }
-    for barrier in scene.main_escapes().into_iter().take(PATHWAYS) {
-        let saddle = view.pixel(barrier.saddle.position());
-        let last = barrier.pathway.last().map(|p| p.configuration);
-        if inside(frame, saddle) && last != Some(barrier.saddle) {
-            marker(root, Mark::Saddle, saddle, 5.0)?;
-        }
-    }
-    Ok(())
-}
-
-fn inside([left, top, right, bottom]: Box4, (x, y): Pixel) -> bool {
-    x >= left && x <= right && y >= top && y <= bottom
-}
-
-/// All states as markers, one a place.
-fn states(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), PictureError> {
-    let mut drawn: Vec<Pixel> = Vec::new();
-    // Bound states last, on top.
-    let mut states: Vec<_> = scene.states().iter().collect();
-    states.sort_by_key(|state| state.kind == StateKind::Bond);
-    for state in states {
-        let at = view.pixel(state.configuration.position());
-        let repeated = drawn.iter().any(|p| (p.0 - at.0).hypot(p.1 - at.1) < 1.0);
-        if inside(frame, at) && !repeated {
-            marker(root, state.kind.into(), at, 6.5)?;
-            drawn.push(at);
-        }
-    }
-    Ok(())
-}
-
-/// Names each class of states at its copy nearest to the target: in a column beside the states on
-/// the enlargement, and where that does not hold them, on the whole map.
-fn name_states(
-    root: &Area,
-    scene: &Scene,
-    scale: &EnergyScale,
-    (whole, whole_frame): (View, Box4),
-    (target, target_frame): (View, Box4),
-) -> Result<(), PictureError> {
-    let font = Text::new(SMALL);
-    let mut labels = Labels::new(whole_frame);
-    for state in scene.states() {
-        labels.keep_off(whole.pixel(state.configuration.position()), 6.5);
-    }
-    let mut column = Vec::new();
-    for kind in scene.kinds().iter().take(NAMED) {
-        let state = kind.first();
-        let place = state.configuration.position();
-        let energy = scale.label(state.energy, 3);
-        let text = format!("{}: {energy}", scene.letters(kind));
-        let (enlarged, at) = (target.pixel(place), whole.pixel(place));
-        if inside(target_frame, enlarged) {
-            column.push((enlarged, text));
-        } else if inside(whole_frame, at) {
-            let outwards = Vector2::new(place.x, -place.y).normalize();
-            labels.place(root, &text, font, at, outwards)?;
-        }
-    }
-    label_column(root, font, target_frame, column)
 }

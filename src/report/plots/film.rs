@@ -4,59 +4,109 @@ use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::heat::{POLE_KEYS, keys};
+use super::composition::{Composition, Panel};
+use super::key::{POLE_KEYS, key_row};
 use super::marks::{Box4, View, outline, tile};
-use super::picture::{Area, Picture, PictureError};
+use super::picture::{Area, PictureError};
 use super::scale::{EnergyScale, minus};
 use super::scene::Scene;
-use super::style::{FIXED_FILL, GRID, LABEL, MOVING_FILL, SMALL, SOFT, Text, title};
+use super::style::{FIXED_FILL, GRID, LABEL, MOVING_FILL, SMALL, SOFT, Text};
+use super::{energy, length};
 use crate::configuration::Configuration;
 use crate::landscape::{Pathway, PathwayPoint};
+use crate::report::csv::table;
 use crate::tile::Tile;
 use crate::units::si;
 
+/// Least width of a frame (pixels), and the most side by side.
+const FRAME: f64 = 190.0;
 const COLUMNS: usize = 4;
 const FRAMES: usize = 8;
 const WIDTH: f64 = 1000.0;
-const HEAD: f64 = 50.0;
 const GAP: f64 = 14.0;
 /// Height of the text under a frame (pixels).
 const CAPTION: f64 = 48.0;
 
-/// Both tiles on their way together; `None` where no way from far away to the bound state is
-/// known.
-pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let Some(pathway) = scene.docking() else {
-        return Ok(None);
+/// The frames of the way into the bond.
+pub struct Film {
+    frames: Vec<PathwayPoint>,
+    /// The rectangle (m) that is seen.
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Film {
+    /// `None` where no way from far away to the bound state is known.
+    pub fn new(scene: &Scene, scale: &EnergyScale) -> Option<Self> {
+        let pathway = scene.docking()?;
+        let frames = frames(near(&pathway, scene), scale);
+        let [low, high] = extent(scene, &frames);
+        Some(Self { frames, low, high })
+    }
+
+    /// Columns, and width and height of a frame, on a picture of this width (pixels).
+    fn layout(&self, width: f64) -> (usize, [f64; 2]) {
+        let columns = ((width / FRAME) as usize).clamp(2, COLUMNS);
+        let [x, y] = [0, 1].map(|k| self.high[k] - self.low[k]);
+        let wide = (width - GAP * (columns as f64 + 1.0)) / columns as f64;
+        (
+            columns,
+            [wide, (wide * y / x).clamp(0.5 * wide, 1.8 * wide)],
+        )
+    }
+
+    /// The numbers of the picture.
+    pub fn data(&self) -> String {
+        let rows = self.frames.iter().enumerate().map(|(k, point)| {
+            let mut row = vec![(k + 1).to_string()];
+            row.extend(point.configuration.to_array().map(length));
+            row.extend([energy(point.energy), length(point.clearance)]);
+            row
+        });
+        let head = [
+            "frame",
+            "x_m",
+            "y_m",
+            "theta_rad",
+            "energy_J",
+            "clearance_m",
+        ];
+        table(head, rows)
+    }
+}
+
+/// Both tiles on their way together.
+pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) -> Composition<'a> {
+    let height = |width: f64| {
+        let (columns, [_, high]) = film.layout(width);
+        film.frames.len().div_ceil(columns) as f64 * (high + CAPTION + GAP)
     };
-    let frames = frames(near(&pathway, scene), scale);
-    let [low, high] = extent(scene, &frames);
-    let (span_x, span_y) = (high[0] - low[0], high[1] - low[1]);
-    let width = (WIDTH - GAP * (COLUMNS as f64 + 1.0)) / COLUMNS as f64;
-    let height = (width * span_y / span_x).clamp(0.5 * width, 1.8 * width);
-    let rows = frames.len().div_ceil(COLUMNS);
-    let total = HEAD + rows as f64 * (height + CAPTION + GAP);
-    let pixels_a_metre = (width / span_x).min(height / span_y);
-    Picture::draw((WIDTH as u32, total.ceil() as u32), |root, underlays| {
-        title(root, &format!("{}: docking", scene.name))?;
-        for (key, left) in POLE_KEYS.chunks(1).zip([740.0, 866.0]) {
-            keys(root, underlays, (left, 28.0), key)?;
-        }
-        for (k, point) in frames.iter().enumerate() {
-            let left = GAP + (k % COLUMNS) as f64 * (width + GAP);
-            let top = HEAD + (k / COLUMNS) as f64 * (height + CAPTION + GAP);
+    let draw = |root: &Area, _: &mut Vec<_>, [left, top, right, _]: Box4| {
+        let (columns, [wide, high]) = film.layout(right - left);
+        let (low, far) = (film.low, film.high);
+        let middle = [0, 1].map(|k| (low[k] + far[k]) / 2.0);
+        for (k, point) in film.frames.iter().enumerate() {
+            let left = left + GAP + (k % columns) as f64 * (wide + GAP);
+            let top = top + (k / columns) as f64 * (high + CAPTION + GAP);
             let view = View {
-                centre: Vector2::new((low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0),
-                origin: (left + width / 2.0, top + height / 2.0),
+                centre: Vector2::new(middle[0], middle[1]),
+                origin: (left + wide / 2.0, top + high / 2.0),
                 turn: 0.0,
-                scale: pixels_a_metre,
+                scale: (wide / (far[0] - low[0])).min(high / (far[1] - low[1])),
             };
-            let frame = [left, top, left + width, top + height];
+            let frame = [left, top, left + wide, top + high];
             draw_frame(root, scene, scale, &view, frame, k + 1, point)?;
         }
         Ok(())
-    })
-    .map(Some)
+    };
+    Composition {
+        name: "docking".to_owned(),
+        title: format!("{}: docking", scene.name),
+        note: None,
+        width: WIDTH,
+        panels: vec![Panel::new("docking", 0.0, height, draw)],
+        key: Some(key_row(POLE_KEYS.into())),
+    }
 }
 
 fn draw_frame(

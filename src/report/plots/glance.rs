@@ -6,9 +6,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::marks::{View, tile};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::minus;
-use super::style::{
-    FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION, title,
-};
+use super::sheet::Sheet;
+use super::style::{FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection::Inspection;
@@ -32,8 +31,12 @@ const TOLD: usize = 3;
 /// # Errors
 /// See [`PictureError`].
 pub fn draw(design: &Design, inspection: &Inspection) -> Result<Picture, PictureError> {
-    Picture::draw(SIZE, |root, _| {
-        title(root, &design.name)?;
+    Picture::draw(&Sheet::SCREEN, &design.name, SIZE, |root, _| {
+        let middle = (HPos::Center, VPos::Center);
+        let place = (f64::from(SIZE.0) / 2.0, HEAD / 2.0);
+        Text::new(TITLE)
+            .bold()
+            .write(root, &design.name, place, middle)?;
         let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
         let tiles = [&design.pair.fixed, &design.pair.moving];
         let view = view(tiles, poses);

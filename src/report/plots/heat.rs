@@ -1,12 +1,14 @@
 //! What the heat maps share: grids as images, the colour bar, keys.
 
-use plotters::prelude::RGBColor;
+use ordered_float::OrderedFloat;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Box4, Mark, Pixel, marker, outline, polygon, polyline, seamed_line};
+use super::composition::{Panel, stacked};
+use super::key::{BAR_SIDES, Key, key_table};
+use super::marks::{Box4, outline, polyline};
 use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::{COLOURS, EnergyScale, HATCH, colour};
-use super::style::{BLUE, Chart, INK, LABEL, SMALL, Text, VERMILLION, pixel, units};
+use super::style::{Chart, INK, SMALL, Text, pixel, units};
 use crate::landscape::map::{Grid, Sample};
 
 /// The positions on a scale that colours are given to, and two colours for the hatching of what
@@ -124,8 +126,34 @@ pub fn frame(chart: &Chart, x: &[f64], y: &[f64]) -> Box4 {
     [low.0, high.1, high.0, low.1]
 }
 
-/// The colours with their energies, in a bar from left to right.
-pub fn colour_bar(
+/// Height of the bar with its name and its numbers (pixels).
+const BAR: f64 = 84.0;
+
+/// The colours with their energies, in a bar from left to right, and what marks mean.
+pub fn legend<'a>(
+    scale: &'a EnergyScale,
+    range: Range,
+    entries: Vec<(Key, &'static str)>,
+) -> Panel<'a> {
+    let bar = Panel::new(
+        "",
+        0.0,
+        |_| BAR,
+        move |root, underlays, place| {
+            let [left, top, right, _] = place;
+            let bar = [
+                left + BAR_SIDES.0,
+                top + 26.0,
+                right - BAR_SIDES.1,
+                top + 46.0,
+            ];
+            colour_bar(root, underlays, scale, &range, bar)
+        },
+    );
+    stacked(bar, key_table(entries))
+}
+
+fn colour_bar(
     root: &Area,
     underlays: &mut Vec<Underlay>,
     scale: &EnergyScale,
@@ -138,76 +166,30 @@ pub fn colour_bar(
         rectangle: [left, top, right, bottom].map(units),
     });
     outline(root, [left, top, right, bottom], INK)?;
-    let middle = (left - 14.0, (top + bottom) / 2.0);
-    Text::new(LABEL).write(root, "U", middle, (HPos::Right, VPos::Center))?;
-    for energy in scale.ticks(range.low, range.high) {
-        let x = left + (right - left) * (scale.position(energy) - range.low) / span;
+    let above = (left, top - 6.0);
+    Text::new(SMALL).write(root, &scale.axis(), above, (HPos::Left, VPos::Bottom))?;
+    let place = |energy: f64| left + (right - left) * (scale.position(energy) - range.low) / span;
+    let mut taken: Vec<(f64, f64)> = Vec::new();
+    let mut ticks = scale.ticks(range.low, range.high);
+    // Zero first, then outwards: where numbers would collide the later ones are left out.
+    ticks.sort_by_key(|energy| OrderedFloat(energy.abs()));
+    for energy in ticks {
+        let x = place(energy);
         let (start, width, text, font) = if energy == 0.0 {
             (top, 1.6, "0".into(), Text::new(SMALL).bold())
         } else {
-            let text = scale.label(energy, 1);
+            let text = scale.tick(energy);
             (bottom, 1.0, text, Text::new(SMALL))
         };
         polyline(root, &[(x, start), (x, bottom + 6.0)], INK, width)?;
-        font.write(root, &text, (x, bottom + 9.0), (HPos::Center, VPos::Top))?;
-    }
-    Ok(())
-}
-
-/// An entry of a key.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Key {
-    Mark(Mark),
-    Pathway,
-    Blocked,
-    Colour(RGBColor),
-}
-
-pub const STATE_KEYS: [(Key, &str); 2] = [
-    (Key::Mark(Mark::Bond), "bond"),
-    (Key::Mark(Mark::Trap), "trap"),
-];
-pub const POLE_KEYS: [(Key, &str); 2] = [
-    (Key::Colour(VERMILLION), "north pole"),
-    (Key::Colour(BLUE), "south pole"),
-];
-
-/// Height of an entry of a key (pixels).
-const ENTRY: f64 = 25.0;
-
-/// Explains marks, one below the other.
-pub fn keys(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    (left, top): Pixel,
-    entries: &[(Key, &str)],
-) -> Result<(), PictureError> {
-    let mut y = top;
-    for (key, text) in entries {
-        let (a, b) = (left, left + 22.0);
-        match key {
-            Key::Mark(mark) => marker(root, *mark, (left + 11.0, y), 7.0)?,
-            Key::Pathway => seamed_line(root, &[(a, y), (b, y)], INK, 1.8)?,
-            Key::Blocked => {
-                let place = [a, y - 8.0, b, y + 8.0];
-                let range = Range {
-                    low: -1.0,
-                    high: 1.0,
-                };
-                underlays.push(Underlay {
-                    bitmap: range.bitmap((16, 12), |_, _| None),
-                    rectangle: place.map(units),
-                });
-                outline(root, place, INK)?;
-            }
-            Key::Colour(colour) => {
-                let block = [(5.0, -6.0), (17.0, -6.0), (17.0, 6.0), (5.0, 6.0)]
-                    .map(|(dx, dy)| (left + dx, y + dy));
-                polygon(root, &block, colour, None)?;
-            }
+        let half = 0.54 * font.width(&text) + 4.0;
+        if taken
+            .iter()
+            .all(|(from, to)| x + half < *from || *to < x - half)
+        {
+            taken.push((x - half, x + half));
+            font.write(root, &text, (x, bottom + 9.0), (HPos::Center, VPos::Top))?;
         }
-        Text::new(SMALL).write(root, text, (left + 32.0, y), (HPos::Left, VPos::Center))?;
-        y += ENTRY;
     }
     Ok(())
 }

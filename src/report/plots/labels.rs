@@ -20,24 +20,32 @@ fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
     (x.clamp(left, right), y.clamp(top, bottom))
 }
 
-/// Writes a text on a pale ground, joined to `anchor` by a thin line where it is not beside it.
-fn write(
-    root: &Area,
-    text: &str,
-    font: Text,
-    anchor: Pixel,
-    [left, top, right, bottom]: Box4,
-) -> Result<(), PictureError> {
-    let nearest = nearest(anchor, [left, top, right, bottom]);
+/// Joins a label to what it names by a thin line, where it is not beside it.
+fn join(root: &Area, anchor: Pixel, place: Box4) -> Result<(), PictureError> {
+    let nearest = nearest(anchor, place);
     if (nearest.0 - anchor.0).hypot(nearest.1 - anchor.1) > 14.0 {
         polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
         polyline(root, &[anchor, nearest], SOFT, 1.0)?;
     }
+    Ok(())
+}
+
+/// Writes a text on a pale ground.
+fn write(
+    root: &Area,
+    text: &str,
+    font: Text,
+    [left, top, right, bottom]: Box4,
+) -> Result<(), PictureError> {
     let ground = [(left, top), (right, top), (right, bottom), (left, bottom)];
     polygon(root, &ground, WHITE.mix(0.85), None)?;
     let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
     font.write(root, text, middle, (HPos::Center, VPos::Center))
 }
+
+/// How far apart labels in a column are if there is room, in their height: lines that lead to what
+/// lies close together can then be told apart.
+const AIR: f64 = 1.4;
 
 /// Writes labels in a column along the left side of a frame, each as near as may be to the height
 /// of what it names.
@@ -48,20 +56,25 @@ pub fn label_column(
     mut labels: Vec<(Pixel, String)>,
 ) -> Result<(), PictureError> {
     labels.sort_by_key(|(anchor, _)| OrderedFloat(anchor.1));
-    let (_, step) = extent(font, "");
+    let (_, high) = extent(font, "");
     let mut heights: Vec<f64> = labels.iter().map(|(anchor, _)| anchor.1).collect();
-    spread(&mut heights, step + 1.0, top + step, bottom - step);
-    for ((anchor, text), height) in labels.iter().zip(heights) {
+    let room = (bottom - top - 2.0 * high) / labels.len().max(1) as f64;
+    let step = (AIR * high).min(room).max(high + 1.0);
+    spread(&mut heights, step, top + high, bottom - high);
+    let place = |text: &str, height: f64| {
         let (width, _) = extent(font, text);
-        let place = [
-            left + 6.0,
-            height - step / 2.0,
-            left + 6.0 + width,
-            height + step / 2.0,
-        ];
-        write(root, text, font, *anchor, place)?;
+        let edge = left + 6.0;
+        [edge, height - high / 2.0, edge + width, height + high / 2.0]
+    };
+    let placed = labels.iter().zip(heights);
+    let placed = placed.map(|((anchor, text), height)| (*anchor, text, place(text, height)));
+    let placed: Vec<_> = placed.collect();
+    for (anchor, _, place) in &placed {
+        join(root, *anchor, *place)?;
     }
-    Ok(())
+    placed
+        .iter()
+        .try_for_each(|(_, text, place)| write(root, text, font, *place))
 }
 
 /// Moves ascending heights apart until they differ by `step` and lie between `low` and `high`, as
@@ -131,7 +144,8 @@ impl Labels {
         };
         self.taken.push(place);
         self.keep_off_line(&[anchor, nearest(anchor, place)]);
-        write(root, text, font, anchor, place)
+        join(root, anchor, place)?;
+        write(root, text, font, place)
     }
 
     /// The nearest free place, those in the direction `outwards` first.

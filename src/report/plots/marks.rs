@@ -213,3 +213,51 @@ fn draw_magnet(
     }
     Ok(())
 }
+
+/// The pieces of a curve above the height `floor` (pixels grow downwards).
+pub fn above(curve: &[Pixel], floor: f64) -> Vec<Vec<Pixel>> {
+    let mut pieces = Vec::new();
+    let mut piece: Vec<Pixel> = Vec::new();
+    for pair in curve.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let crossing = || {
+            let t = (floor - a.1) / (b.1 - a.1);
+            (a.0 + (b.0 - a.0) * t, floor)
+        };
+        if piece.is_empty() && a.1 <= floor {
+            piece.push(a);
+        }
+        match (a.1 <= floor, b.1 <= floor) {
+            (true, true) => piece.push(b),
+            (true, false) => {
+                piece.push(crossing());
+                pieces.push(std::mem::take(&mut piece));
+            }
+            (false, true) => piece = vec![crossing(), b],
+            (false, false) => {}
+        }
+    }
+    if !piece.is_empty() {
+        pieces.push(piece);
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_curve_is_cut_where_it_dips_below_the_floor() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 12.0), (3.0, 8.0), (4.0, 12.0)];
+        let first = vec![(0.0, 0.0), (1.0, 8.0), (1.5, 10.0)];
+        let second = vec![(2.5, 10.0), (3.0, 8.0), (3.5, 10.0)];
+        assert_eq!(above(&curve, 10.0), [first, second]);
+    }
+
+    #[test]
+    fn a_curve_above_the_floor_stays_whole() {
+        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 3.0)];
+        assert_eq!(above(&curve, 10.0), [curve.to_vec()]);
+    }
+}

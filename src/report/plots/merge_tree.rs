@@ -65,6 +65,14 @@ impl Tree {
         }
     }
 
+    /// The classes of the tree's states, in their order.
+    pub fn classes(&self) -> Vec<Option<usize>> {
+        match self {
+            Self::Leaf { class, .. } => vec![*class],
+            Self::Merge { children, .. } => children.iter().flat_map(Tree::classes).collect(),
+        }
+    }
+
     /// Whether a class is among the tree's states.
     pub fn holds(&self, wanted: Option<usize>) -> bool {
         match self {

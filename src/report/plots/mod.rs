@@ -1,20 +1,26 @@
-//! The pictures of an analysis, each as SVG and as PNG.
+//! The pictures of an analysis, each as SVG and as PNG, for print as PDF too, and its numbers as CSV.
 //!
 //! - `map`: lowest energy over theta at each (x, y), with states and pathways on it;
 //! - `approach`: energy in front of the target face, gap and slide against tilt;
 //! - `profiles`: energy along the main pathways with their barriers;
 //! - `docking`: film strip of the way into the bound state;
 //! - `models`: point dipoles against blocks over the gap;
-//! - `disconnectivity`: which states merge at which energy.
+//! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
+//!   linear scale.
 //!
-//! Charts are laid out by plotters. Its SVG backend writes the vector form; pixels are drawn from
-//! the same calls by tiny-skia, with a font that is part of the program, so that neither form
-//! depends on what is installed.
+//! A picture is a [`composition`] of panels, laid out for a [`Sheet`]. Charts are drawn by plotters.
+//! Its SVG backend writes the vector form; pixels (by tiny-skia) and PDF (by pdf-writer) are drawn
+//! from the same calls, with a font that is part of the program, so that no form depends on what is
+//! installed.
 
 mod approach;
 mod canvas;
+mod composition;
+mod contour;
+mod curve;
 pub mod curve_data;
 mod curve_map;
+pub(in crate::report) mod curve_names;
 pub(in crate::report) mod curves;
 pub(in crate::report) mod disconnectivity;
 pub mod dock;
@@ -22,40 +28,87 @@ mod energy_map;
 mod film;
 pub mod glance;
 mod heat;
+mod key;
 mod labels;
+mod map_marks;
 mod marks;
 pub(in crate::report) mod merge_tree;
 mod models;
+pub mod paths;
+mod pdf;
 mod picture;
 mod profiles;
 pub mod ranking;
 mod raster;
 pub(in crate::report) mod scale;
 pub(in crate::report) mod scene;
+mod shapes;
+pub mod sheet;
 mod style;
+mod tree_lines;
 
 use rayon::prelude::*;
 
 pub use picture::{Picture, PictureError};
 pub use scene::Scene;
+pub use sheet::Sheet;
 
+use super::csv::number;
+use composition::Composition;
+use film::Film;
+use models::Curves;
 use scale::EnergyScale;
 
-/// A picture and the stem of the files that hold it.
+/// Pictures with the numbers that they show.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NamedPicture {
-    /// The stem of the files.
-    pub name: &'static str,
-    /// The picture.
-    pub picture: Picture,
+pub struct Figure {
+    /// The stem of the file of numbers, and of the picture if there is one only.
+    pub name: String,
+    /// By the stems of their files: one, or one for each of its panels.
+    pub pictures: Vec<(String, Picture)>,
+    /// The numbers, as CSV.
+    pub data: String,
+}
+
+impl Figure {
+    fn new(composition: &Composition, sheet: &Sheet, data: String) -> Result<Self, PictureError> {
+        Ok(Self {
+            name: composition.name.clone(),
+            pictures: composition.draw(sheet)?,
+            data,
+        })
+    }
+
+    /// The first picture as SVG.
+    pub fn svg(&self) -> &str {
+        self.pictures
+            .first()
+            .map_or("", |(_, picture)| &picture.svg)
+    }
+
+    /// The files by their names: each picture in every form, and the numbers.
+    pub fn files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
+        let numbers = (format!("{}.csv", self.name), self.data.into_bytes());
+        let pictures = self.pictures.into_iter().flat_map(|(stem, picture)| {
+            let forms = [
+                ("svg", Some(picture.svg.into_bytes())),
+                ("png", Some(picture.png)),
+                ("pdf", picture.pdf),
+            ];
+            let named =
+                |(ending, bytes): (_, Option<_>)| Some((format!("{stem}.{ending}"), bytes?));
+            forms.into_iter().filter_map(named).collect::<Vec<_>>()
+        });
+        pictures.chain([numbers])
+    }
 }
 
 /// All pictures of an analysis; those that nothing is known for are left out.
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
-    let maps = energy_map::Maps::new(scene);
+pub fn draw_all(scene: &Scene, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+    let maps = energy_map::Maps::new(scene, sheet);
     let (approach, slices) = approach::slices(scene);
     let grids = [
         &maps.whole.lowest,
@@ -74,24 +127,43 @@ pub fn draw_all(scene: &Scene) -> Result<Vec<NamedPicture>, PictureError> {
             .map(|state| state.energy)
             .chain(sampled),
     );
-
-    type Drawing<'a> = &'a (dyn Fn() -> Result<Option<Picture>, PictureError> + Sync);
-    let drawings: [(&str, Drawing); 6] = [
-        ("map", &|| energy_map::draw(scene, &maps, &scale).map(Some)),
-        ("approach", &|| {
-            approach::draw(scene, &approach, &slices, &scale).map(Some)
-        }),
-        ("profiles", &|| profiles::draw(scene, &scale)),
-        ("docking", &|| film::draw(scene, &scale)),
-        ("models", &|| models::draw(scene)),
-        ("disconnectivity", &|| disconnectivity::draw(scene, &scale)),
+    let film = Film::new(scene, &scale);
+    let curves = Curves::new(scene);
+    let graph = |scale: EnergyScale, name| {
+        let graph = disconnectivity::composed(scene, sheet, scale, name);
+        graph.map(|graph| (graph, disconnectivity::data(scene, sheet, &scale)))
+    };
+    let drawn = [
+        Some((
+            energy_map::composed(scene, &maps, sheet, &scale),
+            energy_map::data(&maps),
+        )),
+        Some((
+            approach::composed(scene, &approach, &slices, &scale),
+            approach::data(&slices),
+        )),
+        profiles::composed(scene, &scale).map(|profiles| (profiles, profiles::data(scene))),
+        film.as_ref()
+            .map(|film| (film::composed(scene, film, &scale), film.data())),
+        curves
+            .as_ref()
+            .map(|curves| (models::composed(scene, curves), models::data(curves))),
+        graph(scale, "disconnectivity"),
+        graph(scale.linear_throughout(), "disconnectivity-linear"),
     ];
-    let pictures: Vec<_> = drawings
-        .par_iter()
-        .map(|(name, drawing)| Ok((*name, drawing()?)))
-        .collect::<Result<_, PictureError>>()?;
-    Ok(pictures
-        .into_iter()
-        .filter_map(|(name, picture)| picture.map(|picture| NamedPicture { name, picture }))
-        .collect())
+    let drawn: Vec<_> = drawn.into_iter().flatten().collect();
+    drawn
+        .into_par_iter()
+        .map(|(composition, data)| Figure::new(&composition, sheet, data))
+        .collect()
+}
+
+/// A length (m) or an angle (rad) in a table of numbers: to a micrometre.
+fn length(value: f64) -> String {
+    number((1e6 * value).round() / 1e6)
+}
+
+/// An energy (J) in a table of numbers, to five significant digits: a picture shows no more.
+fn energy(value: f64) -> String {
+    number(format!("{value:.4e}").parse().unwrap_or(value))
 }

@@ -3,16 +3,21 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{Pixel, polyline};
-use super::picture::{Area, Picture, PictureError};
+use super::composition::{Composition, Panel, part};
+use super::marks::{Box4, Pixel, polyline};
+use super::picture::{Area, PictureError};
 use super::scene::Scene;
-use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel, title, units};
+use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel};
+use super::{energy, length};
 use crate::landscape::approach::Approach;
 use crate::potential::{Interaction, MagnetModel};
+use crate::report::csv::table;
 use crate::units::{prefix_of, si};
 
-const SIZE: (u32, u32) = (1000, 440);
-const HEAD: f64 = 50.0;
+const WIDTH: f64 = 1000.0;
+const HEIGHT: f64 = 390.0;
+/// The least width (pixels) of a panel beside the other.
+const LEAST: f64 = 380.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [32.0, 24.0, 60.0, 80.0];
 const SAMPLES: usize = 101;
@@ -22,15 +27,16 @@ const FARTHEST: f64 = 5.0;
 const MARKED: [f64; 3] = [0.0, 0.1, 1.0];
 
 /// Energies (J) of both models over the gap (m).
-struct Curves {
+pub struct Curves {
     gaps: Vec<f64>,
     dipoles: Vec<f64>,
     blocks: Vec<f64>,
 }
 
 impl Curves {
-    /// `None` where there are no magnets, or the faces cannot meet along the normal.
-    fn new(scene: &Scene) -> Option<Self> {
+    /// `None` where there are no magnets, the faces cannot meet along the normal, or nothing is to
+    /// be compared.
+    pub fn new(scene: &Scene) -> Option<Self> {
         let pair = scene.pair;
         let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
         let size = magnets
@@ -57,11 +63,13 @@ impl Curves {
             let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
             gaps.iter().map(at).collect::<Vec<_>>()
         };
-        Some(Self {
+        let curves = Self {
             dipoles: energies(MagnetModel::Dipole),
             blocks: energies(MagnetModel::Cuboid),
             gaps,
-        })
+        };
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        (finite(&curves.dipoles) && finite(&curves.errors())).then_some(curves)
     }
 
     /// The dipoles' error (%) relative to the blocks' energy.
@@ -73,27 +81,35 @@ impl Curves {
     }
 }
 
-/// Two panels: energies, and the error; `None` where there is nothing to compare.
-pub fn draw(scene: &Scene) -> Result<Option<Picture>, PictureError> {
-    let Some(curves) = Curves::new(scene) else {
-        return Ok(None);
-    };
-    let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-    if !finite(&curves.dipoles) || !finite(&curves.errors()) {
-        return Ok(None);
+/// The picture: energies, and the error.
+pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
+    let height = |_| HEIGHT;
+    let energy = Panel::new("energy", LEAST, height, |root, _, place| {
+        energies(root, place, curves)
+    });
+    let error = Panel::new("error", LEAST, height, |root, _, place| {
+        errors(root, place, curves)
+    });
+    Composition {
+        name: "models".to_owned(),
+        title: format!("{}: magnets as point dipoles and as blocks", scene.name),
+        note: None,
+        width: WIDTH,
+        panels: vec![energy, error],
+        key: None,
     }
-    Picture::draw(SIZE, |root, _| {
-        let text = format!("{}: magnets as point dipoles and as blocks", scene.name);
-        title(root, &text)?;
-        let (_, body) = root.split_vertically(units(HEAD));
-        let (left, right) = body.split_horizontally(units(f64::from(SIZE.0) / 2.0));
-        energies(&left, root, &curves)?;
-        errors(&right, root, &curves)
-    })
-    .map(Some)
 }
 
-fn energies(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureError> {
+/// The numbers of the picture.
+pub fn data(curves: &Curves) -> String {
+    let columns = curves.dipoles.iter().zip(&curves.blocks);
+    let rows = curves.gaps.iter().zip(columns);
+    let rows =
+        rows.map(|(gap, (dipoles, blocks))| vec![length(*gap), energy(*dipoles), energy(*blocks)]);
+    table(["gap_m", "dipoles_J", "blocks_J"], rows)
+}
+
+fn energies(root: &Area, place: Box4, curves: &Curves) -> Result<(), PictureError> {
     let all = curves.dipoles.iter().chain(&curves.blocks);
     let (low, high) = all.fold((0.0f64, 0.0f64), |(low, high), &u| {
         (low.min(u), high.max(u))
@@ -103,7 +119,8 @@ fn energies(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureErro
     let (x_axis, metre) = gap_axis(curves);
     let range = (low - 0.05 * span) / joule..(high + 0.05 * span) / joule;
     let y_axis = Axis::linear(range, 6, format!("energy U ({prefix}J)"));
-    let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
+    let area = part(root, place);
+    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
     let at = |gap: f64, energy: f64| pixel(&chart, gap / metre, energy / joule);
     heading(root, at(0.0, high + 0.05 * span), "energy over the gap")?;
     let named = [
@@ -127,12 +144,13 @@ fn energies(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureErro
     Ok(())
 }
 
-fn errors(area: &Area, root: &Area, curves: &Curves) -> Result<(), PictureError> {
+fn errors(root: &Area, place: Box4, curves: &Curves) -> Result<(), PictureError> {
     let errors = curves.errors();
     let most = errors.iter().copied().fold(1.0, f64::max);
     let (x_axis, metre) = gap_axis(curves);
     let y_axis = Axis::linear(0.0..1.1 * most, 6, "error of the dipoles' energy (%)");
-    let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
+    let area = part(root, place);
+    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
     let at = |gap: f64, error: f64| pixel(&chart, gap / metre, error);
     heading(root, at(0.0, 1.1 * most), "relative to the blocks")?;
     let points = || curves.gaps.iter().zip(&errors);

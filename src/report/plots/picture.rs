@@ -1,4 +1,4 @@
-//! A finished picture: the same drawing as SVG and as PNG.
+//! A finished picture: the same drawing as SVG, as PNG and, for print, as PDF.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -8,7 +8,10 @@ use std::fmt::Write;
 use tiny_skia::{Color, Pixmap, PixmapPaint, PremultipliedColorU8, Transform};
 
 use super::canvas::Canvas;
+use super::pdf::PdfPage;
 use super::raster::{Raster, draw_stretched};
+use super::shapes::{Lettering, Painter};
+use super::sheet::Sheet;
 use super::style::FAMILY;
 
 /// Drawing units per pixel. plotters places everything on whole units; tenths of a pixel keep
@@ -25,6 +28,8 @@ pub struct Picture {
     pub svg: String,
     /// A whole file.
     pub png: Vec<u8>,
+    /// A whole file; for print only.
+    pub pdf: Option<Vec<u8>>,
 }
 
 /// Why a picture could not be drawn.
@@ -66,41 +71,60 @@ impl Picture {
     /// # Errors
     /// Where plotters cannot lay the drawing out or the PNG cannot be encoded.
     pub fn draw(
+        sheet: &Sheet,
+        title: &str,
         (width, height): (u32, u32),
         drawing: impl FnOnce(&Area, &mut Vec<Underlay>) -> Result<(), PictureError>,
     ) -> Result<Self, PictureError> {
-        let mut raster = Raster::new(width, height, UNITS)
-            .ok_or_else(|| PictureError::Layout(format!("no {width} x {height} pixels")))?;
+        let unit = f64::from(UNITS);
+        // Pixels of the PNG a unit.
+        let fine = sheet.dots() / unit;
+        let size = (width * UNITS, height * UNITS);
+        let pixels = [size.0, size.1].map(|side| (f64::from(side) * fine).round() as u32);
+        let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
+        let mut raster = Raster::new(pixels[0], pixels[1], 1.0 / fine).ok_or_else(none)?;
+        let lettering = Lettering::new().ok_or_else(|| PictureError::Layout("no font".into()))?;
+        let mut pdf = sheet.millimetres().map(|_| PdfPage::new());
         let mut elements = String::new();
         let mut underlays = Vec::new();
         {
-            let size = (width * UNITS, height * UNITS);
-            let area = Canvas::new(&mut elements, &mut raster, size).into_drawing_area();
+            let mut painters: Vec<&mut dyn Painter> = vec![&mut raster];
+            painters.extend(pdf.as_mut().map(|page| page as &mut dyn Painter));
+            let canvas = Canvas::new(&mut elements, painters, lettering, size);
+            let area = canvas.into_drawing_area();
             drawing(&area, &mut underlays)?;
             area.present()?;
         }
+        let millimetres = sheet.millimetres();
         Ok(Self {
-            svg: svg(&elements, &underlays, width, height)?,
-            png: png(&raster.into_pixmap(), &underlays)?,
+            svg: svg(&elements, &underlays, (width, height), millimetres)?,
+            png: png(&raster.into_pixmap(), &underlays, fine)?,
+            pdf: pdf.zip(millimetres).map(|(page, millimetres)| {
+                page.finish(title, &underlays, size, millimetres / unit)
+            }),
         })
     }
 }
 
-/// The SVG document: plotters' elements with a head of our own (size in pixels, coordinates in
+/// The SVG document: plotters' elements with a head of our own (size in pixels or mm, coordinates in
 /// units, round joins) and the bitmaps beneath them.
 fn svg(
     elements: &str,
     underlays: &[Underlay],
-    width: u32,
-    height: u32,
+    (width, height): (u32, u32),
+    millimetres: Option<f64>,
 ) -> Result<String, PictureError> {
     let body = elements.split_once('>').map_or("", |(_, body)| body);
     // What all elements share is said once.
     let body = body
         .replace(" opacity=\"1\"", "")
         .replace(&format!(" font-family=\"{FAMILY}\""), "");
+    let [across, down] = [width, height].map(|side| match millimetres {
+        Some(pixel) => format!("{:.3}mm", f64::from(side) * pixel),
+        None => side.to_string(),
+    });
     let mut document = format!(
-        "<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
+        "<svg width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {} {}\" \
          stroke-linejoin=\"round\" font-family=\"{FAMILY}\" xmlns=\"http://www.w3.org/2000/svg\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>",
         width * UNITS,
@@ -122,12 +146,13 @@ fn svg(
     Ok(document)
 }
 
-fn png(drawing: &Pixmap, underlays: &[Underlay]) -> Result<Vec<u8>, PictureError> {
+/// `fine`: pixels a unit.
+fn png(drawing: &Pixmap, underlays: &[Underlay], fine: f64) -> Result<Vec<u8>, PictureError> {
     let mut page = drawing.clone();
     page.fill(Color::WHITE);
     for underlay in underlays {
         if let Some(image) = pixmap(&underlay.bitmap) {
-            let [left, top, right, bottom] = underlay.rectangle.map(|c| c as f32 / UNITS as f32);
+            let [left, top, right, bottom] = underlay.rectangle.map(|c| c as f32 * fine as f32);
             draw_stretched(&mut page, &image, [left, top, right - left, bottom - top]);
         }
     }

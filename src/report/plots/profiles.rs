@@ -5,48 +5,67 @@ use ordered_float::OrderedFloat;
 use plotters::prelude::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::composition::{Composition, Panel, part};
 use super::labels::Labels;
-use super::marks::{Mark, Pixel, marker, polygon, polyline};
-use super::picture::{Area, Picture, PictureError};
+use super::marks::{Box4, Mark, Pixel, above, marker, polygon, polyline};
+use super::picture::{Area, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{
-    Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title, units,
-};
+use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
+use super::{energy, length};
 use crate::landscape::{Barrier, Place, SaddleBounds};
+use crate::report::csv::{SEEN, table, thinned};
+use crate::report::names::place_name;
 use crate::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
-const HEAD: f64 = 50.0;
-const PANEL_HEIGHT: f64 = 290.0;
+const PANEL_HEIGHT: f64 = 306.0;
+/// The least width (pixels) of a panel beside another.
+const LEAST: f64 = 400.0;
 /// Pathways shown.
 const MOST: usize = 6;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
-const MARGIN: [f64; 4] = [32.0, 20.0, 60.0, 80.0];
+const MARGIN: [f64; 4] = [48.0, 20.0, 60.0, 80.0];
 
 /// One panel a pathway out of a state; `None` where no pathway is known.
-pub fn draw(scene: &Scene, scale: &EnergyScale) -> Result<Option<Picture>, PictureError> {
-    let mut barriers = scene.main_escapes();
-    barriers.truncate(MOST);
-    if barriers.is_empty() {
-        return Ok(None);
-    }
-    let columns = barriers.len().min(2);
-    let rows = barriers.len().div_ceil(columns);
-    let height = HEAD + PANEL_HEIGHT * rows as f64;
-    Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        title(
-            root,
-            &format!("{}: energy along the pathways out", scene.name),
-        )?;
-        let (_, body) = root.split_vertically(units(HEAD));
-        let areas = body.split_evenly((rows, columns));
-        for (area, barrier) in areas.iter().zip(&barriers) {
-            draw_panel(area, root, scene, scale, barrier)?;
-        }
-        Ok(())
+pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composition<'a>> {
+    let barriers = scene.main_escapes();
+    let panel = |barrier: &&'a Barrier| {
+        let barrier = *barrier;
+        let [from, to] = [barrier.from, barrier.to].map(place_name);
+        let draw = move |root: &Area, _: &mut Vec<_>, place| {
+            draw_panel(root, place, scene, scale, barrier)
+        };
+        Panel::new(format!("{from}-{to}"), LEAST, |_| PANEL_HEIGHT, draw)
+    };
+    let more = match barriers.len().saturating_sub(MOST) {
+        0 => None,
+        1 => Some("1 way out of a shallower state not shown".to_owned()),
+        more => Some(format!("{more} ways out of shallower states not shown")),
+    };
+    (!barriers.is_empty()).then(|| Composition {
+        name: "profiles".to_owned(),
+        title: format!("{}: energy along the pathways out", scene.name),
+        note: more,
+        width: WIDTH,
+        panels: barriers.iter().take(MOST).map(panel).collect(),
+        key: None,
     })
-    .map(Some)
+}
+
+/// The numbers of the picture.
+pub fn data(scene: &Scene) -> String {
+    let barriers = scene.main_escapes().into_iter().take(MOST);
+    let rows = barriers.flat_map(|barrier| {
+        let ends = [barrier.from, barrier.to].map(place_name);
+        thinned(&barrier.pathway, SEEN)
+            .into_iter()
+            .map(move |point| {
+                let [from, to] = ends.clone();
+                vec![from, to, length(point.s), energy(point.energy)]
+            })
+    });
+    table(["from", "to", "s_m", "energy_J"], rows)
 }
 
 /// A panel's plot: where its points lie on the picture.
@@ -73,8 +92,8 @@ fn shown_length(barrier: &Barrier, low: f64) -> f64 {
 }
 
 fn draw_panel(
-    area: &Area,
     root: &Area,
+    place: Box4,
     scene: &Scene,
     scale: &EnergyScale,
     barrier: &Barrier,
@@ -90,7 +109,8 @@ fn draw_panel(
     let x_axis = Axis::linear(0.0..length / metre, 7, name);
     let name = format!("energy U ({prefix}J)");
     let y_axis = Axis::linear(low / joule..high / joule, 6, name);
-    let chart = chart(area, MARGIN, &x_axis, &y_axis, true)?;
+    let area = part(root, place);
+    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
     let at = |s: f64, energy: f64| pixel(&chart, (s - start) / metre, energy / joule);
     let (corner, opposite) = (at(start, high), at(start + length, low));
     PathwayPlot {
@@ -135,7 +155,7 @@ impl PathwayPlot<'_, '_> {
         Text::new(LABEL).bold().write(
             self.root,
             &format!("{} \u{2192} {}", names[0], names[1]),
-            (self.left, self.top - 8.0),
+            (self.left, self.top - 25.0),
             (HPos::Left, VPos::Bottom),
         )?;
         self.bounds()?;
@@ -189,8 +209,8 @@ impl PathwayPlot<'_, '_> {
         Text::new(SMALL).colour(GREEN).write(
             self.root,
             &format!("certified {lower} to {upper}"),
-            (self.right, self.top - 8.0),
-            (HPos::Right, VPos::Bottom),
+            (self.left, self.top - 7.0),
+            (HPos::Left, VPos::Bottom),
         )
     }
 
@@ -235,12 +255,14 @@ impl PathwayPlot<'_, '_> {
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
     fn ends(&self, labels: &mut Labels, curve: &[Pixel]) -> Result<(), PictureError> {
         let barrier = self.barrier;
-        let name = |place: Place, energy: f64| {
-            format!(
+        // A way to `free` ends where the tiles are apart, not where the energy is zero.
+        let name = |place: Place, energy: f64| match place {
+            Place::Free => "free: U \u{2192} 0".to_owned(),
+            _ => format!(
                 "{} {}",
                 self.scene.name_of(place),
                 self.scale.label(energy, 4)
-            )
+            ),
         };
         let font = Text::new(SMALL);
         marker(self.root, self.scene.mark_of(barrier.from), curve[0], 6.5)?;
@@ -260,53 +282,5 @@ impl PathwayPlot<'_, '_> {
             let exit = seen.copied().unwrap_or((end.0, self.bottom - 12.0));
             labels.place(self.root, &text, font, exit, Vector2::new(-1.0, 0.0))
         }
-    }
-}
-
-/// The pieces of a curve above the height `floor` (pixels grow downwards).
-fn above(curve: &[Pixel], floor: f64) -> Vec<Vec<Pixel>> {
-    let mut pieces = Vec::new();
-    let mut piece: Vec<Pixel> = Vec::new();
-    for pair in curve.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        let crossing = || {
-            let t = (floor - a.1) / (b.1 - a.1);
-            (a.0 + (b.0 - a.0) * t, floor)
-        };
-        if piece.is_empty() && a.1 <= floor {
-            piece.push(a);
-        }
-        match (a.1 <= floor, b.1 <= floor) {
-            (true, true) => piece.push(b),
-            (true, false) => {
-                piece.push(crossing());
-                pieces.push(std::mem::take(&mut piece));
-            }
-            (false, true) => piece = vec![crossing(), b],
-            (false, false) => {}
-        }
-    }
-    if !piece.is_empty() {
-        pieces.push(piece);
-    }
-    pieces
-}
-
-#[cfg(test)]
-mod tests {
-    use super::above;
-
-    #[test]
-    fn a_curve_is_cut_where_it_dips_below_the_floor() {
-        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 12.0), (3.0, 8.0), (4.0, 12.0)];
-        let first = vec![(0.0, 0.0), (1.0, 8.0), (1.5, 10.0)];
-        let second = vec![(2.5, 10.0), (3.0, 8.0), (3.5, 10.0)];
-        assert_eq!(above(&curve, 10.0), [first, second]);
-    }
-
-    #[test]
-    fn a_curve_above_the_floor_stays_whole() {
-        let curve = [(0.0, 0.0), (1.0, 8.0), (2.0, 3.0)];
-        assert_eq!(above(&curve, 10.0), [curve.to_vec()]);
     }
 }

@@ -4,37 +4,42 @@
 use plotters::prelude::{Color, RGBColor, WHITE};
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::curves::caption;
-use super::marks::{Pixel, polygon, polyline};
-use super::picture::{Area, Picture, PictureError};
+use super::composition::{Composition, Panel, part};
+use super::curve::caption;
+use super::marks::{Box4, Pixel, polygon, polyline};
+use super::picture::{Area, PictureError};
 use super::style::{
-    Axis, BLUE, Chart, GREEN, GRID, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel, title,
-    units,
+    Axis, BLUE, Chart, GREEN, GRID, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel,
 };
+use super::{Figure, Sheet};
 use crate::comparison::quantity::{Measure, Place, placed};
 use crate::comparison::{Assessment, Quantity};
 use crate::report::comparison::Comparison;
 use crate::report::figures::Shown;
 
 const WIDTH: f64 = 1120.0;
-/// Above the panels: the title and their headings with keys (pixels).
-const HEAD: f64 = 104.0;
+/// Above the rows: the heading and its key (pixels).
+const HEAD: f64 = 54.0;
 /// Height of a design's row (pixels).
 const ROW: f64 = 44.0;
-/// Below the panels: axes (pixels).
+/// Below the rows: the axis (pixels).
 const FOOT: f64 = 66.0;
-/// Left and right of the plots (pixels), their headings, and how far beyond the greatest value their
-/// axes go.
-const PLOTS: [((f64, f64), &str, f64); 3] = [
-    ((230.0, 540.0), "depth", 1.22),
-    ((580.0, 860.0), "barrier, certified bounds", 1.06),
-    ((900.0, 1090.0), "captured, 95 % interval", 1.0),
+/// Space for the names of designs left of the first panel of a row, and left of others (pixels).
+const NAMES: f64 = 230.0;
+const GAP: f64 = 40.0;
+/// Space right of a plot (pixels).
+const RIGHT: f64 = 20.0;
+/// Names of the panels' files, their shares of the width, their headings, and how far beyond the
+/// greatest value their axes go.
+const PLOTS: [(&str, f64, &str, f64); 3] = [
+    ("depth", 550.0, "depth", 1.22),
+    ("barrier", 320.0, "barrier, certified bounds", 1.06),
+    ("captured", 250.0, "captured, 95 % interval", 1.0),
 ];
 const COLOURS: [RGBColor; 3] = [BLUE, GREEN, VERMILLION];
 
 /// What a panel shows of each design.
 struct RankingPanel {
-    place: (f64, f64),
     heading: &'static str,
     /// How numbers are shown.
     shown: Shown,
@@ -49,20 +54,36 @@ struct RankingPanel {
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn draw(comparison: &Comparison) -> Result<Picture, PictureError> {
+pub fn draw(comparison: &Comparison, sheet: &Sheet) -> Result<Figure, PictureError> {
     let rows = comparison.designs.len();
-    let height = HEAD + ROW * rows as f64 + FOOT;
-    Picture::draw((WIDTH as u32, height as u32), |root, _| {
-        let text = format!("{rows} designs ranked by {}", comparison.by.label);
-        title(root, &text)?;
-        for (number, panel) in panels(comparison).iter().enumerate() {
-            panel.draw(root, comparison, number)?;
-        }
-        for (row, design) in comparison.designs.iter().enumerate() {
-            name(root, design, middle(row))?;
-        }
-        Ok(())
-    })
+    let height = move |_| HEAD + ROW * rows as f64 + FOOT;
+    let panels = PLOTS.iter().zip(panels(comparison)).enumerate();
+    let panels = panels.map(|(number, (&(name, weight, ..), panel))| {
+        let draw = move |root: &Area, _: &mut Vec<_>, place: Box4| {
+            let narrow = place[2] - place[0] < 0.5 * WIDTH;
+            let names = if narrow { 0.6 * NAMES } else { NAMES };
+            // The names stand left of the first panel of each row.
+            let gap = if place[0] > 0.0 { GAP } else { names };
+            let [left, top, right, bottom] = place;
+            let plot = [left + gap, top + HEAD, right - RIGHT, bottom - FOOT];
+            if place[0] == 0.0 {
+                for (row, design) in comparison.designs.iter().enumerate() {
+                    name_of(root, design, [left, names], plot[1] + middle(row))?;
+                }
+            }
+            panel.draw(root, comparison, number, plot)
+        };
+        Panel::new(name, 0.8 * weight, height, draw).weighing(weight)
+    });
+    let composition = Composition {
+        name: "ranking".to_owned(),
+        title: format!("{rows} designs ranked by {}", comparison.by.label),
+        note: None,
+        width: WIDTH,
+        panels: panels.collect(),
+        key: None,
+    };
+    Figure::new(&composition, sheet, comparison.csv())
 }
 
 fn panels(comparison: &Comparison) -> Vec<RankingPanel> {
@@ -72,13 +93,14 @@ fn panels(comparison: &Comparison) -> Vec<RankingPanel> {
     let rows = all.chunk_by(|(a, _), (b, _)| a.row == b.row);
     let panels = PLOTS.iter().zip(rows);
     panels
-        .map(|(plot, all)| panel(comparison, plot, all))
+        .map(|((.., heading, room), all)| panel(comparison, heading, *room, all))
         .collect()
 }
 
 fn panel(
     comparison: &Comparison,
-    &(place, heading, room): &((f64, f64), &'static str, f64),
+    heading: &'static str,
+    room: f64,
     all: &[(Place, &'static Quantity)],
 ) -> RankingPanel {
     let (ratios, entries): (Vec<_>, Vec<_>) = all
@@ -96,7 +118,6 @@ fn panel(
     };
     let shown = Shown::new(measure, most);
     RankingPanel {
-        place,
         heading,
         end: room * most / shown.unit,
         shown,
@@ -109,18 +130,22 @@ fn colour(place: &Place) -> RGBColor {
     COLOURS[usize::from(place.column) % COLOURS.len()]
 }
 
-/// The middle of a design's row (pixels).
+/// The middle of a design's row below the first row's top (pixels).
 fn middle(row: usize) -> f64 {
-    HEAD + ROW * (row as f64 + 0.5)
+    ROW * (row as f64 + 0.5)
 }
 
-fn name(root: &Area, design: &Assessment, y: f64) -> Result<(), PictureError> {
-    let right = PLOTS[0].0.0 - 14.0;
+/// A design's name, right-aligned in a column that begins at `left` and is so wide (pixels).
+fn name_of(
+    root: &Area,
+    design: &Assessment,
+    [left, width]: [f64; 2],
+    y: f64,
+) -> Result<(), PictureError> {
+    let right = left + width - 14.0;
     let mut font = Text::new(LABEL);
-    let width = font.width(&design.name);
-    if width > right - 10.0 {
-        font.size *= (right - 10.0) / width;
-    }
+    let (room, wide) = (right - left - 10.0, font.width(&design.name));
+    font.size *= (room / wide).min(1.0);
     font.write(root, &design.name, (right, y), (HPos::Right, VPos::Center))
 }
 
@@ -130,49 +155,44 @@ impl RankingPanel {
         root: &Area,
         comparison: &Comparison,
         number: usize,
+        plot: Box4,
     ) -> Result<(), PictureError> {
         let rows = comparison.designs.len();
-        let (left, right) = self.place;
-        let bottom = HEAD + ROW * rows as f64;
-        let area = root
-            .split_horizontally(units(right))
-            .0
-            .split_vertically(units(bottom + FOOT))
-            .0;
-        let area = area.split_horizontally(units(left - 20.0)).1;
-        let x = Axis::linear(0.0..self.end, 5, self.shown.axis());
+        let [left, top, right, bottom] = plot;
+        let area = part(root, [left - 20.0, top, right, bottom + FOOT]);
+        let count = if right - left < 240.0 { 4 } else { 5 };
+        let x = Axis::linear(0.0..self.end, count, self.shown.axis());
         let y = Axis {
             range: 0.0..rows as f64,
             ticks: Vec::new(),
             name: String::new(),
         };
-        let chart = chart(&area, [HEAD, 0.0, FOOT, 20.0], &x, &y, true)?;
-        self.heading(root)?;
+        let chart = chart(&area, [0.0, 0.0, FOOT, 20.0], &x, &y, true)?;
+        self.heading(root, (left, top))?;
         for (row, design) in comparison.designs.iter().enumerate() {
-            let y = middle(row);
+            let y = top + middle(row);
             if row > 0 {
                 let edge = y - ROW / 2.0;
                 polyline(root, &[(left, edge), (right, edge)], GRID, 1.0)?;
             }
             match number {
-                0 => self.bars(root, &chart, design, y)?,
-                _ => self.points(root, &chart, design, y)?,
+                0 => self.bars(root, &chart, design, (left, y))?,
+                _ => self.points(root, &chart, design, [left, right], y)?,
             }
         }
         Ok(())
     }
 
     /// The heading with a key for each colour.
-    fn heading(&self, root: &Area) -> Result<(), PictureError> {
-        let left = self.place.0;
-        caption(root, self.heading, (left, HEAD - 34.0))?;
+    fn heading(&self, root: &Area, (left, top): Pixel) -> Result<(), PictureError> {
+        caption(root, self.heading, (left, top - 34.0))?;
         if self.entries.len() < 2 {
             return Ok(());
         }
         let mut x = left;
         for (place, _) in &self.entries {
             let name = place.heading;
-            let y = HEAD - 16.0;
+            let y = top - 16.0;
             block(root, [x, y - 5.0, x + 10.0, y + 5.0], colour(place))?;
             let font = Text::new(SMALL);
             font.write(root, name, (x + 15.0, y), (HPos::Left, VPos::Center))?;
@@ -191,16 +211,16 @@ impl RankingPanel {
         root: &Area,
         chart: &Chart,
         design: &Assessment,
-        y: f64,
+        (left, y): Pixel,
     ) -> Result<(), PictureError> {
-        let mut end = self.place.0;
+        let mut end = left;
         for (k, (place, quantity)) in self.entries.iter().enumerate() {
             let Some(estimate) = quantity.of(design) else {
                 continue;
             };
             let x = self.at(chart, estimate.value);
             let top = y - 14.0 + 15.0 * k as f64;
-            block(root, [self.place.0, top, x, top + 13.0], colour(place))?;
+            block(root, [left, top, x, top + 13.0], colour(place))?;
             end = end.max(x);
         }
         for ratio in &self.ratios {
@@ -219,6 +239,7 @@ impl RankingPanel {
         root: &Area,
         chart: &Chart,
         design: &Assessment,
+        [left, right]: [f64; 2],
         y: f64,
     ) -> Result<(), PictureError> {
         let count = self.entries.len() as f64;
@@ -229,8 +250,8 @@ impl RankingPanel {
             };
             if estimate.value.is_infinite() {
                 let font = Text::new(SMALL).colour(colour(place));
-                let at = (self.place.1 - 4.0, y);
-                font.write(root, "no way", at, (HPos::Right, VPos::Center))?;
+                let at = (right - 4.0, y);
+                font.write(root, "caged, proved", at, (HPos::Right, VPos::Center))?;
                 continue;
             }
             if let (Some(low), Some(high)) = (estimate.low, estimate.high) {
@@ -244,7 +265,7 @@ impl RankingPanel {
             && let Err(why) = (quantity.read)(design)
         {
             let font = Text::new(SMALL).colour(SOFT);
-            let at = (self.place.0 + 6.0, y);
+            let at = (left + 6.0, y);
             font.write(root, why, at, (HPos::Left, VPos::Center))?;
         }
         Ok(())

@@ -45,12 +45,14 @@ pub fn colour(position: f64) -> [u8; 3] {
 }
 
 /// A symmetric scale of energies, linear about zero and logarithmic beyond: the position of U is
-/// `asinh(U / U0) / asinh(Umax / U0)`, in [-1, 1], with `U0 = Umax / 10 000`.
+/// `asinh(U / U0) / asinh(Umax / U0)`, in [-1, 1], with `U0 = Umax / 10 000`. Or linear
+/// throughout: U / Umax.
 ///
 /// Energies of a pair of tiles span four decades and both signs; zero stays in the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyScale {
     most: f64,
+    is_linear: bool,
 }
 
 impl EnergyScale {
@@ -66,6 +68,23 @@ impl EnergyScale {
             .fold(0.0, f64::max);
         Self {
             most: if most > 0.0 { most } else { 1.0 },
+            is_linear: false,
+        }
+    }
+
+    /// The same energies on a scale that is linear throughout.
+    pub fn linear_throughout(self) -> Self {
+        Self {
+            is_linear: true,
+            ..self
+        }
+    }
+
+    /// The name of an axis or a bar of energies.
+    pub fn axis(&self) -> String {
+        match self.is_linear {
+            true => "energy U".to_owned(),
+            false => format!("energy U (log beyond \u{b1}{})", si(self.linear(), "J", 2)),
         }
     }
 
@@ -79,12 +98,22 @@ impl EnergyScale {
     }
 
     pub fn position(&self, energy: f64) -> f64 {
+        if self.is_linear {
+            return (energy / self.most).clamp(-1.0, 1.0);
+        }
         let full = (self.most / self.linear()).asinh();
         ((energy / self.linear()).asinh() / full).clamp(-1.0, 1.0)
     }
 
-    /// Zero and the powers of ten beyond the linear part, between two positions.
+    /// Zero and the powers of ten beyond the linear part, between two positions; round numbers on a
+    /// linear scale.
     pub fn ticks(&self, low: f64, high: f64) -> Vec<f64> {
+        if self.is_linear {
+            let step = round_step((high - low) * self.most / 8.0);
+            let ends = [low, high].map(|end| end * self.most / step);
+            let steps = ends[0].ceil() as i64..=ends[1].floor() as i64;
+            return steps.map(|k| k as f64 * step).collect();
+        }
         let top = self.most.log10().floor() as i32;
         let powers = (top - Self::DECADES + 1..=top).map(|k| 10f64.powi(k));
         let mut ticks: Vec<f64> = powers.flat_map(|u| [-u, u]).chain([0.0]).collect();
@@ -96,6 +125,11 @@ impl EnergyScale {
         ticks
     }
 
+    /// The text of a tick.
+    pub fn tick(&self, energy: f64) -> String {
+        self.label(energy, if self.is_linear { 2 } else { 1 })
+    }
+
     /// An energy with its unit, as 0 where it is lost on this scale.
     pub fn label(&self, energy: f64, digits: usize) -> String {
         if energy.abs() < 1e-3 * self.linear() {
@@ -103,6 +137,16 @@ impl EnergyScale {
         }
         minus(&si(energy, "J", digits))
     }
+}
+
+/// The round number 1, 2 or 5 times a power of ten nearest above `step`.
+pub fn round_step(step: f64) -> f64 {
+    let power = 10f64.powf(step.log10().floor());
+    let multiple = [1.0, 2.0, 5.0]
+        .into_iter()
+        .find(|m| m * power >= step * (1.0 - 1e-9))
+        .unwrap_or(10.0);
+    multiple * power
 }
 
 /// A number's text with a true minus sign.
@@ -147,6 +191,17 @@ mod tests {
         assert!(ticks.contains(&0.0) && ticks.contains(&-0.01));
         assert!(ticks.iter().all(|&u| scale.position(u) <= 0.3));
         assert!(ticks.is_sorted());
+    }
+
+    #[test]
+    fn a_linear_scale_has_round_ticks_and_no_logarithm() {
+        let scale = EnergyScale::holding([-0.065]).linear_throughout();
+        assert_eq!(scale.position(-0.0325), -0.5);
+        let ticks = scale.ticks(-1.0, 0.1);
+        let texts: Vec<String> = ticks.iter().map(|u| scale.label(*u, 1)).collect();
+        assert!(texts.contains(&"\u{2212}60 mJ".to_owned()), "{texts:?}");
+        assert!((5..10).contains(&texts.len()));
+        assert!(!scale.axis().contains("log"));
     }
 
     #[test]

@@ -9,8 +9,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::canvas::Canvas;
 use super::picture::{Area, PictureError, UNITS};
-use super::raster::{PLOTTERS_FONT_SCALE, text_width};
-use super::scale::minus;
+use super::scale::{minus, round_step};
+use super::shapes::{PLOTTERS_FONT_SCALE, text_width};
 
 pub const INK: RGBColor = RGBColor(34, 34, 34);
 pub const SOFT: RGBColor = RGBColor(105, 105, 105);
@@ -107,13 +107,6 @@ impl Text {
     }
 }
 
-/// Writes the picture's title at the top left.
-pub fn title(root: &Area, text: &str) -> Result<(), PictureError> {
-    Text::new(TITLE)
-        .bold()
-        .write(root, text, (20.0, 16.0), (HPos::Left, VPos::Top))
-}
-
 /// One axis of a chart: its range, the ticks with their labels, and what is plotted.
 #[derive(Clone, Debug)]
 pub struct Axis {
@@ -184,16 +177,6 @@ impl ValueFormatter<f64> for Axis {
         let tick = self.ticks.iter().find(|(tick, _)| tick == value);
         tick.map_or_else(String::new, |(_, label)| label.clone())
     }
-}
-
-/// The round number 1, 2 or 5 times a power of ten nearest above `step`.
-fn round_step(step: f64) -> f64 {
-    let power = 10f64.powf(step.log10().floor());
-    let multiple = [1.0, 2.0, 5.0]
-        .into_iter()
-        .find(|m| m * power >= step * (1.0 - 1e-9))
-        .unwrap_or(10.0);
-    multiple * power
 }
 
 pub type Chart<'a, 'b> = ChartContext<'a, Canvas<'b>, Cartesian2d<Axis, Axis>>;

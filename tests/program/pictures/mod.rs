@@ -7,16 +7,27 @@ use std::sync::OnceLock;
 
 use paper_tile::{Pair, pair};
 use tilebind::landscape::Inventory;
-use tilebind::report::plots::{NamedPicture, Scene, draw_all};
+use tilebind::report::plots::{Figure, Picture, Scene, Sheet, draw_all};
 
-fn draw(pair: &Pair, inventory: &Inventory) -> Vec<NamedPicture> {
+fn draw(pair: &Pair, inventory: &Inventory, sheet: &Sheet) -> Vec<Figure> {
     let scene = Scene::new(&pair.design, &pair.problem, inventory);
-    draw_all(&scene).unwrap()
+    draw_all(&scene, sheet).unwrap()
 }
 
-fn pictures() -> &'static [NamedPicture] {
-    static PICTURES: OnceLock<Vec<NamedPicture>> = OnceLock::new();
-    PICTURES.get_or_init(|| draw(pair(), &pair().inventory))
+fn figures() -> &'static [Figure] {
+    static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
+    FIGURES.get_or_init(|| draw(pair(), &pair().inventory, &Sheet::SCREEN))
+}
+
+/// All pictures by their names.
+fn pictures() -> impl Iterator<Item = &'static (String, Picture)> {
+    figures().iter().flat_map(|figure| &figure.pictures)
+}
+
+/// The texts of a picture.
+fn texts_of(name: &str) -> Vec<&'static str> {
+    let (_, picture) = pictures().find(|(known, _)| known == name).unwrap();
+    texts(&picture.svg)
 }
 
 /// The texts of an SVG document, in order.
@@ -32,7 +43,7 @@ fn texts(svg: &str) -> Vec<&str> {
 
 #[test]
 fn every_picture_says_what_it_shows() {
-    let expected: [(&str, &[&str]); 6] = [
+    let expected: [(&str, &[&str]); 7] = [
         (
             "map",
             &[
@@ -72,7 +83,7 @@ fn every_picture_says_what_it_shows() {
                 "0",
                 "trap B \u{2212}16.03 mJ",
                 "\u{2193} bond A \u{2212}65.47 mJ",
-                "free 0 J",
+                "free: U \u{2192} 0",
             ],
         ),
         (
@@ -100,7 +111,7 @@ fn every_picture_says_what_it_shows() {
         (
             "disconnectivity",
             &[
-                "energy U",
+                "energy U (log beyond \u{b1}6.5 µJ)",
                 "0",
                 "free",
                 "bond A",
@@ -108,25 +119,28 @@ fn every_picture_says_what_it_shows() {
                 "\u{d7}16",
             ],
         ),
+        (
+            "disconnectivity-linear",
+            &["energy U", "0", "bond A", "\u{2212}20 mJ", "\u{2212}40 mJ"],
+        ),
     ];
-    let pictures = pictures();
-    for ((name, labels), drawn) in expected.iter().zip(pictures) {
-        assert_eq!(*name, drawn.name);
-        let texts = texts(&drawn.picture.svg);
+    for ((name, labels), (drawn, picture)) in expected.iter().zip(pictures()) {
+        assert_eq!(name, drawn);
+        let texts = texts(&picture.svg);
         for label in *labels {
             assert!(texts.contains(label), "{name}: no {label:?} in {texts:?}");
         }
         // For the eye: target/tmp/NAME.svg and .png.
         let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
-        std::fs::write(folder.join(format!("{name}.svg")), &drawn.picture.svg).unwrap();
-        std::fs::write(folder.join(format!("{name}.png")), &drawn.picture.png).unwrap();
+        std::fs::write(folder.join(format!("{name}.svg")), &picture.svg).unwrap();
+        std::fs::write(folder.join(format!("{name}.png")), &picture.png).unwrap();
     }
-    assert_eq!(pictures.len(), expected.len());
+    assert_eq!(pictures().count(), expected.len());
 }
 
 #[test]
 fn barriers_are_marked_with_their_height_and_their_bounds() {
-    let texts = texts(&pictures()[2].picture.svg);
+    let texts = texts_of("profiles");
     let slid = pair().inventory.escape(&pair().problem, 16).unwrap();
     let height = tilebind::units::si(slid.forward(), "J", 4);
     assert!(texts.contains(&format!("barrier {height}").as_str()));
@@ -135,7 +149,7 @@ fn barriers_are_marked_with_their_height_and_their_bounds() {
 
 #[test]
 fn pictures_are_compact_and_both_forms_have_the_same_size() {
-    for NamedPicture { name, picture } in pictures() {
+    for (name, picture) in pictures() {
         assert!(picture.svg.len() < 300_000, "{name}: {}", picture.svg.len());
         assert!(picture.png.len() < 300_000, "{name}: {}", picture.png.len());
         let decoder = png::Decoder::new(std::io::Cursor::new(&picture.png));
@@ -151,7 +165,7 @@ fn pictures_are_compact_and_both_forms_have_the_same_size() {
 
 #[test]
 fn an_svg_is_well_formed() {
-    for NamedPicture { name, picture } in pictures() {
+    for (name, picture) in pictures() {
         let mut open = Vec::new();
         for tag in picture.svg.split('<').skip(1) {
             let (tag, _) = tag.split_once('>').unwrap();
@@ -171,18 +185,107 @@ fn pictures_do_not_depend_on_the_number_of_threads() {
     let alone = one
         .build()
         .unwrap()
-        .install(|| draw(pair(), &pair().inventory));
+        .install(|| draw(pair(), &pair().inventory, &print()));
     let three = rayon::ThreadPoolBuilder::new().num_threads(3);
     let together = three
         .build()
         .unwrap()
-        .install(|| draw(pair(), &pair().inventory));
+        .install(|| draw(pair(), &pair().inventory, &print()));
     assert!(alone == together);
+}
+
+fn print() -> Sheet {
+    Sheet::for_print(85.0, 7.0).unwrap()
+}
+
+/// Two columns of a journal are no wider than one figure: text keeps its size, panels move below
+/// each other, and no title repeats the caption.
+#[test]
+fn pictures_for_print_have_the_width_that_was_asked_for() {
+    for figure in draw(pair(), &pair().inventory, &print()) {
+        let [(name, picture)] = &figure.pictures[..] else {
+            panic!("{} pictures", figure.pictures.len());
+        };
+        assert!(!picture.svg.contains("paper-tile:"), "{name} has a title");
+        let size = picture.svg.split_once("width=\"").unwrap().1;
+        let width: f64 = size.split_once("mm\"").unwrap().0.parse().unwrap();
+        assert!((width - 85.0).abs() < 1e-3, "{name}: {width}");
+        let pdf = picture.pdf.as_ref().unwrap();
+        let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(folder.join(format!("{name}-85mm.pdf")), pdf).unwrap();
+        std::fs::write(folder.join(format!("{name}-85mm.png")), &picture.png).unwrap();
+        assert!(
+            pdf.starts_with(b"%PDF-1.7") && pdf.ends_with(b"%%EOF"),
+            "{name}"
+        );
+        let text = String::from_utf8_lossy(pdf);
+        let page = text.split_once("/MediaBox [0 0 ").unwrap().1;
+        let points: f64 = page.split_once(' ').unwrap().0.parse().unwrap();
+        assert!(
+            (points - width * 72.0 / 25.4).abs() < 0.01,
+            "{name}: {points} pt"
+        );
+        assert!(pdf.len() < 400_000, "{name}: {} bytes", pdf.len());
+    }
+}
+
+#[test]
+fn panels_can_be_pictures_of_their_own() {
+    let apart = draw(pair(), &pair().inventory, &print().with_panels_apart());
+    let names = |figure: &Figure| -> Vec<String> {
+        figure
+            .pictures
+            .iter()
+            .map(|(name, _)| name.clone())
+            .collect()
+    };
+    assert_eq!(names(&apart[0]), ["map-around", "map-target"]);
+    assert_eq!(names(&apart[1]), ["approach-gap", "approach-slide"]);
+    // What cannot be divided stays one picture.
+    assert_eq!(names(&apart[3]), ["docking"]);
+    for (_, picture) in &apart[0].pictures {
+        assert!(texts(&picture.svg).contains(&"saddle"), "each has its key");
+    }
+}
+
+#[test]
+fn the_numbers_beside_a_picture_are_those_it_shows() {
+    let numbers = |name: &str| {
+        let figure = figures().iter().find(|figure| figure.name == name).unwrap();
+        csv::Reader::from_reader(figure.data.as_bytes())
+            .into_deserialize::<std::collections::BTreeMap<String, String>>()
+            .map(Result::unwrap)
+            .collect::<Vec<_>>()
+    };
+    let real = |row: &std::collections::BTreeMap<String, String>, key: &str| -> f64 {
+        row[key].parse().unwrap()
+    };
+    let problem = &pair().problem;
+    for row in numbers("map").iter().step_by(997) {
+        let q = ["x_m", "y_m", "theta_rad"].map(|key| real(row, key));
+        let energy = problem.energy(&tilebind::Configuration::from(q));
+        let told = real(row, "energy_J");
+        // Coordinates are rounded to a micrometre.
+        assert!(
+            (told - energy).abs() <= 1e-3 * energy.abs() + 1e-9,
+            "{row:?} {energy}"
+        );
+    }
+    let graph = numbers("disconnectivity");
+    let bond = graph.iter().find(|row| row["states"] == "A").unwrap();
+    assert!((real(bond, "energy_J") + 0.06547).abs() < 1e-5 && bond["copies"] == "16");
+    assert!(real(bond, "joins_at_J") > real(bond, "energy_J"));
+    let start = &numbers("profiles")[0];
+    assert!((real(start, "energy_J") + 0.06547).abs() < 1e-5);
+    assert_eq!(numbers("docking").len(), 8);
+    let contact = &numbers("models")[0];
+    let share = 1.0 - real(contact, "dipoles_J") / real(contact, "blocks_J");
+    assert!((share - 0.448).abs() < 1e-3);
 }
 
 #[test]
 fn an_analysis_without_states_still_has_its_maps() {
-    let drawn = draw(pair(), &Inventory::default());
-    let names: Vec<_> = drawn.iter().map(|p| p.name).collect();
+    let drawn = draw(pair(), &Inventory::default(), &Sheet::SCREEN);
+    let names: Vec<_> = drawn.iter().map(|figure| &figure.name[..]).collect();
     assert_eq!(names, ["map", "approach", "models"]);
 }

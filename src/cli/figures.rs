@@ -1,0 +1,120 @@
+//! How pictures are to be drawn.
+
+use clap::Args;
+use tilebind::report::plots::Sheet;
+
+use super::{Failure, input};
+
+/// Text of this size (points) most journals ask for.
+const FONT: f64 = 7.0;
+
+/// Pictures for print.
+#[derive(Args)]
+pub struct FigureOptions {
+    /// Draw pictures for print, so wide (85mm, 18cm, 3.3in): as PDF too, without titles
+    #[arg(long, value_name = "LENGTH", value_parser = millimetres)]
+    figure_width: Option<f64>,
+
+    /// Size of their text in points [default: 7]
+    #[arg(long, value_name = "POINTS", requires = "figure_width", value_parser = input::positive)]
+    figure_font: Option<f64>,
+
+    /// Make each panel a picture of its own
+    #[arg(long, requires = "figure_width")]
+    figure_panels: bool,
+}
+
+impl FigureOptions {
+    /// How pictures are laid out.
+    pub fn sheet(&self) -> Result<Sheet, Failure> {
+        let Some(width) = self.figure_width else {
+            return Ok(Sheet::SCREEN);
+        };
+        let font = self.figure_font.unwrap_or(FONT);
+        let sheet = Sheet::for_print(width, font).map_err(|[least, most]| {
+            Failure::Usage(format!(
+                "--figure-width {width}mm: with text of {font} points pictures can be \
+                 {least:.0}mm to {most:.0}mm wide\n  help: name another width or --figure-font"
+            ))
+        })?;
+        Ok(match self.figure_panels {
+            true => sheet.with_panels_apart(),
+            false => sheet,
+        })
+    }
+}
+
+/// A length on paper, in mm.
+fn millimetres(text: &str) -> Result<f64, String> {
+    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
+    let parsed = units.iter().find_map(|(unit, factor)| {
+        let number = text.strip_suffix(unit)?.trim_end();
+        input::positive(number).ok().map(|number| number * factor)
+    });
+    parsed.ok_or_else(|| "a width with its unit is needed, such as 85mm, 18cm or 3.3in".to_owned())
+}
+
+/// Options that do not change the results, and how many words of their own follow.
+const ELSEWHERE: [(&str, usize); 6] = [
+    ("--out", 1),
+    ("-o", 1),
+    ("--threads", 1),
+    ("--quiet", 0),
+    ("--json", 0),
+    ("--dry-run", 0),
+];
+
+/// The command line that gives the same results, wherever they are to go: files by their names alone.
+pub fn command_line() -> String {
+    told(std::env::args().skip(1))
+}
+
+fn told(words: impl Iterator<Item = String>) -> String {
+    let mut told = vec!["tilebind".to_owned()];
+    let mut left_out = 0;
+    for word in words {
+        if left_out > 0 {
+            left_out -= 1;
+            continue;
+        }
+        let name = word.split('=').next().unwrap_or_default();
+        if let Some((_, more)) = ELSEWHERE.iter().find(|(option, _)| *option == name) {
+            left_out = if word.contains('=') { 0 } else { *more };
+            continue;
+        }
+        let file = word
+            .ends_with(".toml")
+            .then(|| word.rsplit(['/', '\\']).next());
+        let word = file.flatten().unwrap_or(&word);
+        let plain = |c: char| c.is_alphanumeric() || "-_.,:=/+".contains(c);
+        told.push(match !word.is_empty() && word.chars().all(plain) {
+            true => word.to_owned(),
+            false => format!("'{}'", word.replace('\'', r"'\''")),
+        });
+    }
+    told.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_width_has_a_unit() {
+        assert_eq!(millimetres("85mm"), Ok(85.0));
+        assert_eq!(millimetres("8.5 cm"), Ok(85.0));
+        assert!((millimetres("1in").unwrap() - 25.4).abs() < 1e-12);
+        for wrong in ["85", "mm", "-85mm", "85 m", ""] {
+            assert!(millimetres(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_told_without_what_does_not_matter() {
+        let words = "analyse a/b c.toml --out x --seed 3 --threads=2 --quiet --dynamics=100";
+        let words = words.replace("b c", "b\u{a0}c");
+        let words = words.split(' ').map(|word| word.replace('\u{a0}', " "));
+        let expected = "tilebind analyse 'b c.toml' --seed 3 --dynamics=100";
+        assert_eq!(told(words), expected);
+    }
+}

@@ -1,0 +1,48 @@
+//! The parts of a page put together.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest, Sha256};
+
+/// What to cite.
+pub const CITATION: &str = concat!(
+    "@software{tilebind,\n",
+    "  title   = {tilebind: how two magnetic tiles bind},\n",
+    "  author  = {{The tilebind authors}},\n",
+    "  version = {",
+    env!("CARGO_PKG_VERSION"),
+    "},\n",
+    "  year    = {2026},\n",
+    "  note    = {Follows U. Majumder and J. Reif, Barcoded Magnetic Tiles for Programmable Assemblies},\n",
+    "}\n"
+);
+
+/// A template with its placeholders replaced, each found once; what replaces one is not searched
+/// for another.
+pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
+    let mut places: Vec<_> = parts
+        .iter()
+        .filter_map(|(name, value)| Some((template.find(name)?, *name, value)))
+        .collect();
+    places.sort_by_key(|(at, ..)| *at);
+    let mut text = String::new();
+    let mut rest = 0;
+    for (at, name, value) in places {
+        text.push_str(&template[rest..at]);
+        text.push_str(value);
+        rest = at + name.len();
+    }
+    text.push_str(&template[rest..]);
+    text
+}
+
+/// A source of a content security policy.
+pub fn hash(content: &str) -> String {
+    let digest = STANDARD.encode(Sha256::digest(content.as_bytes()));
+    format!("'sha256-{digest}'")
+}
+
+/// A text as markup shows it.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}

@@ -1,0 +1,103 @@
+//! The tiles of a point of a sweep, small.
+
+use serde::Serialize;
+
+use super::landscape::{Drawn, pose};
+use crate::report::sweep::Sweep;
+use crate::sweep::Point;
+
+/// With more points the page would grow large.
+const MOST_POINTS: usize = 200;
+/// How far (as a fraction of the outline's extent) what is left out of an outline may lie from the
+/// rest: less than a pixel of a small picture.
+const TOLERANCE: f64 = 0.004;
+
+/// Both tiles, bound.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Thumbnail {
+    fixed: Drawn,
+    moving: Drawn,
+    bound: [f64; 3],
+}
+
+impl Thumbnail {
+    /// `None` where the design is impossible, or there are too many.
+    pub fn of(sweep: &Sweep, point: &Point) -> Option<Self> {
+        if sweep.points.len() > MOST_POINTS {
+            return None;
+        }
+        let design = sweep.plan.design(point).ok()?;
+        let [fixed, moving] = [&design.pair.fixed, &design.pair.moving].map(|tile| {
+            let mut drawn = Drawn::new(tile);
+            drawn.outline = simplified(&drawn.outline);
+            drawn
+        });
+        Some(Self {
+            fixed,
+            moving,
+            bound: pose(&design.pair.bound),
+        })
+    }
+}
+
+type Corner = [f64; 2];
+
+/// An outline without the corners that nobody would miss.
+fn simplified(outline: &[Corner]) -> Vec<Corner> {
+    let extent = outline
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, c| most.max(c.abs()));
+    // Closed: from the first corner round to itself.
+    let mut closed = outline.to_vec();
+    closed.extend(outline.first());
+    let mut kept = vec![false; closed.len()];
+    keep(&closed, 0, closed.len() - 1, TOLERANCE * extent, &mut kept);
+    let corners = outline.iter().zip(&kept).enumerate();
+    let corners = corners.filter(|(k, (_, kept))| *k == 0 || **kept);
+    corners.map(|(_, (corner, _))| *corner).collect()
+}
+
+/// Keeps the corner between two that lies farthest from the line through them, and so on with what is
+/// left on either side of it (Ramer, Douglas and Peucker).
+fn keep(corners: &[Corner], first: usize, last: usize, tolerance: f64, kept: &mut [bool]) {
+    let far = |k: usize| apart(corners[k], [corners[first], corners[last]]);
+    let between = first + 1..last;
+    let Some(farthest) = between.max_by(|a, b| far(*a).total_cmp(&far(*b))) else {
+        return;
+    };
+    if far(farthest) > tolerance {
+        kept[farthest] = true;
+        keep(corners, first, farthest, tolerance, kept);
+        keep(corners, farthest, last, tolerance, kept);
+    }
+}
+
+/// Distance of a point from a line through two others, or from their one place.
+fn apart(p: Corner, [a, b]: [Corner; 2]) -> f64 {
+    let (along, from) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let length = along[0].hypot(along[1]);
+    if length == 0.0 {
+        return from[0].hypot(from[1]);
+    }
+    (along[0] * from[1] - along[1] * from[0]).abs() / length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::simplified;
+
+    #[test]
+    fn corners_stay_and_points_between_them_go() {
+        let square = [
+            [1.0, -1.0],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0005],
+            [-1.0, 1.0],
+            [-1.0, -1.0],
+        ];
+        let expected = [[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        assert_eq!(simplified(&square), expected);
+    }
+}

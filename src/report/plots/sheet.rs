@@ -1,0 +1,111 @@
+//! What pictures are drawn for: a screen, or print at a width and with a size of text.
+
+use super::style::SMALL;
+
+/// Millimetres in a point of print.
+const POINT: f64 = 25.4 / 72.0;
+/// Dots in a millimetre of print: 600 to an inch.
+const DOTS_A_MILLIMETRE: f64 = 600.0 / 25.4;
+/// Narrower layouts (pixels) have no room for axes and labels.
+const NARROWEST: f64 = 360.0;
+/// Wider ones only waste paper (pixels).
+const WIDEST: f64 = 2400.0;
+
+/// How pictures are laid out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sheet {
+    print: Option<Print>,
+    /// Whether each panel is a picture of its own.
+    pub(super) separate: bool,
+}
+
+/// A layout for print.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Print {
+    /// Width of the layout (pixels).
+    width: f64,
+    /// Millimetres a pixel of the layout.
+    pixel: f64,
+}
+
+impl Sheet {
+    /// Each picture at its own width in pixels, with its title.
+    pub const SCREEN: Self = Self {
+        print: None,
+        separate: false,
+    };
+
+    /// Pictures `width` mm wide whose text is `font` points high, without titles (captions say
+    /// what a figure shows), as PDF too.
+    ///
+    /// # Errors
+    /// The least and the greatest width (mm) that text of this size can have, where it has not.
+    pub fn for_print(width: f64, font: f64) -> Result<Self, [f64; 2]> {
+        let pixel = font * POINT / SMALL;
+        let limits = [NARROWEST * pixel, WIDEST * pixel];
+        if !(limits[0]..=limits[1]).contains(&width) {
+            return Err(limits);
+        }
+        // Whole pixels: the width is kept, the text gives way by a thousandth at most.
+        let pixels = (width / pixel).round();
+        Ok(Self {
+            print: Some(Print {
+                width: pixels,
+                pixel: width / pixels,
+            }),
+            separate: false,
+        })
+    }
+
+    /// The same with each panel as a picture of its own.
+    #[must_use]
+    pub fn with_panels_apart(self) -> Self {
+        Self {
+            separate: true,
+            ..self
+        }
+    }
+
+    /// The width of a picture (pixels) that has `width` on a screen.
+    pub(super) fn width(&self, width: f64) -> f64 {
+        self.print.map_or(width, |print| print.width)
+    }
+
+    /// Whether titles are drawn.
+    pub(super) fn is_titled(&self) -> bool {
+        self.print.is_none()
+    }
+
+    /// Millimetres a pixel of the layout; `None` on a screen.
+    pub(super) fn millimetres(&self) -> Option<f64> {
+        self.print.map(|print| print.pixel)
+    }
+
+    /// Dots of the bitmap a pixel of the layout.
+    pub(super) fn dots(&self) -> f64 {
+        self.print
+            .map_or(1.0, |print| print.pixel * DOTS_A_MILLIMETRE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_as_high_as_it_was_asked_for() {
+        let sheet = Sheet::for_print(85.0, 7.0).unwrap();
+        let pixel = sheet.millimetres().unwrap();
+        assert!((SMALL * pixel / POINT - 7.0).abs() < 0.01);
+        assert!((sheet.width(1000.0) * pixel - 85.0).abs() < 1e-9);
+        assert_eq!(Sheet::SCREEN.width(1000.0), 1000.0);
+    }
+
+    #[test]
+    fn a_width_without_room_is_refused_with_the_least_that_has() {
+        let [least, _] = Sheet::for_print(20.0, 8.0).unwrap_err();
+        assert!(Sheet::for_print(least, 8.0).is_ok());
+        assert!(Sheet::for_print(0.999 * least, 8.0).is_err());
+        assert!(Sheet::for_print(f64::NAN, 8.0).is_err());
+    }
+}

@@ -1,0 +1,133 @@
+"""Pages of tables, pictures and charts: of compare and of sweep."""
+
+import pathlib
+import subprocess
+
+from looking import check_first_look, check_hints, check_links, check_other_looks
+
+SHAPES = pathlib.Path(__file__).resolve().parents[2] / "shapes"
+
+
+def check_table_page(check, name, file, use):
+    """A page of tables and pictures: `use` tries what is its own."""
+    browser = check.browser
+    check_first_look(check, name, file)
+    use(browser)
+    check_links(check, file)
+    check_hints(check, name, file)
+    check_other_looks(check, name, file)
+
+
+def column(k, table=0):
+    """The cells of a table's column, and a click on its head."""
+    of = f"document.querySelectorAll('#tables table')[{table}]"
+    return f"[...{of}.tBodies[0].rows].map((r) => r.cells[{k}].textContent)", f"{of}.tHead.rows[0].cells[{k}].querySelector('button').click()"
+
+
+def check_comparison(check, program, folder):
+    out = folder / "compare"
+    designs = [SHAPES / f"{name}.toml" for name in ("dovetail", "tab-20mm", "tab-10mm", "square-teeth-10mm")]
+    subprocess.run([program, "compare", *designs, "--out", out, "--quiet", "--milestones", "2000",
+                    "--far-starts", "100", "--certify-cells", "20000"], check=True)
+
+    def use(browser):
+        image = "document.querySelector('#pictures img')"
+        browser.wait(f"{image}.complete && {image}.naturalWidth > 0")
+        names, click = column(1)
+        browser.run(click)
+        check.that(browser.run(names) == sorted(browser.run(names)), "designs sort by name")
+        depths, click = column(2)
+        browser.run(click)
+        upwards = browser.run(depths)
+        browser.run(click)
+        check.that(browser.run(depths) == upwards[::-1] and "mJ" in upwards[0], "designs sort by their bond")
+        check.that(browser.run(column(0, 1)[0])[:1] == ["unbinding barrier"], "the certified order is told")
+        check.that("not head-on" in browser.run("document.querySelector('#tables table').textContent"),
+                   "what has no capture range says why")
+
+    check_table_page(check, "compare", out / "report.html", use)
+
+
+def check_sweep(check, program, folder):
+    quick = ["--quiet", "--milestones", "500", "--far-starts", "20", "--certify-cells", "1000"]
+    depth = "fixed.faces.east.profile.depth="
+    design = SHAPES / "tab-20mm.toml"
+
+    def hover(browser, canvas, u, v):
+        return browser.run(f"(() => {{ const c = document.querySelectorAll('#charts .panels canvas')[{canvas}],"
+                           f" b = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove',"
+                           f" {{bubbles: true, clientX: b.left + {u} * b.width, clientY: b.top + {v} * b.height}}));"
+                           " const here = document.querySelector('#tables tr.chosen');"
+                           " return [document.querySelector('#point .readout')?.textContent ?? '',"
+                           " here ? [...here.parentNode.rows].indexOf(here) : null]; })()")
+
+    def picture(browser):
+        browser.settled()
+        return browser.run("document.querySelectorAll('#charts .panels canvas')[1].toDataURL()")
+
+    out = folder / "curves"
+    subprocess.run([program, "sweep", design, SHAPES / "arc-20mm.toml", "--vary", depth + "0,0.01,0.02,0.06",
+                    "--vary", "potential.model=dipole,cuboid", "--out", out, *quick], check=True)
+
+    def curves(browser):
+        check.that(browser.run("document.querySelectorAll('#charts .panels').length") == 3, "a group of curves a model, and one to choose")
+        before = picture(browser)
+        # The first design's bond at the first depth: the dot nearest to the curve's beginning.
+        dot = browser.run("(() => { const c = document.querySelector('#charts .panels canvas'),"
+                          " g = charts.curves[0], p = g.series[0].points[1][1];"
+                          " return [p, charts.points[p].readout]; })()")
+        row = "document.querySelectorAll('#tables table')[0].tBodies[0].rows[%d]" % dot[0]
+        browser.run(f"{row}.dispatchEvent(new PointerEvent('pointerenter'))")
+        check.that(picture(browser) != before, "a row of the table is shown among the curves")
+        browser.run(f"{row}.dispatchEvent(new PointerEvent('pointerleave'))")
+        told = [hover(browser, 0, u / 50, v / 50) for u in range(50) for v in range(0, 50, 3)]
+        seen = {text: place for text, place in told if place is not None}
+        check.that(dot[1] in seen and seen[dot[1]] == dot[0], "a point under the pointer tells its values and its row")
+        check.that(len(seen) > 3, "points can be pointed at")
+        check_chosen(browser, dot)
+
+    def check_chosen(browser, dot):
+        """What is chosen, kept and set against another point."""
+        row = f"document.querySelectorAll('#tables table')[0].tBodies[0].rows[{dot[0]}]"
+        browser.run(f"{row}.click()")
+        browser.run("document.querySelector('#charts .panels canvas').dispatchEvent(new PointerEvent('pointerleave'))")
+        browser.settled()
+        card = browser.run("document.querySelector('#point').textContent")
+        check.that(dot[1] in card and "tilebind analyse designs/" in card, f"a click keeps a point ({card})")
+        design = browser.run("document.querySelector('#point code').textContent.split(' ')[2]")
+        check.that((out / design).is_file(), f"the point's design is there ({design})")
+        ink = ("((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, k) => k % 4 === 3 && v).length)")
+        check.that(browser.run(f"{ink}({row}.cells[0].firstChild)") > 100, "a row shows its tiles")
+        check.that(browser.run(f"{ink}(document.querySelector('#point canvas'))") > 100, "the point shows its tiles")
+        change = "document.getElementById('%s').value = %d; document.getElementById('%s').dispatchEvent(new Event('change'))"
+        before = picture(browser)
+        browser.run(change % ("baseline", dot[0] + 1, "baseline"))
+        check.that(picture(browser) != before, "curves are set against a point")
+        browser.run(change % ("baseline", 0, "baseline"))
+        check.that(picture(browser) == before, "and no more")
+        button = "document.querySelectorAll('#charts .panels button')[1]"
+        word = browser.run(f"{button}.textContent")
+        browser.run(f"{button}.click()")
+        check.that(browser.run(f"{button}.textContent") != word and picture(browser) != before, "a panel changes its scale")
+        browser.run(f"{button}.click()")
+        last = "[...document.querySelectorAll('#charts .panels')].at(-1).querySelector('canvas').toDataURL()"
+        before = browser.run(last)
+        browser.run(change % ("across", 3, "across"))
+        browser.settled()
+        check.that(browser.run(last) != before, "what stands to the right can be chosen")
+
+    check_table_page(check, "sweep-curves", out / "report.html", curves)
+
+    out = folder / "maps"
+    subprocess.run([program, "sweep", design, "--vary", depth + "0:0.04:4", "--vary",
+                    "fixed.faces.east.profile.width=0.05:0.4:3", "--out", out, *quick], check=True)
+
+    def maps(browser):
+        before = picture(browser)
+        text, row = hover(browser, 1, 0.25, 0.8)
+        check.that("depth = 0, width = 0.05" in text and row == 0, f"the map's lowest left cell ({text}, {row})")
+        text, row = hover(browser, 1, 0.85, 0.8)
+        check.that("depth = 0.04, width = 0.05: a magnet of face east sticks out" in text, f"an impossible point's reason ({text})")
+        check.that(picture(browser) != before, "the cell under the pointer is marked")
+
+    check_table_page(check, "sweep-maps", out / "report.html", maps)

@@ -1,0 +1,143 @@
+//! The READMEs: every command they show runs, every link leads somewhere.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const FILES: [&str; 3] = ["README.md", "shapes/README.md", "results/README.md"];
+
+/// What the program is called in the texts: as in a checkout, and as on the path.
+const CARGO: &str = "cargo run --release -- ";
+const NAME: &str = "tilebind ";
+
+fn read(file: &str) -> String {
+    fs::read_to_string(Path::new(ROOT).join(file)).unwrap()
+}
+
+/// The commands in a text: lines of its blocks for shells, joined where they go on, and spans of
+/// code that name a file.
+fn commands(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (number, part) in text.split("```").enumerate() {
+        if let (1, Some(block)) = (number % 2, part.strip_prefix("sh\n")) {
+            let block = block.replace("\\\n", " ");
+            found.extend(block.lines().map(|line| line.trim().to_owned()));
+        }
+        if number % 2 == 0 {
+            let spans = part.split('`').skip(1).step_by(2);
+            let is_whole = |span: &str| span.contains(".toml") || span.contains(" > ");
+            let whole = spans.filter(|span| span.starts_with(NAME) && is_whole(span));
+            found.extend(whole.map(str::to_owned));
+        }
+    }
+    found.retain(|line| line.starts_with(NAME) || line.starts_with(CARGO));
+    found
+}
+
+/// A command made short: fewer milestones, starts, runs and points, and one design of those that are
+/// swept, do the same in less time.
+fn shortened(command: &str) -> String {
+    let words = command.strip_prefix(CARGO).or(command.strip_prefix(NAME));
+    let words: Vec<&str> = words.unwrap().split_whitespace().collect();
+    let mut short: Vec<String> = Vec::new();
+    for word in &words {
+        let is_design = |word: &str| word.ends_with(".toml");
+        if words[0] == "sweep" && is_design(word) && short.iter().any(|w| is_design(w)) {
+            continue;
+        }
+        let fewer = word.parse::<usize>().is_ok() && short.last().is_some_and(|w| w == "--runs");
+        short.push(match word {
+            _ if fewer => "8".to_owned(),
+            word if word.starts_with("--dynamics") => "--dynamics=2".to_owned(),
+            word => match word.rsplit_once(':') {
+                Some((range, count)) if range.contains('=') && count.parse::<usize>().is_ok() => {
+                    format!("{range}:2")
+                }
+                _ => (*word).to_owned(),
+            },
+        });
+    }
+    let quick = match words[0] {
+        "analyse" => " --milestones 300 --far-starts 10 --certify-seconds 0.1 --quiet",
+        "compare" | "sweep" => " --milestones 300 --far-starts 10 --certify-cells 300 --quiet",
+        _ => "",
+    };
+    format!("tilebind {}{quick}", short.join(" "))
+}
+
+#[test]
+fn every_command_of_the_readmes_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("target")).unwrap();
+    copy(
+        &Path::new(ROOT).join("shapes"),
+        &folder.path().join("shapes"),
+    );
+    let programs = Path::new(env!("CARGO_BIN_EXE_tilebind")).parent().unwrap();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(
+        std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)),
+    );
+    let path = path.unwrap();
+    let mut done = Vec::new();
+    for command in FILES.iter().flat_map(|file| commands(&read(file))) {
+        let short = shortened(&command);
+        if done.contains(&short) {
+            continue;
+        }
+        let output = Command::new("sh")
+            .args(["-c", &short])
+            .current_dir(folder.path())
+            .env("PATH", &path)
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "{command}\n{short}\n{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        done.push(short);
+    }
+    assert!(done.len() >= 9, "{done:#?}");
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+    }
+}
+
+#[test]
+fn the_readme_is_of_one_sitting() {
+    assert!(read("README.md").lines().count() <= 150);
+}
+
+/// What a link leads to is there.
+#[test]
+fn links_lead_somewhere() {
+    for file in FILES {
+        let text = read(file);
+        let folder = Path::new(ROOT).join(file);
+        for link in text.split("](").skip(1) {
+            let (target, _) = link.split_once(')').unwrap();
+            let target = folder.parent().unwrap().join(target);
+            assert!(target.exists(), "{file}: {}", target.display());
+        }
+    }
+}
+
+/// Every shipped design is in the list of them.
+#[test]
+fn no_design_is_forgotten() {
+    let [shapes, results] = ["shapes/README.md", "results/README.md"].map(read);
+    for entry in fs::read_dir(Path::new(ROOT).join("shapes")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if let Some(stem) = name.strip_suffix(".toml") {
+            assert!(shapes.contains(&format!("({name})")), "{name}");
+            assert!(results.contains(&format!("`{stem}`")), "{stem}");
+        }
+    }
+}
