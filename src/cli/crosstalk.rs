@@ -13,8 +13,7 @@ use super::{Failure, input, interrupt, tell};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
-#[command(
-    after_help = "\
+#[command(after_help = "\
 The set is a TOML file: words = [\"NNSN\", ...], without their mates, and if they are not the paper's
 [magnet] and [tile] side; `tilebind words --out DIR` writes one. Two square tiles carry a word each
 on one face; every pose is looked at: slid, tilted, drawn back. Rows and columns are the words, then
@@ -23,19 +22,18 @@ one whose east face carries the row's.
 
 Examples:
   tilebind crosstalk target/words/words.toml
-  tilebind crosstalk target/words/words.toml --certify --json"
-)]
+  tilebind crosstalk target/words/words.toml --certify --json")]
 pub struct Crosstalk {
     /// The set of words
     set: PathBuf,
 
-    /// Prove that no attraction is stronger, to within E_J [default: a hundredth of a contact]
+    /// Prove that no attraction is stronger, to within E_J [default: a twentieth of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
           value_parser = input::positive)]
     certify: Option<Option<f64>>,
 
     /// Cells spent on the proof at most
-    #[arg(long, value_name = "N", default_value_t = 2_000_000, value_parser = input::count)]
+    #[arg(long, value_name = "N", default_value_t = 8_000_000, value_parser = input::count)]
     certify_cells: usize,
 
     /// Model of the magnets, dipole or cuboid [default: the set's]
@@ -56,7 +54,7 @@ pub struct Crosstalk {
 }
 
 /// The default width of bounds, as a share of two magnets' energy.
-const TOLERANCE: f64 = 0.01;
+const TOLERANCE: f64 = 0.05;
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
@@ -92,7 +90,10 @@ impl Crosstalk {
         self.print.results(&json, || {
             let mut text = report::summary(&found);
             if let Some(folder) = &self.out {
-                text += &format!("results in {}: crosstalk.csv, report.json\n", folder.display());
+                text += &format!(
+                    "results in {}: crosstalk.csv, report.json\n",
+                    folder.display()
+                );
             }
             text
         })

@@ -65,7 +65,10 @@ impl Match {
             "Longest contact {}, in {} of {} ways listed.\n\n   contact         gap   x, y (mm), \
              theta (deg)\n",
             si(longest.contact, "m", 4),
-            found.iter().filter(|it| it.contact > longest.contact - 1e-6).count(),
+            found
+                .iter()
+                .filter(|it| it.contact > longest.contact - 1e-6)
+                .count(),
             found.len()
         );
         for one in found.iter().take(LISTED) {

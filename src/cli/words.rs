@@ -258,17 +258,19 @@ impl Words {
         };
         let design = input::load_as(path, self.model)?;
         let usage = |message: String| Failure::Usage(format!("{}: {message}", path.display()));
-        let pitch = self.pitch.or(design.pitch).ok_or_else(|| {
-            usage("it gives no pitch; say it: --pitch 0.04".to_owned())
-        })?;
+        let pitch = self
+            .pitch
+            .or(design.pitch)
+            .ok_or_else(|| usage("it gives no pitch; say it: --pitch 0.04".to_owned()))?;
         let pair = &design.pair;
-        let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch)
-            .map_err(|error| {
+        let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch).map_err(
+            |error| {
                 usage(format!(
                     "{error}; words need equal magnets behind a flat face, as in \
                      shapes/paper-tile.toml"
                 ))
-            })?;
+            },
+        )?;
         Ok((bar, Some(design.name)))
     }
 
@@ -328,7 +330,10 @@ fn shape() -> Word<Shape> {
 }
 
 fn mismatches(text: &str) -> Result<[usize; 3], String> {
-    let parts: Option<Vec<usize>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let parts: Option<Vec<usize>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
     parts
         .and_then(|parts| parts.try_into().ok())
         .ok_or_else(|| "three whole numbers are needed, such as 2,2,0".to_owned())
@@ -346,6 +351,8 @@ fn range(text: &str) -> Result<[f64; 2], String> {
     let wrong = || "a range is E:E in J, from the lower to the higher, such as -0.02:0".to_owned();
     let (low, high) = text.split_once(':').ok_or_else(wrong)?;
     let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| !x.is_nan());
-    let range = number(low).zip(number(high)).filter(|(low, high)| low <= high);
+    let range = number(low)
+        .zip(number(high))
+        .filter(|(low, high)| low <= high);
     range.map(|(low, high)| [low, high]).ok_or_else(wrong)
 }

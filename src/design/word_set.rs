@@ -128,14 +128,21 @@ impl WordSet {
         let codes = match &entries.words {
             Some(words) => words.clone(),
             None => {
-                let named = entries.faces.iter().filter(|(name, _)| !name.ends_with('*'));
+                let named = entries
+                    .faces
+                    .iter()
+                    .filter(|(name, _)| !name.ends_with('*'));
                 named.map(|(_, face)| face.code.clone()).collect()
             }
         };
         let mut words: Vec<Word> = Vec::new();
         for code in &codes {
             let word = Word::parse(code).map_err(|found| {
-                error(place_of(code), format!("`{code}`: {found}"), "write it of N, S and .")
+                error(
+                    place_of(code),
+                    format!("`{code}`: {found}"),
+                    "write it of N, S and .",
+                )
             })?;
             let first = words.first().copied().unwrap_or(word);
             if first.places() != word.places() {
@@ -203,8 +210,14 @@ fn stage(entries: &Entries, places: usize, model: Option<MagnetModel>) -> String
     let strength = match (magnet.remanence, magnet.moment, magnet.surface_field) {
         (None, None, None) => "remanence = 1.2".to_owned(),
         (remanence, moment, surface) => {
-            let keys = [("remanence", remanence), ("moment", moment), ("surface_field", surface)];
-            let lines = keys.iter().filter_map(|(key, value)| Some(format!("{key} = {:?}", (*value)?)));
+            let keys = [
+                ("remanence", remanence),
+                ("moment", moment),
+                ("surface_field", surface),
+            ];
+            let lines = keys
+                .iter()
+                .filter_map(|(key, value)| Some(format!("{key} = {:?}", (*value)?)));
             lines.collect::<Vec<_>>().join("\n")
         }
     };

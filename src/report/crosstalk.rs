@@ -20,10 +20,14 @@ pub fn json(found: &Crosstalk) -> String {
 
 fn value(found: &Crosstalk) -> Value {
     let numbers = |matrix: &[Vec<f64>]| -> Value {
-        let row = |row: &Vec<f64>| json!(row.iter().copied().map(positive_zero).collect::<Vec<_>>());
+        let row =
+            |row: &Vec<f64>| json!(row.iter().copied().map(positive_zero).collect::<Vec<_>>());
         matrix.iter().map(row).collect()
     };
-    let poses = found.poses.iter().map(|row| json!(row.iter().map(pose).collect::<Vec<_>>()));
+    let poses = found
+        .poses
+        .iter()
+        .map(|row| json!(row.iter().map(pose).collect::<Vec<_>>()));
     json!({
         "tilebind": env!("CARGO_PKG_VERSION"),
         "words": found.words.iter().map(ToString::to_string).collect::<Vec<_>>(),
@@ -41,7 +45,11 @@ fn value(found: &Crosstalk) -> Value {
 /// The codes of all faces, in the order of rows and columns.
 fn faces(found: &Crosstalk) -> Vec<String> {
     let words = found.words.iter().copied();
-    words.clone().chain(words.map(|word| word.mate())).map(|word| word.to_string()).collect()
+    words
+        .clone()
+        .chain(words.map(|word| word.mate()))
+        .map(|word| word.to_string())
+        .collect()
 }
 
 /// The name of a face: `A`, or `A*` of a mate.
@@ -104,7 +112,8 @@ pub fn summary(found: &Crosstalk) -> String {
         let _ = writeln!(text, "Weakest bond:            {}", told(bond));
         let _ = writeln!(text, "Strongest wrong meeting: {}", told(wrong));
     }
-    text += "Between a word and its own mate the bond is told; what else holds them are its traps.\n";
+    text +=
+        "Between a word and its own mate the bond is told; what else holds them are its traps.\n";
     text
 }
 
@@ -113,7 +122,9 @@ pub fn files(found: &Crosstalk) -> Files {
     let mut files = Files::new();
     files.insert("crosstalk.csv".to_owned(), csv(found).into_bytes());
     let mut report = value(found);
-    let sums = files.iter().map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
+    let sums = files
+        .iter()
+        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
     report["files"] = Value::Object(sums.collect());
     files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
     files
@@ -123,7 +134,10 @@ fn csv(found: &Crosstalk) -> String {
     let codes = faces(found);
     let rows = pairs(found).map(|(i, j)| {
         let [x, y, theta] = pose(&found.poses[i][j]);
-        let lower = found.lower.as_ref().map_or(String::new(), |lower| lower[i][j].to_string());
+        let lower = found
+            .lower
+            .as_ref()
+            .map_or(String::new(), |lower| lower[i][j].to_string());
         vec![
             face_name(found, i),
             face_name(found, j),
@@ -137,7 +151,14 @@ fn csv(found: &Crosstalk) -> String {
         ]
     });
     let header = [
-        "first", "second", "first_code", "second_code", "lower_J", "upper_J", "x_m", "y_m",
+        "first",
+        "second",
+        "first_code",
+        "second_code",
+        "lower_J",
+        "upper_J",
+        "x_m",
+        "y_m",
         "theta_rad",
     ];
     table(header.map(str::to_owned), rows)

@@ -14,9 +14,7 @@ use crate::potential::MagnetModel;
 use crate::units::{MU0, si};
 use crate::words::frontier::Point;
 use crate::words::rules::bond;
-use crate::words::{
-    Answer, Bar, Faces, Judgement, Lags, Meeting, Question, Shape, Task, Word,
-};
+use crate::words::{Answer, Bar, Faces, Judgement, Lags, Meeting, Question, Shape, Task, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; words.csv, crosstalk.csv, words.toml, report.json";
@@ -170,7 +168,9 @@ pub fn summary(request: &Request, answer: &Answer) -> String {
                 true => "proved".to_owned(),
                 false => point.found.upper.to_string(),
             };
-            let gap = judgement.as_ref().map_or("-".to_owned(), |it| format!("{:.4}", it.gap));
+            let gap = judgement
+                .as_ref()
+                .map_or("-".to_owned(), |it| format!("{:.4}", it.gap));
             let _ = writeln!(text, "{:>9.4}{count:>8}{most:>10}{gap:>14}", point.asked);
         }
         text.push('\n');
@@ -235,12 +235,18 @@ pub fn headline(request: &Request, answer: &Answer) -> String {
     let wrong = match judgement.worst {
         Some(worst) if worst.energy < 0.0 => {
             let attraction = si(-worst.energy, "J", 4);
-            format!("strongest wrong meeting {attraction}: {}", told(&worst, request, answer))
+            format!(
+                "strongest wrong meeting {attraction}: {}",
+                told(&worst, request, answer)
+            )
         }
         Some(_) => "nothing wrong attracts".to_owned(),
         None => "nothing wrong meets".to_owned(),
     };
-    format!("{many}; gap {:.4}; weakest bond {bond}; {wrong}", judgement.gap)
+    format!(
+        "{many}; gap {:.4}; weakest bond {bond}; {wrong}",
+        judgement.gap
+    )
 }
 
 fn how_many(count: usize, upper: usize) -> String {
@@ -257,7 +263,9 @@ fn how_many(count: usize, upper: usize) -> String {
 fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
     let face = |word: Word| {
         let find = |word| answer.words.iter().position(|other| *other == word);
-        find(word).map(name).or_else(|| find(word.mate()).map(|k| name(k) + "*"))
+        find(word)
+            .map(name)
+            .or_else(|| find(word.mate()).map(|k| name(k) + "*"))
     };
     let [first, second] =
         [meeting.first, meeting.second].map(|word| face(word).unwrap_or(word.to_string()));
@@ -280,7 +288,9 @@ pub fn files(request: &Request, answer: &Answer) -> Files {
     add("words.toml", words_toml(request, answer));
     add(PAGE, Page::of_words(request, answer).to_html());
     let mut report = value(request, answer);
-    let sums = files.iter().map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
+    let sums = files
+        .iter()
+        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
     report["files"] = Value::Object(sums.collect());
     files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
     files
@@ -289,7 +299,10 @@ pub fn files(request: &Request, answer: &Answer) -> Files {
 /// The words, each with its bond and its own worst meeting.
 fn words_csv(request: &Request, answer: &Answer) -> String {
     let rows = answer.words.iter().enumerate().map(|(k, word)| {
-        let worst = answer.words.iter().filter_map(|other| request.strongest(*word, *other));
+        let worst = answer
+            .words
+            .iter()
+            .filter_map(|other| request.strongest(*word, *other));
         let worst = worst.min_by(|a, b| a.energy.total_cmp(&b.energy));
         let or_empty = |text: Option<String>| text.unwrap_or_default();
         vec![
@@ -304,7 +317,14 @@ fn words_csv(request: &Request, answer: &Answer) -> String {
         ]
     });
     let header = [
-        "name", "word", "mate", "bond_J", "worst_J", "worst_with", "worst_slide", "worst_flipped",
+        "name",
+        "word",
+        "mate",
+        "bond_J",
+        "worst_J",
+        "worst_with",
+        "worst_slide",
+        "worst_flipped",
     ];
     table(header.map(str::to_owned), rows)
 }
@@ -331,7 +351,14 @@ fn crosstalk_csv(request: &Request, answer: &Answer) -> String {
         ])
     });
     let header = [
-        "first", "second", "first_code", "second_code", "energy_J", "slide", "slide_m", "flipped",
+        "first",
+        "second",
+        "first_code",
+        "second_code",
+        "energy_J",
+        "slide",
+        "slide_m",
+        "flipped",
     ];
     table(header.map(str::to_owned), rows)
 }

@@ -86,7 +86,13 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
                 upper,
                 proved: widest.proved,
                 gap_upper: Some(widest.upper),
-                ..of(Found { words: Vec::new(), ..found }, effort)
+                ..of(
+                    Found {
+                        words: Vec::new(),
+                        ..found
+                    },
+                    effort,
+                )
             }
         }
         Question::Frontier => {

@@ -70,7 +70,9 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
     // Whatever these multipliers are, scaled so that every condition holds they prove a bound.
     let held = (0..distances.len()).map(|i| {
         let terms = multipliers.iter().zip(coefficients(i));
-        terms.map(|(multiplier, coefficient)| multiplier * coefficient).sum::<f64>()
+        terms
+            .map(|(multiplier, coefficient)| multiplier * coefficient)
+            .sum::<f64>()
     });
     let held = held.fold(f64::INFINITY, f64::min);
     let costs = std::iter::repeat_n(1.0, polynomials.len());
@@ -85,8 +87,14 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
 /// `K_k(i) / C(n, k)`, between -1 and 1: over the places chosen, the mean of -1 to the number of
 /// them among i.
 fn ratio(n: usize, k: usize, i: usize) -> f64 {
-    let hit = |j: usize| choose(i, j) * choose(n - i, k - j) * if j % 2 == 0 { 1.0 } else { -1.0 };
-    (0..=k.min(i)).filter(|j| k - j <= n - i).map(hit).sum::<f64>() / choose(n, k)
+    let hit = |j: usize| {
+        choose(i, j) * choose(n - i, k - j) * if j.is_multiple_of(2) { 1.0 } else { -1.0 }
+    };
+    (0..=k.min(i))
+        .filter(|j| k - j <= n - i)
+        .map(hit)
+        .sum::<f64>()
+        / choose(n, k)
 }
 
 fn choose(n: usize, k: usize) -> f64 {
@@ -95,13 +103,18 @@ fn choose(n: usize, k: usize) -> f64 {
 
 /// Conditions `sum_i weights_i A_i <= bound` beside Delsarte's.
 fn conditions(n: usize, d: usize, distances: &[usize]) -> Vec<(Vec<f64>, f64)> {
-    let mosts: Vec<f64> = distances.iter().map(|w| constant_weight(n, d, *w)).collect();
+    let mosts: Vec<f64> = distances
+        .iter()
+        .map(|w| constant_weight(n, d, *w))
+        .collect();
     let unit = |i: usize, value: f64| {
         let mut weights = vec![0.0; distances.len()];
         weights[i] = value;
         weights
     };
-    let mut all: Vec<_> = (0..distances.len()).map(|i| (unit(i, 1.0 / mosts[i]), 1.0)).collect();
+    let mut all: Vec<_> = (0..distances.len())
+        .map(|i| (unit(i, 1.0 / mosts[i]), 1.0))
+        .collect();
     for (j, w) in distances.iter().enumerate() {
         for i in 0..j {
             let v = distances[i];
@@ -150,14 +163,34 @@ mod tests {
     /// lie below it, and these are met.
     #[test]
     fn bounds_of_codes() {
-        for (n, d, size) in [(5, 3, 4), (6, 3, 8), (7, 3, 16), (8, 4, 16), (9, 5, 6), (10, 5, 12),
-            (11, 5, 24), (12, 5, 32), (12, 6, 24), (15, 7, 32), (8, 5, 4), (7, 7, 2), (6, 2, 32)]
-        {
+        for (n, d, size) in [
+            (5, 3, 4),
+            (6, 3, 8),
+            (7, 3, 16),
+            (8, 4, 16),
+            (9, 5, 6),
+            (10, 5, 12),
+            (11, 5, 24),
+            (12, 5, 32),
+            (12, 6, 24),
+            (15, 7, 32),
+            (8, 5, 4),
+            (7, 7, 2),
+            (6, 2, 32),
+        ] {
             assert_eq!(binary_code(n, d), size, "A({n}, {d})");
         }
-        for (n, d, size) in [(8, 3, 20), (9, 3, 40), (10, 3, 72), (11, 3, 144), (12, 4, 144),
-            (13, 5, 64), (14, 5, 128), (16, 6, 256), (16, 3, 2720)]
-        {
+        for (n, d, size) in [
+            (8, 3, 20),
+            (9, 3, 40),
+            (10, 3, 72),
+            (11, 3, 144),
+            (12, 4, 144),
+            (13, 5, 64),
+            (14, 5, 128),
+            (16, 6, 256),
+            (16, 3, 2720),
+        ] {
             assert!(binary_code(n, d) >= size, "A({n}, {d})");
         }
     }

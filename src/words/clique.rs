@@ -164,7 +164,8 @@ impl Search<'_> {
                 }
             }
         }
-        self.budget.spend(work * (candidates.as_slice().len() as u64 + OVERHEAD));
+        self.budget
+            .spend(work * (candidates.as_slice().len() as u64 + OVERHEAD));
         out
     }
 }

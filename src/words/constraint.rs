@@ -44,7 +44,9 @@ impl Constraints {
         (!self.balanced || excess <= word.magnets() % 2)
             && run.is_none_or(|longest| word.longest_run() <= longest)
             && (self.least_spacing < 2 || word.least_spacing() >= self.least_spacing)
-            && self.least_bond.is_none_or(|least| bond(lags, word) >= least)
+            && self
+                .least_bond
+                .is_none_or(|least| bond(lags, word) >= least)
             && self.allow_both(lags, rules, word, word)
     }
 
@@ -58,8 +60,7 @@ impl Constraints {
 
     /// Whether a word may be exchanged for its mate without changing what is allowed.
     pub fn exchangeable(&self) -> bool {
-        self.mismatches == self.complement_mismatches
-            && self.ranges.iter().all(Option::is_none)
+        self.mismatches == self.complement_mismatches && self.ranges.iter().all(Option::is_none)
     }
 
     fn slides_allow(&self, u: Word, v: Word) -> bool {
@@ -81,7 +82,11 @@ impl Constraints {
     }
 
     fn energies_allow(&self, lags: &Lags, rules: &Rules, u: Word, v: Word) -> bool {
-        let kinds = [([u, v], false), ([u, v], true), ([u.mate(), v.mate()], false)];
+        let kinds = [
+            ([u, v], false),
+            ([u, v], true),
+            ([u.mate(), v.mate()], false),
+        ];
         self.ranges.iter().zip(kinds).all(|(range, (words, mate))| {
             range.as_ref().is_none_or(|range| {
                 let energies = rules.energies(lags, words, mate);

@@ -76,7 +76,11 @@ pub fn widest(task: &Task, count: usize, effort: &mut Effort) -> Widest {
         words: best.words.clone(),
         gap: low,
         proved: proved_high <= low + SAME_GAP || low >= 1.0,
-        upper: if proved_high <= low + SAME_GAP { low } else { proved_high },
+        upper: if proved_high <= low + SAME_GAP {
+            low
+        } else {
+            proved_high
+        },
         found: best,
     }
 }
@@ -97,9 +101,7 @@ fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
     while words.len() > count {
         let worst = task.judge(&words).and_then(|set| set.worst);
         let in_worst = |word: &Word| {
-            worst.is_some_and(|it| {
-                [it.first, it.second, it.second.mate()].contains(word)
-            })
+            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
         };
         let gone = words.iter().position(in_worst).unwrap_or(words.len() - 1);
         words.remove(gone);
@@ -138,4 +140,3 @@ pub fn frontier(task: &Task, most: usize, effort: &mut Effort) -> Vec<Point> {
     }
     points
 }
-

@@ -101,7 +101,10 @@ impl<'a> Graph<'a> {
 
     /// Whether two words go together.
     fn joined(&self, a: usize, b: usize) -> bool {
-        a != b && self.task.compatible([self.words[a], self.words[b]], self.limit)
+        a != b
+            && self
+                .task
+                .compatible([self.words[a], self.words[b]], self.limit)
     }
 
     /// The words that go with one.
@@ -163,14 +166,14 @@ impl<'a> Graph<'a> {
             true => word.min(word.mate()),
             false => word,
         };
-        let maps: [fn(Word) -> Word; 3] = [
-            Word::negated,
-            Word::reversed,
-            |word| word.negated().reversed(),
-        ];
+        let maps: [fn(Word) -> Word; 3] = [Word::negated, Word::reversed, |word| {
+            word.negated().reversed()
+        }];
         let image = |map: fn(Word) -> Word| -> Option<Vec<usize>> {
             let images = self.words.iter().map(|word| class(map(*word)));
-            images.map(|word| self.words.binary_search(&word).ok()).collect()
+            images
+                .map(|word| self.words.binary_search(&word).ok())
+                .collect()
         };
         let mut found: Vec<Vec<usize>> = maps.into_iter().filter_map(image).collect();
         found.retain(|image| image.iter().enumerate().any(|(a, b)| a != *b) && self.keeps(image));

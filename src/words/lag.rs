@@ -15,8 +15,8 @@ use nalgebra::Vector2;
 
 use super::word::MOST_PLACES;
 use crate::configuration::Configuration;
-use crate::potential::{Interaction, MagnetModel};
 use crate::potential::{CuboidPotential, DipolePotential, Potential};
+use crate::potential::{Interaction, MagnetModel};
 use crate::tile::{Magnet, Tile};
 
 /// The magnets of a face and how they are spaced.
@@ -196,7 +196,11 @@ impl Bar {
             }
         }
         // A face that magnets stick out of is a shape's; words lie behind flat faces.
-        let inset = if first.inset.abs() < 1e-9 { 0.0 } else { first.inset };
+        let inset = if first.inset.abs() < 1e-9 {
+            0.0
+        } else {
+            first.inset
+        };
         match inset >= 0.0 {
             true => Ok(Self { inset, ..first }),
             false => Err(BarError::Differ),

@@ -42,10 +42,7 @@ pub fn search(
         .map(|walk| Walk::new(graph, &best, seed, walk as u64))
         .collect();
     while best.len() < enough && !budget.is_spent() {
-        let mut parts: Vec<Budget> = walks
-            .iter()
-            .map(|_| budget.part(ROUND))
-            .collect();
+        let mut parts: Vec<Budget> = walks.iter().map(|_| budget.part(ROUND)).collect();
         walks
             .par_iter_mut()
             .zip(&mut parts)

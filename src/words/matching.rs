@@ -55,7 +55,10 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
         let q = it.pose;
         // Lengths that differ by rounding are the same.
         let length = (it.contact / SAME).round();
-        (OrderedFloat(-length), [q.x, q.y, q.theta].map(|x| OrderedFloat((x / SAME).round())))
+        (
+            OrderedFloat(-length),
+            [q.x, q.y, q.theta].map(|x| OrderedFloat((x / SAME).round())),
+        )
     });
     let mut distinct: Vec<Match> = Vec::new();
     for one in found {
@@ -121,7 +124,10 @@ fn flush_motions(fixed: &Outline, moving: &Outline, a: usize, b: usize) -> Vec<C
 
 /// The length (m) along which edges of the two outlines lie on each other, face to face.
 pub fn contact_length(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
-    stretches(fixed, moving, q).iter().map(|[a, b]| (b - a).norm()).sum()
+    stretches(fixed, moving, q)
+        .iter()
+        .map(|[a, b]| (b - a).norm())
+        .sum()
 }
 
 /// The stretches along which edges lie on each other.
@@ -139,7 +145,9 @@ fn stretches(fixed: &Outline, moving: &Outline, q: &Configuration) -> Vec<[Vecto
             let direction = (to - from).normalize();
             let opposite = direction.dot(&along) < 0.0
                 && direction.perp(&along).abs() < PARALLEL.max(TOUCHING / length);
-            let near = [from, to].iter().all(|p| (*p - start).dot(&normal).abs() < TOUCHING);
+            let near = [from, to]
+                .iter()
+                .all(|p| (*p - start).dot(&normal).abs() < TOUCHING);
             if opposite && near {
                 let low = (to - start).dot(&along).max(0.0);
                 let high = (from - start).dot(&along).min(length);
@@ -156,15 +164,16 @@ fn stretches(fixed: &Outline, moving: &Outline, q: &Configuration) -> Vec<[Vecto
 /// contact, what neither tile fills, on a grid.
 fn gap_area(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
     const GRID: usize = 200;
-    let points: Vec<Vector2<f64>> =
-        stretches(fixed, moving, q).into_iter().flatten().collect();
+    let points: Vec<Vector2<f64>> = stretches(fixed, moving, q).into_iter().flatten().collect();
     let hull = hull(points);
     if hull.len() < 3 {
         return 0.0;
     }
     let fold = |pick: fn(&Vector2<f64>) -> f64| {
         let values = hull.iter().map(pick);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
     };
     let ([x0, x1], [y0, y1]) = (fold(|p| p.x), fold(|p| p.y));
     let (dx, dy) = ((x1 - x0) / GRID as f64, (y1 - y0) / GRID as f64);

@@ -89,7 +89,9 @@ impl Task {
             return usize::MAX;
         }
         let rest = self.lags.rest(self.magnets as u32);
-        let contacts = ((limit + rest) / self.lags.contact() + 1e-9).floor().max(-1.0);
+        let contacts = ((limit + rest) / self.lags.contact() + 1e-9)
+            .floor()
+            .max(-1.0);
         // Equal less unequal poles are as even or odd as their number.
         let differ = (self.places as f64 - contacts) / 2.0;
         if differ <= 0.0 {

@@ -137,7 +137,11 @@ impl Rules {
         let (contact, rest) = (lags.contact(), lags.rest(magnets));
         let fine = ((limit - rest) / contact - ROUNDED).floor() as i32;
         let most = ((limit + rest) / contact + ROUNDED).floor() as i32;
-        let last = if self.slides() { places - fine.max(0) - 1 } else { 0 };
+        let last = if self.slides() {
+            places - fine.max(0) - 1
+        } else {
+            0
+        };
         self.ways().all(|way| {
             let facing = way.facing(v);
             let sign = if way.mate { 1 } else { -1 };

@@ -231,8 +231,8 @@ impl<'a> Search<'a> {
         }
         for share in FOR_PROOF {
             let best = found.members.len().max(self.best.len());
-            let hopeless = found.upper < graph.len()
-                && found.upper as f64 > WITHIN_REACH * best as f64;
+            let hopeless =
+                found.upper < graph.len() && found.upper as f64 > WITHIN_REACH * best as f64;
             if found.upper > best && !hopeless && best < enough {
                 let mut part = budget.share(share);
                 found = clique::largest(graph, found.members, &mut part);
@@ -307,14 +307,19 @@ impl<'a> Search<'a> {
             let members = local::search(&part_graph, Vec::new(), enough, seed, &mut part);
             self.effort.budget.give_back(&part);
             let set: Vec<Word> = members.iter().map(|v| part_graph.words[*v]).collect();
-            if best.as_ref().is_none_or(|(words, _)| set.len() > words.len()) {
+            if best
+                .as_ref()
+                .is_none_or(|(words, _)| set.len() > words.len())
+            {
                 best = Some((set, graph));
             }
         }
         let Some((set, graph)) = best else {
             return;
         };
-        let known = set.iter().filter_map(|word| graph.words.binary_search(word).ok());
+        let known = set
+            .iter()
+            .filter_map(|word| graph.words.binary_search(word).ok());
         let known: Vec<usize> = known.collect();
         let (enough, seed) = (self.enough, self.effort.seed);
         let members = local::search(&graph, known, enough, seed, &mut self.effort.budget);

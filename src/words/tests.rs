@@ -27,7 +27,9 @@ fn task(places: usize, rules: Rules) -> Task {
 }
 
 fn all_words(places: usize) -> Vec<Word> {
-    (0..1u64 << places).map(|set| Word::new(set, !set, places)).collect()
+    (0..1u64 << places)
+        .map(|set| Word::new(set, !set, places))
+        .collect()
 }
 
 /// The energy (J) of two faces at contact, the second one slid along the first, by a plain sum
@@ -40,7 +42,8 @@ fn plain_energy(first: Word, second: Word, slide: i32) -> f64 {
         for j in 0..second.places() {
             let s = (k as f64 - middle) * PITCH;
             let t = -(j as f64 - middle) * PITCH + f64::from(slide) * PITCH;
-            let [m1, m2] = [first.at(k), -second.at(j)].map(|pole| Vector2::new(f64::from(pole) * bar.moment, 0.0));
+            let [m1, m2] = [first.at(k), -second.at(j)]
+                .map(|pole| Vector2::new(f64::from(pole) * bar.moment, 0.0));
             energy += pair(m1, m2, Vector2::new(bar.size[0], t - s)).0;
         }
     }
@@ -49,7 +52,11 @@ fn plain_energy(first: Word, second: Word, slide: i32) -> f64 {
 
 /// The strongest wrong attraction (J) of two words by the definition of the gap.
 fn plain_attraction(u: Word, v: Word, rules: &Rules) -> f64 {
-    let last = if rules.slides() { u.places() as i32 - 1 } else { 0 };
+    let last = if rules.slides() {
+        u.places() as i32 - 1
+    } else {
+        0
+    };
     let mut strongest = 0.0f64;
     for slide in -last..=last {
         for mate in [true, false] {
@@ -87,12 +94,21 @@ fn brute_force(places: usize, gap: f64, rules: &Rules) -> usize {
             if size + left.len() - k <= *best {
                 return;
             }
-            let rest: Vec<Word> = left[k + 1..].iter().copied().filter(|it| fits(*word, *it)).collect();
+            let rest: Vec<Word> = left[k + 1..]
+                .iter()
+                .copied()
+                .filter(|it| fits(*word, *it))
+                .collect();
             grow(size + 1, &rest, fits, best);
         }
     }
     let mut best = 0;
-    grow(0, &sound, &|u, v| plain_attraction(u, v, rules) <= limit, &mut best);
+    grow(
+        0,
+        &sound,
+        &|u, v| plain_attraction(u, v, rules) <= limit,
+        &mut best,
+    );
     best
 }
 
@@ -114,15 +130,25 @@ fn every_rule() -> Vec<Rules> {
 #[test]
 fn energies_by_lags_are_plain_sums() {
     let lags = Lags::new(&Bar::paper(), 5);
-    let rules = Rules { flip: true, ..Rules::default() };
+    let rules = Rules {
+        flip: true,
+        ..Rules::default()
+    };
     for (u, v) in [("NNSNS", "SNNNS"), ("NSSSN", "NSSSN"), ("N.SN.", "..NSN")] {
         let [u, v] = [u, v].map(|text| Word::parse(text).unwrap());
         let depth = -plain_energy(u, u.mate(), 0);
         assert!((rules::bond(&lags, u) - depth).abs() < 1e-12 * depth);
         let worst = rules.strongest(&lags, u, v).unwrap();
-        let second = if worst.flipped { worst.second.reversed() } else { worst.second };
+        let second = if worst.flipped {
+            worst.second.reversed()
+        } else {
+            worst.second
+        };
         let energy = plain_energy(u, second, worst.slide);
-        assert!((worst.energy - energy).abs() < 1e-12 * depth, "{worst:?} {energy}");
+        assert!(
+            (worst.energy - energy).abs() < 1e-12 * depth,
+            "{worst:?} {energy}"
+        );
         assert!((plain_attraction(u, v, &rules) + energy).abs() < 1e-12 * depth);
     }
 }
@@ -132,11 +158,17 @@ fn sets_are_the_largest_by_brute_force() {
     for rules in every_rule() {
         // Without slides the graphs of six places are too dense for trying all.
         let lengths = [(3, 0.5), (4, 0.37), (5, 0.5), (5, 0.3), (6, 0.6), (6, 0.42)];
-        let lengths = lengths.into_iter().filter(|(places, _)| *places < 6 || rules.slides());
+        let lengths = lengths
+            .into_iter()
+            .filter(|(places, _)| *places < 6 || rules.slides());
         for (places, gap) in lengths {
             let found = largest(&task(places, rules), gap, usize::MAX, &mut effort(20.0));
             let size = brute_force(places, gap, &rules);
-            assert_eq!((found.words.len(), found.upper), (size, size), "{places} {gap} {rules:?}");
+            assert_eq!(
+                (found.words.len(), found.upper),
+                (size, size),
+                "{places} {gap} {rules:?}"
+            );
             let set = task(places, rules).judge(&found.words);
             assert!(set.is_none_or(|set| set.gap >= gap));
         }
@@ -145,7 +177,10 @@ fn sets_are_the_largest_by_brute_force() {
 
 #[test]
 fn counted_contacts_give_the_known_numbers() {
-    for (places, numbers) in [(6, [(2, 1), (3, 3), (4, 12)]), (8, [(3, 2), (4, 7), (5, 17)])] {
+    for (places, numbers) in [
+        (6, [(2, 1), (3, 3), (4, 12)]),
+        (8, [(3, 2), (4, 7), (5, 17)]),
+    ] {
         for (contacts, number) in numbers {
             let task = Task {
                 lags: Lags::contacts(places),
@@ -153,7 +188,11 @@ fn counted_contacts_give_the_known_numbers() {
             };
             let gap = 1.0 - f64::from(contacts) / places as f64;
             let found = largest(&task, gap, usize::MAX, &mut effort(20.0));
-            assert_eq!((found.words.len(), found.upper), (number, number), "{places} {contacts}");
+            assert_eq!(
+                (found.words.len(), found.upper),
+                (number, number),
+                "{places} {contacts}"
+            );
         }
     }
 }
@@ -168,24 +207,55 @@ fn ties_of_contacts_are_decided_by_energies() {
 
 #[test]
 fn sets_with_a_polar_shape_are_codes() {
-    let rules = Rules { shape: Shape::Polar, ..Rules::default() };
+    let rules = Rules {
+        shape: Shape::Polar,
+        ..Rules::default()
+    };
     // A(n, d) of Brouwer's table: words of n places differ in d at least where the gap is 2 d / n.
-    for (n, d, size) in [(5, 3, 4), (6, 3, 8), (7, 3, 16), (8, 4, 16), (9, 5, 6), (10, 5, 12)] {
+    for (n, d, size) in [
+        (5, 3, 4),
+        (6, 3, 8),
+        (7, 3, 16),
+        (8, 4, 16),
+        (9, 5, 6),
+        (10, 5, 12),
+    ] {
         let gap = (2.0 * f64::from(d) - 1.0) / f64::from(n);
         let found = largest(&task(n as usize, rules), gap, usize::MAX, &mut effort(20.0));
-        assert_eq!((found.words.len(), found.upper), (size, size), "A({n}, {d})");
+        assert_eq!(
+            (found.words.len(), found.upper),
+            (size, size),
+            "A({n}, {d})"
+        );
     }
 }
 
 #[test]
 fn more_is_asked_fewer_are_found() {
     let count = |rules, gap, balanced| {
-        let constraints = Constraints { balanced, ..Constraints::default() };
-        let task = Task { constraints, ..task(7, rules) };
-        largest(&task, gap, usize::MAX, &mut effort(20.0)).words.len()
+        let constraints = Constraints {
+            balanced,
+            ..Constraints::default()
+        };
+        let task = Task {
+            constraints,
+            ..task(7, rules)
+        };
+        largest(&task, gap, usize::MAX, &mut effort(20.0))
+            .words
+            .len()
     };
     let plain = Rules::default();
-    let (shared, flip) = (Rules { shape: Shape::Shared, ..plain }, Rules { flip: true, ..plain });
+    let (shared, flip) = (
+        Rules {
+            shape: Shape::Shared,
+            ..plain
+        },
+        Rules {
+            flip: true,
+            ..plain
+        },
+    );
     let numbers = [0.2, 0.35, 0.5, 0.65].map(|gap| count(plain, gap, false));
     assert!(numbers.is_sorted_by(|a, b| a >= b), "{numbers:?}");
     assert!(count(flip, 0.35, false) <= numbers[1]);
@@ -223,7 +293,10 @@ fn the_widest_gap_is_that_of_the_largest_sets() {
 fn threads_change_nothing() {
     let task = task(9, Rules::default());
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| largest(&task, 0.3, usize::MAX, &mut effort(0.5)))
     };
     assert_eq!(on(1), on(3));
@@ -235,7 +308,11 @@ fn spacing_carries_more_words() {
         magnets,
         ..task(places, Rules::default())
     };
-    let count = |task: &Task| largest(task, 0.45, usize::MAX, &mut effort(2.0)).words.len();
+    let count = |task: &Task| {
+        largest(task, 0.45, usize::MAX, &mut effort(2.0))
+            .words
+            .len()
+    };
     let (uniform, spaced) = (count(&slots(4, 4)), count(&slots(9, 4)));
     assert!(spaced > uniform, "{spaced} {uniform}");
 }
@@ -243,7 +320,9 @@ fn spacing_carries_more_words() {
 #[test]
 fn outlines_of_squares_match_along_their_sides() {
     let square = crate::tile::Outline::new(
-        [[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1]].map(Vector2::from).to_vec(),
+        [[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1]]
+            .map(Vector2::from)
+            .to_vec(),
     )
     .unwrap();
     let contact = crate::contact::Contact::new(&square, &square);
@@ -251,5 +330,9 @@ fn outlines_of_squares_match_along_their_sides() {
     // Each of four sides on each of four.
     let full = found.iter().filter(|it| (it.contact - 0.2).abs() < 1e-9);
     assert_eq!(full.count(), 16);
-    assert!(found.iter().all(|it| it.contact <= 0.2 + 1e-9 && it.gap == 0.0));
+    assert!(
+        found
+            .iter()
+            .all(|it| it.contact <= 0.2 + 1e-9 && it.gap == 0.0)
+    );
 }

@@ -206,7 +206,10 @@ mod tests {
         for text in ["N", "NNSN", "N..S.SN", &"NS.".repeat(21)] {
             let word = Word::parse(text).unwrap();
             assert_eq!(word.to_string(), text);
-            assert_eq!(word.mate().to_string(), Barcode::parse(text).unwrap().mate().to_string());
+            assert_eq!(
+                word.mate().to_string(),
+                Barcode::parse(text).unwrap().mate().to_string()
+            );
             assert_eq!(word.reversed().reversed(), word);
         }
         assert_eq!(Word::parse(""), Err(WordError::Places(0)));
@@ -226,7 +229,10 @@ mod tests {
 
     #[test]
     fn correlation_is_the_sum() {
-        let (u, v) = (Word::parse("NNS.SN").unwrap(), Word::parse("SN.NNS").unwrap());
+        let (u, v) = (
+            Word::parse("NNS.SN").unwrap(),
+            Word::parse("SN.NNS").unwrap(),
+        );
         for lag in -8..=8 {
             let plain: i32 = (0..6)
                 .filter(|k| (0..6).contains(&(k + lag)))
@@ -234,7 +240,10 @@ mod tests {
                 .sum();
             assert_eq!(u.correlation(v, lag), plain);
         }
-        let (u, v) = (Word::parse("NNSNSN").unwrap(), Word::parse("SNSNNS").unwrap());
+        let (u, v) = (
+            Word::parse("NNSNSN").unwrap(),
+            Word::parse("SNSNNS").unwrap(),
+        );
         for lag in -5..=5 {
             assert_eq!(u.full_correlation(v, lag), u.correlation(v, lag));
         }

@@ -29,10 +29,18 @@ impl Page {
                 note: note.to_owned(),
             };
             facts.push(fact("gap", format!("{:.4}", judgement.gap), ""));
-            facts.push(fact("weakest bond", si(judgement.bond, "J", 4), "flush, at contact"));
+            facts.push(fact(
+                "weakest bond",
+                si(judgement.bond, "J", 4),
+                "flush, at contact",
+            ));
             if let Some(worst) = judgement.worst {
                 let note = format!("{} on {}", worst.first, worst.second);
-                facts.push(fact("strongest wrong meeting", si(worst.energy, "J", 4), &note));
+                facts.push(fact(
+                    "strongest wrong meeting",
+                    si(worst.energy, "J", 4),
+                    &note,
+                ));
             }
         }
         let mut pictures = Vec::new();
@@ -54,7 +62,11 @@ impl Page {
         }
         let bar = &request.bar;
         Self {
-            title: format!("{} words of {} magnets", answer.words.len(), request.task.magnets),
+            title: format!(
+                "{} words of {} magnets",
+                answer.words.len(),
+                request.task.magnets
+            ),
             subtitle: headline(request, answer),
             facts,
             landscape: None,
@@ -77,7 +89,12 @@ fn words(request: &Request, words: &[Word]) -> Table {
     let rows = words.iter().enumerate().map(|(k, word)| {
         let worst = words
             .iter()
-            .filter_map(|other| request.task.rules.strongest(&request.energies, *word, *other))
+            .filter_map(|other| {
+                request
+                    .task
+                    .rules
+                    .strongest(&request.energies, *word, *other)
+            })
             .min_by(|a, b| a.energy.total_cmp(&b.energy));
         vec![
             json!(name(k)),
@@ -116,7 +133,10 @@ fn shares(request: &Request, words: &[Word]) -> Vec<Vec<f64>> {
         let worst = request.task.rules.strongest(&request.energies, *u, *v);
         worst.map_or(0.0, |it| (-it.energy / weakest).max(0.0))
     };
-    words.iter().map(|u| words.iter().map(|v| share(u, v)).collect()).collect()
+    words
+        .iter()
+        .map(|u| words.iter().map(|v| share(u, v)).collect())
+        .collect()
 }
 
 const OPEN: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" font-family=\"Noto Sans, Helvetica, \
@@ -126,7 +146,12 @@ const OPEN: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" font-family=\"Noto
 fn colour(share: f64) -> String {
     let t = share.clamp(0.0, 1.0);
     let mix = |from: f64, to: f64| (from + (to - from) * t).round();
-    format!("rgb({},{},{})", mix(247.0, 8.0), mix(251.0, 48.0), mix(255.0, 107.0))
+    format!(
+        "rgb({},{},{})",
+        mix(247.0, 8.0),
+        mix(251.0, 48.0),
+        mix(255.0, 107.0)
+    )
 }
 
 fn heat_map(request: &Request, words: &[Word]) -> String {
@@ -157,9 +182,18 @@ fn heat_map(request: &Request, words: &[Word]) -> String {
         }
         for (j, share) in row.iter().enumerate() {
             let (x, y) = (left + cell * j as f64, left + cell * i as f64);
-            let meeting = request.task.rules.strongest(&request.energies, words[i], words[j]);
+            let meeting = request
+                .task
+                .rules
+                .strongest(&request.energies, words[i], words[j]);
             let told = meeting.map_or(String::new(), |it| {
-                format!("{} on {}, slide {}: {}", it.first, it.second, it.slide, si(it.energy, "J", 4))
+                format!(
+                    "{} on {}, slide {}: {}",
+                    it.first,
+                    it.second,
+                    it.slide,
+                    si(it.energy, "J", 4)
+                )
             });
             let _ = write!(
                 svg,
@@ -261,7 +295,12 @@ fn histogram(request: &Request, answer: &Answer) -> String {
     }
     for k in 0..=4 {
         let share = f64::from(k) / 4.0;
-        inner += &label(left + width * share, top + height + 18.0, "middle", &share.to_string());
+        inner += &label(
+            left + width * share,
+            top + height + 18.0,
+            "middle",
+            &share.to_string(),
+        );
     }
     inner += &label(left - 6.0, top + 10.0, "end", &most.to_string());
     chart("gap of the pair", "pairs", &inner)
@@ -271,7 +310,10 @@ fn histogram(request: &Request, answer: &Answer) -> String {
 fn frontier(answer: &Answer) -> String {
     use std::fmt::Write;
     let [left, top, width, height] = AREA;
-    let counts = answer.frontier.iter().map(|it| it.0.found.upper.min(1 << 20));
+    let counts = answer
+        .frontier
+        .iter()
+        .map(|it| it.0.found.upper.min(1 << 20));
     let most = counts.max().unwrap_or(1).max(2) as f64;
     let x = |gap: f64| left + width * gap;
     // From none on, then by factors.
@@ -292,8 +334,16 @@ fn frontier(answer: &Answer) -> String {
                 at - 5.0
             );
         }
-        let fill = if point.found.is_proved() { "#0072b2" } else { "#fff" };
-        let stroke = if point.found.is_proved() { "#0072b2" } else { "#d55e00" };
+        let fill = if point.found.is_proved() {
+            "#0072b2"
+        } else {
+            "#fff"
+        };
+        let stroke = if point.found.is_proved() {
+            "#0072b2"
+        } else {
+            "#d55e00"
+        };
         let _ = write!(
             inner,
             "<circle cx=\"{at:.1}\" cy=\"{:.1}\" r=\"5\" fill=\"{fill}\" stroke=\"{stroke}\" \
@@ -311,6 +361,11 @@ fn frontier(answer: &Answer) -> String {
         inner += &label(left - 6.0, y(tick) + 4.0, "end", &tick.to_string());
         tick *= 10;
     }
-    inner += &label(left + width, top + 4.0, "end", "filled: proved; open: found, line: at most");
+    inner += &label(
+        left + width,
+        top + 4.0,
+        "end",
+        "filled: proved; open: found, line: at most",
+    );
     chart("gap asked for", "words", &inner)
 }

@@ -33,6 +33,9 @@ pub(super) struct Bounds {
 /// Cells looked at at the same time; not by how many threads, so that these decide nothing.
 const BATCH: usize = 64;
 
+/// Cells are at most so many times as long as wide.
+const SLENDER: f64 = 8.0;
+
 /// A cell and the couples that may have low energies in it.
 struct Open {
     cell: Cell,
@@ -72,12 +75,16 @@ impl Stage {
         most_cells: usize,
     ) -> Bounds {
         // Far apart no energy lies below zero by more than the tolerance.
-        let wanted: Vec<f64> = found.iter().map(|(energy, _)| energy.min(0.0) - tolerance).collect();
+        let wanted: Vec<f64> = found
+            .iter()
+            .map(|(energy, _)| energy.min(0.0) - tolerance)
+            .collect();
         let contact = ContactCells::new(&self.contact);
         let mut heap = BinaryHeap::new();
         let mut made = 0;
-        let all: Vec<(usize, f64)> =
-            (0..couples.len()).map(|number| (number, f64::NEG_INFINITY)).collect();
+        let all: Vec<(usize, f64)> = (0..couples.len())
+            .map(|number| (number, f64::NEG_INFINITY))
+            .collect();
         for cell in self.first_cells(tolerance) {
             heap.push(Open {
                 cell,
@@ -124,12 +131,21 @@ impl Stage {
         const TURNS: i32 = 16;
         let moments = |magnets: &[Magnet]| magnets.iter().map(|magnet| magnet.moment).sum::<f64>();
         let product = moments(&self.pair.fixed.magnets) * moments(&self.pair.moving.magnets);
-        let size = self.pair.fixed.magnets.iter().flat_map(|magnet| magnet.size);
+        let size = self
+            .pair
+            .fixed
+            .magnets
+            .iter()
+            .flat_map(|magnet| magnet.size);
         let far = (4.0 * MU0_OVER_4PI * product / tolerance).cbrt();
         let far = far.max(10.0 * size.fold(0.0, f64::max));
         let half = self.pair.free_distance() + far;
-        let (width, turn) = (2.0 * half / f64::from(ACROSS), std::f64::consts::TAU / f64::from(TURNS));
-        let middle = |k: i32, step: f64, count: i32| step * (f64::from(k) + 0.5 - f64::from(count) / 2.0);
+        let (width, turn) = (
+            2.0 * half / f64::from(ACROSS),
+            std::f64::consts::TAU / f64::from(TURNS),
+        );
+        let middle =
+            |k: i32, step: f64, count: i32| step * (f64::from(k) + 0.5 - f64::from(count) / 2.0);
         let mut cells = Vec::new();
         for i in 0..ACROSS {
             for j in 0..ACROSS {
@@ -196,15 +212,20 @@ impl Stage {
         let Some((lack, found)) = worst else {
             return Vec::new();
         };
+        // A cell must not get ever thinner one way: contact tells of a cell that is small all ways.
+        let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
+        let longest = (0..3).max_by_key(|i| OrderedFloat(sizes[*i])).unwrap_or(0);
+        let thin = SLENDER * sizes[found.axis] < sizes[longest];
+        let axis = if thin { longest } else { found.axis };
         let mut half = cell.half;
-        half[found.axis] /= 2.0;
-        let shift = half[found.axis];
+        half[axis] /= 2.0;
+        let shift = half[axis];
         [-shift, shift]
             .map(|shift| {
                 let mut centre = cell.centre.to_array();
-                centre[found.axis] += shift;
+                centre[axis] += shift;
                 let mut half = half;
-                half[found.axis] *= 1.0 + 1e-12;
+                half[axis] *= 1.0 + 1e-12;
                 Open {
                     cell: Cell {
                         centre: centre.into(),
@@ -227,12 +248,19 @@ impl Stage {
                 continue;
             }
             out.form = out.form.minus(-sign, &one.form);
-            let [low, high] = if sign > 0.0 { [one.low, one.high] } else { [-one.high, -one.low] };
+            let [low, high] = if sign > 0.0 {
+                [one.low, one.high]
+            } else {
+                [-one.high, -one.low]
+            };
             out.low += low;
             out.high += high;
         }
         // What the sums lose to rounding, generously.
-        let size = by_magnets.iter().map(|one| magnitude(&one.form)).sum::<f64>();
+        let size = by_magnets
+            .iter()
+            .map(|one| magnitude(&one.form))
+            .sum::<f64>();
         out.low -= SUMMED * size;
         out.high += SUMMED * size;
         out

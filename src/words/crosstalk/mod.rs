@@ -93,7 +93,9 @@ impl Stage {
     pub fn contact_energy(&self) -> f64 {
         let last = self.places - 1;
         let facing = self.magnets.get(last);
-        facing.map_or(0.0, |energy| energy.potential.energy(&self.pair.bound).abs())
+        facing.map_or(0.0, |energy| {
+            energy.potential.energy(&self.pair.bound).abs()
+        })
     }
 
     /// The crosstalk of words; bounds closer than `tolerance` (J) where it is given, from at most
@@ -107,9 +109,8 @@ impl Stage {
             })
             .collect();
         let found = self.sampled(&couples);
-        let bounds = certify.map(|(tolerance, cells)| {
-            self.certified(&couples, &found, tolerance, cells)
-        });
+        let bounds =
+            certify.map(|(tolerance, cells)| self.certified(&couples, &found, tolerance, cells));
         let mut crosstalk = Crosstalk {
             words: words.to_vec(),
             strongest: vec![vec![0.0; 2 * m]; 2 * m],
@@ -142,7 +143,10 @@ impl Stage {
     /// The problem of two words.
     fn problem(&self, couple: &Couple) -> Problem {
         let mut pair = self.pair.clone();
-        for (tile, word) in [(&mut pair.fixed, couple.first), (&mut pair.moving, couple.second)] {
+        for (tile, word) in [
+            (&mut pair.fixed, couple.first),
+            (&mut pair.moving, couple.second),
+        ] {
             let magnets = tile.magnets.iter().enumerate();
             tile.magnets = magnets
                 .filter(|(k, _)| word.at(*k) != 0)
@@ -169,7 +173,6 @@ fn couples_of(m: usize) -> impl Iterator<Item = (usize, usize, bool)> {
     (0..m).flat_map(move |i| (i..m).flat_map(move |j| [(i, j, false), (i, j, true)]))
 }
 
-
 /// The same meeting as the other tile sees it, its target face to the east again: the inverse
 /// pose, turned by half a turn.
 fn exchanged(q: &Configuration) -> Configuration {
@@ -184,7 +187,10 @@ fn mirrored(q: &Configuration) -> Configuration {
 
 /// Energies of all pairs of magnets in a pose (J).
 fn energies(magnets: &[Energy], q: &Configuration) -> Vec<f64> {
-    magnets.iter().map(|energy| energy.potential.energy(q)).collect()
+    magnets
+        .iter()
+        .map(|energy| energy.potential.energy(q))
+        .collect()
 }
 
 /// Work in order on all threads.

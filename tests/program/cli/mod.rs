@@ -11,9 +11,9 @@ mod kept;
 mod mistakes;
 mod shields;
 mod starting;
-mod words;
 #[cfg(unix)]
 mod terminal;
+mod words;
 
 use std::process::Output;
 

@@ -10,14 +10,19 @@ use crate::program::{stderr, stdout};
 
 fn words(found: &Value) -> Vec<&str> {
     let list = found["words"].as_array().expect("a list");
-    list.iter().map(|word| word.as_str().expect("a text")).collect()
+    list.iter()
+        .map(|word| word.as_str().expect("a text"))
+        .collect()
 }
 
 #[test]
 fn eight_magnets_carry_seven_words() {
     let found = json(&["words", "--length", "8", "--gap", "0.45", "--json"]);
     assert_eq!(words(&found).len(), 7);
-    assert_eq!((&found["count"], &found["upper_bound"]), (&7.into(), &7.into()));
+    assert_eq!(
+        (&found["count"], &found["upper_bound"]),
+        (&7.into(), &7.into())
+    );
     assert_eq!(found["proved"], true);
     assert!(found["gap"].as_f64().unwrap() >= 0.45);
     assert!(found["bond_J"].as_f64().unwrap() > 0.0);
@@ -57,8 +62,16 @@ fn nonsense_is_refused_with_the_mend() {
         &["match", "missing.toml"],
     ] {
         let output = tilebind(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
-        assert!(stdout(&output).is_empty() && !stderr(&output).is_empty(), "{arguments:?}");
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+        assert!(
+            stdout(&output).is_empty() && !stderr(&output).is_empty(),
+            "{arguments:?}"
+        );
     }
 }
 
@@ -89,7 +102,13 @@ fn a_set_is_written_read_and_judged_over_all_poses() {
     };
     let (one, two) = (run("1", "one"), run("2", "two"));
     assert!(one == two, "the same bytes on any number of threads");
-    for name in ["words.csv", "crosstalk.csv", "words.toml", "report.json", "report.html"] {
+    for name in [
+        "words.csv",
+        "crosstalk.csv",
+        "words.toml",
+        "report.json",
+        "report.html",
+    ] {
         assert!(one.contains_key(name), "{name}");
     }
     judged(&folder.path().join("one/words.toml"));
@@ -98,10 +117,22 @@ fn a_set_is_written_read_and_judged_over_all_poses() {
 /// Crosstalk is symmetric, holds the bonds, lies above its bounds and below what slides tell.
 fn judged(set: &Path) {
     let set = set.to_str().unwrap();
-    let found = json(&["crosstalk", set, "--certify=2e-3", "--certify-cells", "20000", "--json"]);
+    let found = json(&[
+        "crosstalk",
+        set,
+        "--certify=2e-3",
+        "--certify-cells",
+        "20000",
+        "--json",
+    ]);
     let m = words(&found).len();
     let rows = |key: &str| -> Vec<Vec<f64>> {
-        found[key].as_array().expect("a matrix").iter().map(numbers).collect()
+        found[key]
+            .as_array()
+            .expect("a matrix")
+            .iter()
+            .map(numbers)
+            .collect()
     };
     let (strongest, lower) = (rows("strongest_J"), rows("lower_J"));
     assert_eq!(strongest.len(), 2 * m);
@@ -122,7 +153,11 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("kit.toml");
     let path = file.to_str().unwrap();
-    std::fs::write(&file, "[faces]\nA = { code = \"NN.S\" }\n\"A*\" = { code = \"N.SS\" }\n").unwrap();
+    std::fs::write(
+        &file,
+        "[faces]\nA = { code = \"NN.S\" }\n\"A*\" = { code = \"N.SS\" }\n",
+    )
+    .unwrap();
     let found = json(&["crosstalk", path, "--json"]);
     assert_eq!(words(&found), ["NN.S"]);
     assert!(found["lower_J"].is_null());
@@ -138,15 +173,23 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
         std::fs::write(&file, text).unwrap();
         let output = tilebind(&["crosstalk", path]);
         assert_eq!(output.status.code(), Some(2), "{text}");
-        assert!(stderr(&output).contains(told), "{text}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains(told),
+            "{text}: {}",
+            stderr(&output)
+        );
     }
 }
 
 #[test]
 fn outlines_match_longest_contact_first() {
     let found = json(&["match", "shapes/tab-20mm.toml", "--json"]);
-    let lengths: Vec<f64> =
-        found.as_array().unwrap().iter().map(|one| one["contact_m"].as_f64().unwrap()).collect();
+    let lengths: Vec<f64> = found
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["contact_m"].as_f64().unwrap())
+        .collect();
     assert!(lengths.is_sorted_by(|a, b| *a >= b - 1e-6), "{lengths:?}");
     // The tab in its slot touches along more than a plain side.
     assert!(lengths[0] > 0.43, "{}", lengths[0]);
