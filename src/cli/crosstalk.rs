@@ -27,13 +27,13 @@ pub struct Crosstalk {
     /// The set of words
     set: PathBuf,
 
-    /// Prove that no attraction is stronger, to within E_J [default: a hundredth of a contact]
+    /// Prove that no attraction is stronger, to within E_J [default: a twentieth of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
           value_parser = input::positive)]
     certify: Option<Option<f64>>,
 
     /// Cells spent on the proof at most
-    #[arg(long, value_name = "N", default_value_t = 2_000_000, value_parser = input::count)]
+    #[arg(long, value_name = "N", default_value_t = 8_000_000, value_parser = input::count)]
     certify_cells: usize,
 
     /// Model of the magnets, dipole or cuboid [default: the set's]
@@ -54,7 +54,7 @@ pub struct Crosstalk {
 }
 
 /// The default width of bounds, as a share of two magnets' energy.
-const TOLERANCE: f64 = 0.01;
+const TOLERANCE: f64 = 0.05;
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {

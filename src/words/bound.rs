@@ -87,7 +87,9 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
 /// `K_k(i) / C(n, k)`, between -1 and 1: over the places chosen, the mean of -1 to the number of
 /// them among i.
 fn ratio(n: usize, k: usize, i: usize) -> f64 {
-    let hit = |j: usize| choose(i, j) * choose(n - i, k - j) * if j % 2 == 0 { 1.0 } else { -1.0 };
+    let hit = |j: usize| {
+        choose(i, j) * choose(n - i, k - j) * if j.is_multiple_of(2) { 1.0 } else { -1.0 }
+    };
     (0..=k.min(i))
         .filter(|j| k - j <= n - i)
         .map(hit)

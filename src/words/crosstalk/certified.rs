@@ -33,6 +33,9 @@ pub(super) struct Bounds {
 /// Cells looked at at the same time; not by how many threads, so that these decide nothing.
 const BATCH: usize = 64;
 
+/// Cells are at most so many times as long as wide.
+const SLENDER: f64 = 8.0;
+
 /// A cell and the couples that may have low energies in it.
 struct Open {
     cell: Cell,
@@ -209,15 +212,20 @@ impl Stage {
         let Some((lack, found)) = worst else {
             return Vec::new();
         };
+        // A cell must not get ever thinner one way: contact tells of a cell that is small all ways.
+        let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
+        let longest = (0..3).max_by_key(|i| OrderedFloat(sizes[*i])).unwrap_or(0);
+        let thin = SLENDER * sizes[found.axis] < sizes[longest];
+        let axis = if thin { longest } else { found.axis };
         let mut half = cell.half;
-        half[found.axis] /= 2.0;
-        let shift = half[found.axis];
+        half[axis] /= 2.0;
+        let shift = half[axis];
         [-shift, shift]
             .map(|shift| {
                 let mut centre = cell.centre.to_array();
-                centre[found.axis] += shift;
+                centre[axis] += shift;
                 let mut half = half;
-                half[found.axis] *= 1.0 + 1e-12;
+                half[axis] *= 1.0 + 1e-12;
                 Open {
                     cell: Cell {
                         centre: centre.into(),

@@ -1,9 +1,9 @@
 //! The strongest attraction of all couples from one grid of poses, each polished.
 //!
-//! A pose is a tilt of the second tile about the middle of its face, a slide along the first face,
-//! and how far the tile is drawn back from contact. Of the grid every couple keeps its lowest pose
-//! in each of some ranges of the tilt; compass search brings these to their minima. A sample: what
-//! lies between the poses of the grid may be lower.
+//! A pose is a tilt of the second tile about the middle of its face and a slide along the first face,
+//! in contact. Of the grid every couple keeps its lowest poses of different tilts; compass search,
+//! which may also draw the tile back, brings these to their minima. A sample: what lies between the
+//! poses of the grid may be lower.
 
 use ordered_float::OrderedFloat;
 
@@ -11,14 +11,13 @@ use super::{Couple, Stage, energies, in_parallel, normal};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
+use crate::words::Word;
 
 /// Slides within a place.
 const SLIDES_A_PLACE: f64 = 8.0;
-/// Distances drawn back from contact, in lengths of a magnet.
-const DRAWN_BACK: [f64; 2] = [0.0, 0.5];
 /// Tilts (rad): fine where faces are nearly flush, coarse beyond.
 const FINE: (f64, f64) = (0.01, 0.1);
-const COARSE: (f64, f64) = (0.05, 1.6);
+const COARSE: (f64, f64) = (0.1, 1.6);
 /// Poses of a couple that are polished.
 const POLISHED: usize = 4;
 /// Where compass search ends (m).
@@ -58,41 +57,42 @@ impl Stage {
     /// For each couple the lowest energy at a tilt, and where.
     fn best_at(&self, tilt: f64, couples: &[Couple]) -> Vec<(f64, Setting)> {
         let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
-        let signs: Vec<Vec<f64>> = couples.iter().map(|couple| self.signs(couple)).collect();
+        // Energies of the second words with each magnet of the first tile serve many couples.
+        let mut seconds: Vec<Word> = couples.iter().map(|couple| couple.second).collect();
+        seconds.sort_unstable();
+        seconds.dedup();
+        let place = |couple: &Couple| seconds.binary_search(&couple.second).unwrap_or(0);
+        let places: Vec<usize> = couples.iter().map(place).collect();
+        let n = self.places;
+        let signs = |word: Word| (0..n).map(move |k| f64::from(word.at(k)));
+        let first_signs: Vec<Vec<f64>> = couples
+            .iter()
+            .map(|couple| signs(couple.first).collect())
+            .collect();
+        let second_signs: Vec<Vec<f64>> =
+            seconds.iter().map(|word| signs(*word).collect()).collect();
         let face = self.pair.target_face().length();
-        let step = face / self.places as f64 / SLIDES_A_PLACE;
+        let step = face / n as f64 / SLIDES_A_PLACE;
         let count = (face / step).round() as i64;
         for number in -count..=count {
-            for back in DRAWN_BACK {
-                let back = back * self.magnet_length();
-                let setting = [tilt, number as f64 * step, back];
-                let Some(q) = self.placed(setting) else {
-                    continue;
-                };
-                let by_magnets = energies(&self.magnets, &q);
-                for (signs, best) in signs.iter().zip(&mut best) {
-                    let terms = signs.iter().zip(&by_magnets);
-                    let energy: f64 = terms.map(|(sign, energy)| sign * energy).sum();
-                    if energy < best.0 {
-                        *best = (energy, setting);
-                    }
+            let setting = [tilt, number as f64 * step, 0.0];
+            let Some(q) = self.placed(setting) else {
+                continue;
+            };
+            let by_magnets = energies(&self.magnets, &q);
+            let with_second: Vec<f64> = second_signs
+                .iter()
+                .flat_map(|signs| by_magnets.chunks(n).map(|row| dot(row, signs)))
+                .collect();
+            for (number, best) in best.iter_mut().enumerate() {
+                let from = places[number] * n;
+                let energy = dot(&with_second[from..from + n], &first_signs[number]);
+                if energy < best.0 {
+                    *best = (energy, setting);
                 }
             }
         }
         best
-    }
-
-    fn signs(&self, couple: &Couple) -> Vec<f64> {
-        let n = self.places;
-        (0..n * n).map(|kj| couple.sign(kj / n, kj % n)).collect()
-    }
-
-    fn magnet_length(&self) -> f64 {
-        self.pair
-            .fixed
-            .magnets
-            .first()
-            .map_or(0.0, |magnet| magnet.size[0])
     }
 
     /// The pose of a setting; `None` where the tile passes by.
@@ -133,6 +133,10 @@ impl Stage {
         }
         Some(best)
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Tilts from the fine to the coarse, either way.
