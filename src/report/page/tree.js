@@ -97,7 +97,10 @@ function buildTree(choose) {
     const free = ([left, base]) => left > 74 && left + wide < width && base > 12
       && taken.every(([a, b, c, d]) => left + wide <= a || c <= left || base + 3 <= b || d <= base - 11);
     const away = ([left, base]) => Math.hypot(left + (left < mx ? wide : 0) - mx, base - my);
-    const [left, base] = spots.filter(free).sort((a, b) => away(a) - away(b))[0] ?? [mx + 9, my - 6];
+    // Where there is no room the table has the figure.
+    const spot = spots.filter(free).sort((a, b) => away(a) - away(b))[0];
+    if (!spot) continue;
+    const [left, base] = spot;
     taken.push([left, base - 11, left + wide, base + 3]);
     labels.push(svg("text", { x: left, y: base, class: "soft merge" }, text));
   }
