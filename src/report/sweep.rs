@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::comparison::{capture_settings, cells, checked, columns, merge, quantities};
+use super::assessments::{capture_settings, cells, columns, merge, quantities};
+use super::comparison::checked;
 use super::csv::table;
 use super::json;
 use super::plots::curve_names::said;

@@ -1,7 +1,7 @@
 //! What a sweep answers: one sentence, and a table of its points.
 
 use super::figures::cell;
-use super::summary::write_folded;
+use super::terminal::write_folded;
 use super::sweep::Sweep;
 use crate::comparison::quantity::QUANTITIES;
 use crate::comparison::{Assessment, Quantity};

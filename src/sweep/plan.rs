@@ -298,10 +298,12 @@ impl Plan {
                     .map_while(|value| source.fault(document, &axis.key, value))
                     .collect();
                 if reasons.len() == axis.values.len() {
-                    return Err(PlanError::Unknown {
-                        path: axis.key.clone(),
-                        reason: reasons.into_iter().next().unwrap_or_default(),
-                    });
+                    let mut reason = reasons.into_iter().next().unwrap_or_default();
+                    if let Some(meant) = document::paths(document, &axis.key).first() {
+                        reason = format!("it takes its whole path, such as `{meant}`");
+                    }
+                    let path = axis.key.clone();
+                    return Err(PlanError::Unknown { path, reason });
                 }
             }
         }
