@@ -77,7 +77,9 @@ fn write_completeness(text: &mut String, analysis: &Analysis) {
         Err(why) => {
             let _ = writeln!(
                 text,
-                "the list of states is sampled and may lack some: {why}"
+                "the list of states is sampled and may lack some: {why};\n\
+                 of more far starts {} would end in kinds not seen yet (Good-Turing estimate)",
+                percent(&analysis.inventory.unseen())
             );
             return;
         }

@@ -61,7 +61,7 @@ impl Claims {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Uncertified {
     /// None was asked for.
-    #[error("no time was given to the certificate")]
+    #[error("no time was given to the proof")]
     NoTime,
     /// None can be.
     #[error(transparent)]

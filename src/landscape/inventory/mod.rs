@@ -226,6 +226,16 @@ impl Inventory {
         }
     }
 
+    /// Estimate of the share of far starts that would end in a kind of state that none has ended in
+    /// yet: n1 / n, n1 the number of kinds in which just one of n starts ended (Turing's formula, Good
+    /// 1953, doi:10.1093/biomet/40.3-4.237), with the interval of a proportion. It says nothing of
+    /// states that hardly catch anything. Needs [`count_captures`](Self::count_captures).
+    pub fn unseen(&self) -> Proportion {
+        let captured: Vec<Proportion> = self.kinds().map(|kind| kind.captured()).collect();
+        let single = captured.iter().filter(|share| share.count == 1).count();
+        Proportion::new(single, captured.first().map_or(0, |share| share.of))
+    }
+
     /// Whether a configuration, or one of its images, is that of a state.
     pub fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
         let mut images = problem.symmetries.iter().map(|s| s.apply(q));

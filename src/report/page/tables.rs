@@ -10,6 +10,7 @@ use crate::design::Design;
 use crate::landscape::{Kind, Place};
 use crate::pipeline::Analysis;
 use crate::report::columns::{self, Cell, Output, StateRow};
+use crate::report::figures::percent;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
 use crate::units::{si, si_range};
@@ -106,7 +107,13 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
 /// Whether states may be missing from the list.
 fn completeness(analysis: &Analysis) -> Fact {
     let (value, note) = match &analysis.completeness {
-        Err(why) => ("sampled", format!("it may lack some: {why}")),
+        Err(why) => (
+            "sampled",
+            format!(
+                "it may lack some: {why}; of more far starts {} would end in kinds not seen yet",
+                percent(&analysis.inventory.unseen())
+            ),
+        ),
         Ok(known) => {
             let [below, escape, lowest] =
                 [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
