@@ -26,6 +26,7 @@ use crate::landscape::{
 };
 use crate::observer::Observer;
 use crate::pipeline::{self, Analysis, Settings};
+use crate::potential::MagnetModel;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
@@ -49,7 +50,8 @@ pub struct AssessmentSettings {
     pub tolerance: Option<f64>,
     /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
     pub certify_cells: usize,
-    /// Cells spent on the search for states that the survey missed, at most; 0 for no search.
+    /// Cells spent on the search for states that the survey missed, at most; 0 for no search. Of blocks
+    /// it is a thirtieth, which takes about as long.
     pub complete_cells: usize,
     /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -221,6 +223,9 @@ impl Way {
     }
 }
 
+/// A cell of blocks takes as long as about this many of dipoles.
+const CELLS_OF_BLOCKS: usize = 30;
+
 /// Analyses a design and keeps what is compared.
 pub fn assess(
     design: &Design,
@@ -228,7 +233,11 @@ pub fn assess(
     seed: u64,
     observer: &dyn Observer,
 ) -> Assessment {
-    let analysis = pipeline::analyse(design, &settings.settings(seed), observer);
+    let mut settings = settings.settings(seed);
+    if design.interaction.model == MagnetModel::Cuboid {
+        settings.completeness.cells /= CELLS_OF_BLOCKS;
+    }
+    let analysis = pipeline::analyse(design, &settings, observer);
     Assessment::new(design, &analysis)
 }
 
