@@ -57,6 +57,7 @@ impl Comparison {
         if self.designs.iter().any(has_estimates) {
             let _ = writeln!(out, "({ESTIMATES})");
         }
+        let _ = writeln!(out, "(unlisted at most: {UNLISTED})");
         if self.designs.iter().any(misses_head_on) {
             let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
         }
@@ -125,6 +126,7 @@ impl Comparison {
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
         );
+        let _ = write!(note, " \u{201c}Unlisted at most\u{201d}: {UNLISTED}.");
         if self.designs.iter().any(has_estimates) {
             let _ = write!(note, " (The {ESTIMATES}.)");
         }
@@ -258,6 +260,9 @@ impl Comparison {
     }
 }
 
+/// What is proved of traps that were not found.
+const UNLISTED: &str = "states that were not found are less deep than this, or take less than half \
+                        a hundredth of the bond to leave, proved";
 /// What barriers are of which nothing is proved.
 const ESTIMATES: &str = "barriers without brackets are estimates of a roadmap: too high where \
                          it misses a passage";
