@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use tilebind::Configuration;
@@ -128,6 +128,22 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x| *x < 1.0)
         .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+}
+
+/// Largest table or manifest that is read (bytes).
+const LARGEST: u64 = 256 << 20;
+
+/// The text of a table or manifest named on the command line; a pipe may be, too.
+pub fn text(path: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?
+        .take(LARGEST + 1)
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("it is larger than {} MB", LARGEST >> 20);
+        return Err(io::Error::other(message));
+    }
+    String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
 }
 
 /// Refuses a folder that results cannot be written to, before any work is done. Nothing is left in

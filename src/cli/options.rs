@@ -10,7 +10,7 @@ use tilebind::Settings;
 use tilebind::design::{Design, MagnetModel};
 
 use super::progress::Progress;
-use super::{Failure, input, print};
+use super::{Failure, input, print, tell};
 
 /// A design, and how its magnets are to be modelled.
 #[derive(Args)]
@@ -93,8 +93,7 @@ pub struct WorkOptions {
 impl WorkOptions {
     /// The number of threads asked for, or else that of cores.
     pub fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.threads.map_or_else(cores, usize::from)
+        self.threads.map_or_else(cores, useful)
     }
 
     /// Has the library work on the number of threads asked for.
@@ -103,13 +102,32 @@ impl WorkOptions {
     }
 }
 
+/// Most threads for a core: thousands would wait for each other.
+const MOST_FOR_A_CORE: usize = 8;
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The threads asked for, as far as they are of use.
+fn useful(threads: u16) -> usize {
+    usize::from(threads).min(MOST_FOR_A_CORE * cores())
+}
+
 /// Has the library work on so many threads, or on all cores.
 pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
     let Some(threads) = threads else {
         return Ok(());
     };
+    let used = useful(threads);
+    if used < usize::from(threads) {
+        tell(format!(
+            "note: {used} threads are used: more on {} cores would gain nothing",
+            cores()
+        ));
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
+        .num_threads(used)
         .build_global()
         .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }
