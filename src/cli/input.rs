@@ -92,6 +92,26 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
     found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
 }
 
+/// Most runs of anything whose results are all held in memory.
+const MOST_RUNS: usize = 10_000_000;
+
+/// A number of runs, at least 1.
+pub fn runs(text: &str) -> Result<usize, String> {
+    count(text).and_then(not_too_many)
+}
+
+/// A number of runs, 0 among them.
+pub fn runs_or_none(text: &str) -> Result<usize, String> {
+    count_or_none(text).and_then(not_too_many)
+}
+
+fn not_too_many(count: usize) -> Result<usize, String> {
+    match count {
+        0..=MOST_RUNS => Ok(count),
+        _ => Err(format!("at most {MOST_RUNS} can be held in memory")),
+    }
+}
+
 /// A positive length (m), or with a unit.
 pub fn length(text: &str) -> Result<f64, String> {
     design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
@@ -233,5 +253,8 @@ mod tests {
     fn limits() {
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+        assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
+        assert!(runs("1e7").is_ok() && runs("4294967295").is_err());
+        assert!(runs_or_none("4294967295").is_err());
     }
 }

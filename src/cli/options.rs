@@ -62,12 +62,12 @@ pub struct SurveyOptions {
 
     /// Far starts from which capture shares are counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().far_starts,
-          value_parser = input::count_or_none)]
+          value_parser = input::runs_or_none)]
     pub far_starts: usize,
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = input::count)]
+          default_missing_value = "1000", value_parser = input::runs)]
     dynamics: Option<usize>,
 }
 

@@ -55,6 +55,24 @@ fn thousands_of_threads_are_more_than_are_used() {
 }
 
 #[test]
+fn runs_that_no_machine_can_hold_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let design = "shapes/tab-20mm.toml";
+    for arguments in [
+        &["analyse", design, "--far-starts", "4294967295"][..],
+        &["analyse", design, "--dynamics=4294967295"],
+        &["compare", design, "--far-starts", "4294967295"],
+        &["dock", design, "--runs", "4294967295"],
+    ] {
+        let output = tilebind(&[arguments, &["--out", out.to_str().unwrap()]].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains("at most 10000000"), "{arguments:?}");
+        assert!(!out.exists());
+    }
+}
+
+#[test]
 fn very_many_magnets_are_told_of_before_the_work() {
     let folder = tempfile::tempdir().unwrap();
     let design = folder.path().join("many.toml");
