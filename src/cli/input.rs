@@ -45,9 +45,9 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     let [Some(x), Some(y), Some(theta)] = numbers else {
         return Err(FORM.to_owned());
     };
-    if theta.abs() > 1.001 * std::f64::consts::TAU {
+    if theta.abs() > 2.0 * std::f64::consts::TAU {
         return Err(format!(
-            "theta = {theta} rad is more than a whole turn: for degrees write \"{x},{y},{theta} deg\""
+            "theta = {theta} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
         ));
     }
     Ok(Configuration::from([x, y, theta]))

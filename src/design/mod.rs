@@ -35,6 +35,7 @@ mod base;
 mod build;
 mod doubts;
 pub(crate) mod drawings;
+mod entry;
 mod error;
 mod face;
 mod faults;

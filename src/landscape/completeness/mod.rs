@@ -98,6 +98,12 @@ impl Completeness {
     pub fn is_complete(&self) -> bool {
         self.open.is_empty()
     }
+
+    /// What the list may lack lies above this (J), whether it is complete or not.
+    pub fn lowest(&self) -> f64 {
+        let open = self.open.iter().map(|region| region.lowest);
+        open.fold(self.below, f64::min)
+    }
 }
 
 /// Cells assessed between two looks at the clock.
