@@ -23,13 +23,21 @@ const COMMANDS: [(&str, &[&str]); 4] = [
         "analyse",
         &["--certify-seconds", "0", "--complete-seconds", "0"],
     ),
-    ("compare", &["shapes/one-face.toml", "--certify-cells", "0"]),
+    ("compare", &["shapes/one-face.toml", NO_BOUNDS, NO_SEARCH]),
     (
         "sweep",
-        &["--vary", "fixed.faces.east.profile.depth=0.01,0.02", "--certify-cells", "0"],
+        &[
+            "--vary",
+            "fixed.faces.east.profile.depth=0.01,0.02",
+            NO_BOUNDS,
+            NO_SEARCH,
+        ],
     ),
     ("dock", &["--runs", "8", "--duration", "1"]),
 ];
+
+const NO_BOUNDS: &str = "--certify-cells=0";
+const NO_SEARCH: &str = "--complete-cells=0";
 
 /// What makes a survey short; docking has none.
 const SHORT: [&str; 4] = ["--milestones", "200", "--far-starts", "10"];
