@@ -239,7 +239,7 @@ impl Sweep {
             file.to_owned()
         };
         let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
-        let text = std::fs::read_to_string(&file)
+        let text = input::text(&file)
             .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));

@@ -180,7 +180,7 @@ impl Design {
     ///
     /// # Errors
     /// Where the text is no sound design.
-    pub(crate) fn parse_with(
+    pub fn parse_with(
         text: &str,
         file: &str,
         drawings: &BTreeMap<String, String>,

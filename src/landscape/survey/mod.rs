@@ -91,6 +91,11 @@ impl Survey {
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
+        // Every configuration is as low as every other: none is a state.
+        if problem.is_inert() {
+            survey.network.span();
+            return survey;
+        }
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
         survey.find_siblings(problem, settings);
