@@ -31,8 +31,8 @@ pub fn tell_of(design: &Design, survey: &SurveyOptions, work: &WorkOptions) {
         since.elapsed().as_secs_f64()
     };
     let seconds = (0..3).map(once).fold(f64::INFINITY, f64::min);
-    let evaluations = FOR_A_MILESTONE * survey.milestones as f64
-        + FOR_A_FAR_START * survey.far_starts as f64;
+    let evaluations =
+        FOR_A_MILESTONE * survey.milestones as f64 + FOR_A_FAR_START * survey.far_starts as f64;
     let threads = work.threads();
     let total = seconds * evaluations / threads as f64;
     if total > LONG {

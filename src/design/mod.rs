@@ -180,11 +180,7 @@ impl Design {
     ///
     /// # Errors
     /// Where the text is no sound design.
-    pub fn parse_with(
-        text: &str,
-        file: &str,
-        drawings: &BTreeMap<String, String>,
-    ) -> Result<Self> {
+    pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
         Self::read(text, file, Drawings::new(Some(drawings)))
     }
 

@@ -119,9 +119,8 @@ impl Problem {
 
     /// Whether one of the tiles has no magnets: U is zero everywhere.
     pub fn is_inert(&self) -> bool {
-        let has_none = |pair: &Arc<Pair>| {
-            pair.fixed.magnets.is_empty() || pair.moving.magnets.is_empty()
-        };
+        let has_none =
+            |pair: &Arc<Pair>| pair.fixed.magnets.is_empty() || pair.moving.magnets.is_empty();
         self.pair.as_ref().is_some_and(has_none)
     }
 

@@ -295,7 +295,14 @@ mod tests {
         // Slots into which no straight way leads far, and teeth; 48 times as long without halves.
         let slots: Vec<_> = (0..1000)
             .map(|k| f64::from(k) / 1000.0)
-            .flat_map(|s| [[s + 2e-4, 0.0], [s + 2e-4, 0.9], [s + 8e-4, 0.9], [s + 8e-4, 0.0]])
+            .flat_map(|s| {
+                [
+                    [s + 2e-4, 0.0],
+                    [s + 2e-4, 0.9],
+                    [s + 8e-4, 0.9],
+                    [s + 8e-4, 0.0],
+                ]
+            })
             .chain([[1.0, 1.0], [0.0, 1.0]])
             .collect();
         assert!(check(&points(&slots)).len() >= 1000);

@@ -42,7 +42,10 @@ fn check(design: &Design, query: &Query, answer: &Answer) {
     }
     assert_eq!(first.s, 0.0);
     assert!(way.windows(2).all(|pair| pair[0].s <= pair[1].s));
-    let highest = way.iter().map(|p| p.energy).fold(f64::NEG_INFINITY, f64::max);
+    let highest = way
+        .iter()
+        .map(|p| p.energy)
+        .fold(f64::NEG_INFINITY, f64::max);
     let scale = problem.depth();
     assert!((highest - barrier.saddle_energy).abs() < 1e-6 * scale);
     assert!((problem.energy(&barrier.saddle) - barrier.saddle_energy).abs() < 1e-6 * scale);

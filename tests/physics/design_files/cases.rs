@@ -14,7 +14,9 @@ fn cases(kind: &str) -> Vec<String> {
     let entries = std::fs::read_dir(folder.join(kind)).expect("a folder");
     let texts = entries.map(|entry| std::fs::read(entry.unwrap().path()).unwrap());
     // As the fuzzer's targets do with other bytes.
-    texts.filter_map(|bytes| String::from_utf8(bytes).ok()).collect()
+    texts
+        .filter_map(|bytes| String::from_utf8(bytes).ok())
+        .collect()
 }
 
 #[test]

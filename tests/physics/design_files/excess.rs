@@ -253,7 +253,10 @@ fn many_points(count: usize) -> String {
         format!("[{s:.7}, {}]", if k % 2 == 1 { 0.001 } else { 0.0 })
     };
     let points: Vec<String> = (0..=count).map(point).collect();
-    format!("profile = {{ shape = \"points\", points = [{}] }}", points.join(", "))
+    format!(
+        "profile = {{ shape = \"points\", points = [{}] }}",
+        points.join(", ")
+    )
 }
 
 #[test]

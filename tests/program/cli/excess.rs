@@ -38,12 +38,22 @@ fn tiles_without_magnets_have_no_states_and_take_no_time_of_any_proof() {
     let counts = &report["counts"];
     assert!(counts["cells"].as_u64() < Some(1000), "{counts}");
     // Where every configuration is a minimum, there are hundreds of thousands.
-    assert!(counts["energy_evaluations"].as_u64() < Some(100_000), "{counts}");
+    assert!(
+        counts["energy_evaluations"].as_u64() < Some(100_000),
+        "{counts}"
+    );
 }
 
 #[test]
 fn thousands_of_threads_are_more_than_are_used() {
-    let poses = ["--from", "0.43,0,0", "--to", "0.9,0,0", "--milestones", "200"];
+    let poses = [
+        "--from",
+        "0.43,0,0",
+        "--to",
+        "0.9,0,0",
+        "--milestones",
+        "200",
+    ];
     let design = ["barrier", "shapes/tab-20mm.toml"];
     let output = tilebind(&[&design, &poses[..], &["--threads", "60000"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -67,7 +77,10 @@ fn runs_that_no_machine_can_hold_are_refused() {
     ] {
         let output = tilebind(&[arguments, &["--out", out.to_str().unwrap()]].concat());
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains("at most 10000000"), "{arguments:?}");
+        assert!(
+            stderr(&output).contains("at most 10000000"),
+            "{arguments:?}"
+        );
         assert!(!out.exists());
     }
 }

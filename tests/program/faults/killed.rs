@@ -60,7 +60,11 @@ fn a_killed_worker_is_missed_and_its_part_is_made_up_for() {
     let merge = || command(&["sweep", "--merge", plan]).output().unwrap();
     let output = merge();
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("not finished"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("not finished"),
+        "{}",
+        stderr(&output)
+    );
     assert_eq!(part("2/2").output().unwrap().status.code(), Some(0));
     assert_eq!(merge().status.code(), Some(0));
     assert_eq!(assert_whole(&out, &expected), expected.len());

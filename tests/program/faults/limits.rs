@@ -85,7 +85,11 @@ fn what_the_process_may_not_have_is_refused_beforehand() {
         arguments[place.unwrap()] = "4000000";
         let output = after("ulimit -v 1000000", &arguments);
         assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
-        assert!(stderr(&output).contains("1.0 GB are free"), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("1.0 GB are free"),
+            "{}",
+            stderr(&output)
+        );
         assert!(!out.exists());
     }
 }

@@ -65,7 +65,9 @@ fn after(preparation: &str, arguments: &[&str]) -> Output {
 /// The files of a command that nothing befalls.
 fn undisturbed(name: &str, more: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
-    let output = command(&arguments(name, more, folder.path())).output().unwrap();
+    let output = command(&arguments(name, more, folder.path()))
+        .output()
+        .unwrap();
     assert_eq!(output.status.code(), Some(0), "{name}: {output:?}");
     contents(folder.path())
 }
@@ -79,7 +81,9 @@ fn assert_whole(folder: &Path, expected: &BTreeMap<String, Vec<u8>>) -> usize {
     };
     let ending = |content: &[u8]| content[content.len().saturating_sub(6)..].to_vec();
     for (name, content) in &found {
-        let whole = expected.get(name).unwrap_or_else(|| panic!("{name} is not a result"));
+        let whole = expected
+            .get(name)
+            .unwrap_or_else(|| panic!("{name} is not a result"));
         assert_eq!(ending(content), ending(whole), "{name} is not whole");
     }
     found.len()

@@ -53,7 +53,13 @@ fn wrong_axes_designs_and_parts_are_refused() {
             "such as `fixed.faces.east.profile.depth`",
         ),
         (
-            &[DESIGN, "--vary", "magnet.pitch=0.03,0.04", "--baseline", "pitch=5"],
+            &[
+                DESIGN,
+                "--vary",
+                "magnet.pitch=0.03,0.04",
+                "--baseline",
+                "pitch=5",
+            ],
             "such as `pitch=0.03`",
         ),
         (

@@ -97,7 +97,15 @@ fn points_are_set_against_one_and_added_where_figures_bend() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let depth = format!("{DEPTH}=0:0.04:3");
-    let what = [DESIGN, "--vary", &depth, "--baseline", "depth=0 mm", "--refine", "2"];
+    let what = [
+        DESIGN,
+        "--vary",
+        &depth,
+        "--baseline",
+        "depth=0 mm",
+        "--refine",
+        "2",
+    ];
     let arguments = [&what[..], &QUICK, &["--out", text(&out)]].concat();
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
