@@ -56,6 +56,7 @@ mod syntax;
 mod target;
 mod tile;
 mod units;
+mod word_places;
 mod word_set;
 
 pub use crate::potential::MagnetModel;

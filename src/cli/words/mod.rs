@@ -1,19 +1,25 @@
 //! `tilebind words`.
 
+mod continuous;
+mod values;
+
 use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::design::MagnetModel;
+use tilebind::report::files::Files;
 use tilebind::report::words::{self as report, Request};
 use tilebind::report::writer;
 use tilebind::words::budget::Budget;
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{Bar, Constraints, Faces, Lags, Question, Rules, Shape, Task, answer};
+use tilebind::words::{
+    Bar, Constraints, Faces, Fault, Lags, Question, Rules, Shape, Task, answer,
+};
 
 use super::options::{PrintOptions, WorkOptions};
-use super::word::Word;
 use super::{Failure, input, interrupt, tell};
+use values::{fault, faces, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
@@ -33,6 +39,7 @@ Examples:
   tilebind words --length 8                                # gap against number of words
   tilebind words --length 12 --gap 0.8 --shape polar
   tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
+  tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
   tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2"
 )]
 pub struct Words {
@@ -41,7 +48,7 @@ pub struct Words {
     design: Option<PathBuf>,
 
     /// Magnets of a word
-    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present = "slots")]
+    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present_any = ["slots", "magnets"])]
     length: Option<usize>,
 
     /// Least gap, from 0 to 1
@@ -76,11 +83,27 @@ pub struct Words {
     #[arg(long, value_name = "N", value_parser = input::count)]
     slots: Option<usize>,
 
-    /// Magnets of a word with --slots [default: --length]
-    #[arg(long, value_name = "K", value_parser = input::count, requires = "slots")]
+    /// Magnets of a word with --slots or --continuous [default: --length]
+    #[arg(long, value_name = "K", value_parser = input::count)]
     magnets: Option<usize>,
 
-    /// From place to place (m) [default: the design's, or 0.04]
+    /// Magnets may lie anywhere along the face: positions and poles are found together, with wrong
+    /// meetings judged over all poses, tilted ones too. Takes --gap or --count
+    #[arg(long, conflicts_with_all = ["slots", "contacts", "shape", "min_mismatch", "consecutive",
+          "min_bond", "tolerate", "word_word", "word_mate", "mate_mate"])]
+    continuous: bool,
+
+    /// Length of the face (m) with --continuous [default: the design's, or 0.43]
+    #[arg(long, value_name = "M", value_parser = input::length, requires = "continuous")]
+    face: Option<f64>,
+
+    /// The gap holds though one magnet of every face is missing (missing=1) or the wrong way round
+    /// (flipped=1): bonds and wrong meetings are those of the worst such faults
+    #[arg(long, value_name = "FAULT", value_parser = fault(), conflicts_with = "contacts",
+          hide_possible_values = true)]
+    tolerate: Option<Fault>,
+
+    /// From place to place (m), the least spacing with --continuous [default: the design's, or 0.04]
     #[arg(long, value_name = "M", value_parser = input::positive)]
     pitch: Option<f64>,
 
@@ -138,20 +161,27 @@ pub struct Words {
     print: PrintOptions,
 }
 
+/// The side (m) of the paper's tile.
+const PAPER_FACE: f64 = 0.43;
+
 impl Words {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let (places, magnets) = self.places()?;
-        let (bar, design) = self.bar()?;
+        let (bar, face, design) = self.bar()?;
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
         }
         self.work.use_threads()?;
+        if self.continuous {
+            return self.run_continuous(magnets, bar, self.face.unwrap_or(face));
+        }
         let energies = Lags::new(&bar, places);
         let rules = Rules {
             faces: self.faces,
             shape: self.shape,
             flip: self.flip,
+            fault: self.tolerate,
         };
         let (question, lags) = match (self.contacts, self.gap, self.count) {
             (Some(most), _, _) => {
@@ -188,15 +218,29 @@ impl Words {
             tell("note: the clock ended the search; the same command may find other words");
         }
         let json = report::json(&request, &answer);
+        self.finish(
+            &json,
+            || report::files(&request, &answer),
+            || report::summary(&request, &answer),
+        )
+    }
+
+    /// Writes the files, if a folder is given, and prints.
+    fn finish(
+        &self,
+        json: &str,
+        files: impl FnOnce() -> Files,
+        summary: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
         if let Some(folder) = &self.out {
-            let files = report::files(&request, &answer);
+            let files = files();
             let kept = interrupt::without(|| writer::write(folder, &files))?;
             for path in kept {
                 tell(format!("note: kept what was there as {}", path.display()));
             }
         }
-        self.print.results(&json, || {
-            let mut text = report::summary(&request, &answer);
+        self.print.results(json, || {
+            let mut text = summary();
             if let Some(folder) = &self.out {
                 text += &format!("results in {}: {}\n", folder.display(), report::FILES);
             }
@@ -221,6 +265,20 @@ impl Words {
                     return wrong("say how many of the slots hold magnets: --magnets 4".to_owned());
                 }
             },
+            (None, length) if self.continuous => match (self.magnets, length) {
+                (Some(magnets), Some(length)) if length != magnets => {
+                    return wrong(format!(
+                        "--length {length} is not --magnets {magnets}: leave it out"
+                    ));
+                }
+                (Some(magnets), _) | (None, Some(magnets)) => (magnets, magnets),
+                (None, None) => return wrong("say how many magnets: --magnets 4".to_owned()),
+            },
+            (None, _) if self.magnets.is_some() => {
+                return wrong(
+                    "--magnets goes with --slots or --continuous; else say --length".to_owned(),
+                );
+            }
             (None, Some(length)) => (length, length),
             (None, None) => return wrong("say how long words are: --length 8".to_owned()),
         };
@@ -243,8 +301,8 @@ impl Words {
         Ok((places, magnets))
     }
 
-    /// The magnets, and the name of the design that they are of.
-    fn bar(&self) -> Result<(Bar, Option<String>), Failure> {
+    /// The magnets, the length of the face (m), and the name of the design that they are of.
+    fn bar(&self) -> Result<(Bar, f64, Option<String>), Failure> {
         let Some(path) = &self.design else {
             let paper = Bar::paper();
             return Ok((
@@ -253,6 +311,7 @@ impl Words {
                     model: self.model.unwrap_or(paper.model),
                     ..paper
                 },
+                PAPER_FACE,
                 None,
             ));
         };
@@ -271,7 +330,8 @@ impl Words {
                 ))
             },
         )?;
-        Ok((bar, Some(design.name)))
+        let face = pair.fixed.faces[pair.target.0].length();
+        Ok((bar, face, Some(design.name)))
     }
 
     fn constraints(
@@ -305,54 +365,4 @@ impl Words {
             ranges: [self.word_word, self.word_mate, self.mate_mate].map(range),
         })
     }
-}
-
-/// A gap.
-fn gap(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|gap: &f64| (0.0..=1.0).contains(gap))
-        .ok_or_else(|| "a gap lies between 0 (wrong as strong as right) and 1".to_owned())
-}
-
-fn faces() -> Word<Faces> {
-    let names = [("all", Faces::All), ("mates", Faces::Mates)];
-    Word::new(&names, "faces are all or mates".to_owned())
-}
-
-fn shape() -> Word<Shape> {
-    let names = [
-        ("none", Shape::None),
-        ("shared", Shape::Shared),
-        ("polar", Shape::Polar),
-    ];
-    Word::new(&names, "a shape is none, shared or polar".to_owned())
-}
-
-fn mismatches(text: &str) -> Result<[usize; 3], String> {
-    let parts: Option<Vec<usize>> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect();
-    parts
-        .and_then(|parts| parts.try_into().ok())
-        .ok_or_else(|| "three whole numbers are needed, such as 2,2,0".to_owned())
-}
-
-fn whole_range(text: &str) -> Result<[usize; 2], String> {
-    let wrong = || "a range is A:B in whole numbers, such as 0:3".to_owned();
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let [low, high] = [low, high].map(|part| part.trim().parse().ok());
-    let range = low.zip(high).filter(|(low, high)| low <= high);
-    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
-}
-
-fn range(text: &str) -> Result<[f64; 2], String> {
-    let wrong = || "a range is E:E in J, from the lower to the higher, such as -0.02:0".to_owned();
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| !x.is_nan());
-    let range = number(low)
-        .zip(number(high))
-        .filter(|(low, high)| low <= high);
-    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
 }

@@ -1,20 +1,20 @@
 //! Sets of words: the answer in words, tables, `words.toml`.
 
+mod continuous;
+mod files;
+
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::csv::table;
-use super::files::{Files, PAGE, REPORT};
+pub use continuous::{Spaced, rounded, toml as spaced_toml};
+pub use files::files;
+
 use super::json as layout;
-use super::page::Page;
 use super::values::positive_zero;
-use crate::checksum::sha256;
-use crate::potential::MagnetModel;
-use crate::units::{MU0, si};
+use crate::units::si;
 use crate::words::frontier::Point;
-use crate::words::rules::bond;
-use crate::words::{Answer, Bar, Faces, Judgement, Lags, Meeting, Question, Shape, Task, Word};
+use crate::words::{Answer, Bar, Faces, Fault, Judgement, Lags, Meeting, Question, Shape, Task, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; words.csv, crosstalk.csv, words.toml, report.json";
@@ -41,8 +41,14 @@ pub struct Request {
 }
 
 impl Request {
+    /// Side (m) of square tiles whose faces hold the words' magnets.
+    pub fn side(&self) -> f64 {
+        let places = self.task.places as f64;
+        (places * self.bar.pitch).max((places - 1.0) * self.bar.pitch + self.bar.size[1])
+    }
+
     /// What a set of words is worth, by energies.
-    fn strongest(&self, u: Word, v: Word) -> Option<Meeting> {
+    pub(super) fn strongest(&self, u: Word, v: Word) -> Option<Meeting> {
         self.task.rules.strongest(&self.energies, u, v)
     }
 }
@@ -101,6 +107,7 @@ fn value(request: &Request, answer: &Answer) -> Value {
             "faces": if task.rules.words_meet() { "all" } else { "mates" },
             "shape": shape(task.rules.shape),
             "flip": task.rules.flip,
+            "tolerate": task.rules.fault.map(fault),
             "model": bar.model.name(),
             "magnet_size_m": bar.size,
             "magnet_moment_Am2": bar.moment,
@@ -134,6 +141,8 @@ fn meeting(meeting: &Meeting, bar: &Bar) -> Value {
         "slide": meeting.slide,
         "slide_m": f64::from(meeting.slide) * bar.pitch,
         "flipped": meeting.flipped,
+        // Places of the faulty magnets, where faces may have some.
+        "faulty": meeting.faulty,
         "energy_J": positive_zero(meeting.energy),
     })
 }
@@ -157,9 +166,20 @@ fn shape(shape: Shape) -> &'static str {
     }
 }
 
+/// As `--tolerate` names it.
+pub(super) fn fault(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Missing => "missing=1",
+        Fault::Flipped => "flipped=1",
+    }
+}
+
 /// What the terminal is told.
 pub fn summary(request: &Request, answer: &Answer) -> String {
     let mut text = headline(request, answer) + "\n";
+    if let Some(kind) = request.task.rules.fault {
+        let _ = writeln!(text, "All figures with the worst of {} in every face.", fault(kind));
+    }
     if !answer.frontier.is_empty() {
         text += "\ngap asked   words   at most   gap reached\n";
         for (point, judgement) in &answer.frontier {
@@ -277,125 +297,6 @@ fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
     format!("{first} on {second}{flipped}, {slide}")
 }
 
-/// All files of an answer.
-pub fn files(request: &Request, answer: &Answer) -> Files {
-    let mut files = Files::new();
-    let mut add = |name: &str, text: String| {
-        files.insert(name.to_owned(), text.into_bytes());
-    };
-    add("words.csv", words_csv(request, answer));
-    add("crosstalk.csv", crosstalk_csv(request, answer));
-    add("words.toml", words_toml(request, answer));
-    add(PAGE, Page::of_words(request, answer).to_html());
-    let mut report = value(request, answer);
-    let sums = files
-        .iter()
-        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-    report["files"] = Value::Object(sums.collect());
-    files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
-    files
-}
-
-/// The words, each with its bond and its own worst meeting.
-fn words_csv(request: &Request, answer: &Answer) -> String {
-    let rows = answer.words.iter().enumerate().map(|(k, word)| {
-        let worst = answer
-            .words
-            .iter()
-            .filter_map(|other| request.strongest(*word, *other));
-        let worst = worst.min_by(|a, b| a.energy.total_cmp(&b.energy));
-        let or_empty = |text: Option<String>| text.unwrap_or_default();
-        vec![
-            name(k),
-            word.to_string(),
-            word.mate().to_string(),
-            bond(&request.energies, *word).to_string(),
-            or_empty(worst.map(|it| it.energy.to_string())),
-            or_empty(worst.map(|it| it.second.to_string())),
-            or_empty(worst.map(|it| it.slide.to_string())),
-            or_empty(worst.map(|it| it.flipped.to_string())),
-        ]
-    });
-    let header = [
-        "name",
-        "word",
-        "mate",
-        "bond_J",
-        "worst_J",
-        "worst_with",
-        "worst_slide",
-        "worst_flipped",
-    ];
-    table(header.map(str::to_owned), rows)
-}
-
-/// Every two words, with their mates: the strongest wrong meeting.
-fn crosstalk_csv(request: &Request, answer: &Answer) -> String {
-    let words = &answer.words;
-    let pairs = (0..words.len()).flat_map(|i| (i..words.len()).map(move |j| (i, j)));
-    let rows = pairs.filter_map(|(i, j)| {
-        let worst = request.strongest(words[i], words[j])?;
-        let second = match worst.second == words[j] {
-            true => name(j),
-            false => name(j) + "*",
-        };
-        Some(vec![
-            name(i),
-            second,
-            worst.first.to_string(),
-            worst.second.to_string(),
-            worst.energy.to_string(),
-            worst.slide.to_string(),
-            (f64::from(worst.slide) * request.bar.pitch).to_string(),
-            worst.flipped.to_string(),
-        ])
-    });
-    let header = [
-        "first",
-        "second",
-        "first_code",
-        "second_code",
-        "energy_J",
-        "slide",
-        "slide_m",
-        "flipped",
-    ];
-    table(header.map(str::to_owned), rows)
-}
-
-/// The set as a file: `tilebind crosstalk` reads it, and its faces can be pasted into a design.
-fn words_toml(request: &Request, answer: &Answer) -> String {
-    let bar = &request.bar;
-    let quoted = answer.words.iter().map(|word| format!("\"{word}\""));
-    let words: Vec<String> = quoted.collect();
-    let [length, width, thickness] = bar.size;
-    let remanence = MU0 * bar.moment / (length * width * thickness);
-    let mut text = format!(
-        "# {}\n\nwords = [{}]\n\n[magnet]\nsize = [{length}, {width}, {thickness}]\n",
-        headline(request, answer),
-        words.join(", ")
-    );
-    // A rounding error would make a strength that nobody typed.
-    let rounded = (remanence * 1e9).round() / 1e9;
-    let _ = writeln!(text, "remanence = {rounded:?}\npitch = {:?}", bar.pitch);
-    if bar.inset > 0.0 {
-        let _ = writeln!(text, "inset = {:?}", bar.inset);
-    }
-    let side = (request.task.places as f64 * bar.pitch * 1e9).round() / 1e9;
-    let _ = writeln!(text, "\n[tile]\nside = {side:?}");
-    if bar.model == MagnetModel::Cuboid {
-        text += "\n[potential]\nmodel = \"cuboid\"\n";
-    }
-    text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
-             face\n# (east = { code = ... }); X* is the mate of X.\n[faces]\n";
-    for (k, word) in answer.words.iter().enumerate() {
-        let name = name(k);
-        let _ = writeln!(text, "{name} = {{ code = \"{word}\" }}");
-        let _ = writeln!(text, "\"{name}*\" = {{ code = \"{}\" }}", word.mate());
-    }
-    text
-}
-
 /// How faces meet, in words.
 pub fn meetings(request: &Request) -> String {
     let rules = &request.task.rules;
@@ -408,5 +309,9 @@ pub fn meetings(request: &Request) -> String {
         _ => "held by their shape, without slides",
     };
     let flip = if rules.flip { ", also turned over" } else { "" };
-    format!("{who}, {slides}{flip}")
+    let fault = rules.fault.map_or("", |fault| match fault {
+        Fault::Missing => ", one magnet of each face missing",
+        Fault::Flipped => ", one magnet of each face the wrong way round",
+    });
+    format!("{who}, {slides}{flip}{fault}")
 }
