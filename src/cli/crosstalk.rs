@@ -27,7 +27,7 @@ pub struct Crosstalk {
     /// The set of words
     set: PathBuf,
 
-    /// Prove that no attraction is stronger, to within E_J [default: a twentieth of a contact]
+    /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
           value_parser = input::positive)]
     certify: Option<Option<f64>>,
@@ -54,7 +54,7 @@ pub struct Crosstalk {
 }
 
 /// The default width of bounds, as a share of two magnets' energy.
-const TOLERANCE: f64 = 0.05;
+const TOLERANCE: f64 = 0.25;
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {

@@ -58,6 +58,7 @@ mod tile;
 mod units;
 mod word_places;
 mod word_set;
+mod word_stage;
 
 pub use crate::potential::MagnetModel;
 pub use drawings::Drawing;

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::Task;
 use super::word::Word;
 
-/// Up to so many words are looked at one and all; of more a sample is drawn, of at most this size.
+/// Up to so many words are looked at one and all, if there is work enough for it; of more a sample
+/// is drawn, of at most this size.
 const MOST_ENUMERATED: f64 = (1u64 << 23) as f64;
 const SAMPLE: u64 = 1 << 19;
 /// Of a sample so small that all of it can be judged so often with the work there is.
@@ -31,7 +32,8 @@ impl Candidates {
     /// than `limit` (J). With so much work to do on them, which decides how many are drawn where
     /// they are too many.
     pub fn new(task: &Task, limit: f64, seed: u64, work: u64) -> Self {
-        let complete = number(task.places, task.magnets) <= MOST_ENUMERATED;
+        let number = number(task.places, task.magnets);
+        let complete = number <= MOST_ENUMERATED && number * task.judgement() as f64 <= work as f64;
         let sampled = (work / (JUDGED * task.judgement())).clamp(2 * CHUNK as u64, SAMPLE) as usize;
         let sound = |word: &Word| {
             let (lags, rules) = (&task.lags, &task.rules);

@@ -1,7 +1,8 @@
 //! The page of a set of words judged over all poses.
 
 use super::meetings::{Carrier, Met};
-use super::{Fact, Illustration, Meetings, Page, words};
+use super::word_charts::histogram;
+use super::{Fact, Illustration, Meetings, Page};
 use crate::design::WordSet;
 use crate::report::crosstalk::{face_name, faces, headline, is_bond};
 use crate::units::si;
@@ -35,7 +36,7 @@ impl Page {
             meetings: drawn.then(|| meetings(set, found)),
             pictures: vec![Illustration {
                 title: "Gaps of all pairs of faces".to_owned(),
-                svg: words::histogram(&gaps(found)),
+                svg: histogram(&gaps(found)),
             }],
             origin: format!(
                 "tilebind {}; {} magnets; all poses in which two faces can meet",

@@ -17,6 +17,7 @@ mod pathways;
 mod tables;
 mod thumbnail;
 mod tree;
+mod word_charts;
 mod words;
 
 use serde::Serialize;

@@ -7,8 +7,11 @@
 //! clique has the gap asked for the range is settled, and else it is halved.
 
 mod many;
+mod symmetric;
 
 use std::ops::RangeInclusive;
+
+use symmetric::symmetric;
 
 use super::budget::Budget;
 use super::candidates::Candidates;
@@ -61,6 +64,7 @@ const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
 /// Weakest bonds tried where nothing is proved of the whole range.
 const LADDER: usize = 8;
+
 /// The largest set of words with at least this gap; one of `enough` words will do.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
     let limit = |bond: f64| (1.0 - gap) * bond * (1.0 + SAME);
@@ -278,28 +282,4 @@ impl<'a> Search<'a> {
             self.accept(&graph, &members);
         }
     }
-}
-
-/// A large clique of those that keep a symmetry of the graph, from a known one on.
-fn symmetric(
-    graph: &Graph,
-    mut best: Vec<usize>,
-    enough: usize,
-    seed: u64,
-    budget: &mut Budget,
-) -> Vec<usize> {
-    let symmetries = graph.symmetries();
-    for (number, image) in symmetries.iter().enumerate() {
-        let mut part = budget.share(1.0 / (symmetries.len() - number) as f64);
-        let (folded, pairs) = graph.folded(image);
-        let found = local::search(&folded, Vec::new(), enough.div_ceil(2), seed, &mut part);
-        let mut members: Vec<usize> = found.iter().flat_map(|k| pairs[*k]).collect();
-        members.sort_unstable();
-        members.dedup();
-        if members.len() > best.len() {
-            best = members;
-        }
-        budget.give_back(&part);
-    }
-    best
 }
