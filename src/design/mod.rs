@@ -57,7 +57,9 @@ mod syntax;
 mod target;
 mod tile;
 mod units;
+mod word_places;
 mod word_set;
+mod word_stage;
 
 pub use crate::potential::MagnetModel;
 pub use drawings::Drawing;
