@@ -71,7 +71,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
     let stride: usize = lengths[which + 1..].iter().product();
     let length = lengths[which];
     // Points that differ in nothing but the axis.
-    let firsts = (0..outcomes.len()).filter(|index| index / stride % length == 0);
+    let firsts = (0..outcomes.len()).filter(|index| (index / stride).is_multiple_of(length));
     let series: Vec<Vec<&Outcome>> = firsts
         .map(|first| {
             order
@@ -104,7 +104,8 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
             known().fold(f64::NEG_INFINITY, f64::max),
         ];
         let spread = high - low;
-        if !(spread > 1e-3 * low.abs().max(high.abs())) {
+        // Without two known values there is no spread either.
+        if spread.is_nan() || spread <= 1e-3 * low.abs().max(high.abs()) {
             continue;
         }
         for curve in &curves {

@@ -7,7 +7,7 @@
 //! subdivision.
 //!
 //! Around the bond of a word and its own mate everything lies on the bond's slope; what is wrong of
-//! these two are their [`traps`]: other places that hold.
+//! these two are their `traps`: other places that hold.
 //!
 //! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So of
 //! two words and their mates two pairs are worked out, and the others follow.
