@@ -284,7 +284,8 @@ impl<'a> Search<'a> {
         }
         let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
         Completeness {
-            share: volume / self.volume,
+            // A sum of nothing is minus zero.
+            share: volume / self.volume + 0.0,
             below: self.below,
             escape: self.exits.rise,
             open,
