@@ -108,9 +108,6 @@ impl Completeness {
 
 /// Cells assessed between two looks at the clock.
 const BATCH: usize = 4096;
-/// Cells smaller than this (m, half a side) wait until the others are done: there are few of them
-/// around minima, and no end of them where a tile has no play.
-const SMALL: f64 = 1e-5;
 
 /// A search for states that may be missing.
 pub struct Search<'a> {
@@ -122,8 +119,9 @@ pub struct Search<'a> {
     cells: usize,
 }
 
-/// Cells to be looked at: large ones before small ones, the lowest first.
-type Queue = BinaryHeap<Reverse<(bool, OrderedFloat<f64>, usize)>>;
+/// Cells to be looked at: those halved least before the others, as there is no end of small ones
+/// where a tile has no play; of each size the lowest first.
+type Queue = BinaryHeap<Reverse<(i32, OrderedFloat<f64>, usize)>>;
 
 /// The cells that wait, each with the least energy (J) that it may hold.
 #[derive(Default)]
@@ -134,10 +132,10 @@ struct Waiting {
 
 impl Waiting {
     fn push(&mut self, cell: Cell, lowest: f64) {
-        let is_small = cell.half[0].max(cell.half[1]) < SMALL;
+        let halvings = -cell.half[0].max(cell.half[1]).log2().floor() as i32;
         let number = self.cells.len();
         self.queue
-            .push(Reverse((is_small, OrderedFloat(lowest), number)));
+            .push(Reverse((halvings, OrderedFloat(lowest), number)));
         self.cells.push((cell, lowest));
     }
 
