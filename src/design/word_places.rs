@@ -28,13 +28,20 @@ pub(super) fn common(
 ) -> Result<(Vec<f64>, Vec<Word>), (String, String)> {
     let mut places: Vec<f64> = Vec::new();
     for (name, magnets) in faces {
-        let wrong = |message: String, help: &str| Err((format!("`{name}` {message}"), help.to_owned()));
+        let wrong =
+            |message: String, help: &str| Err((format!("`{name}` {message}"), help.to_owned()));
         let mut sorted: Vec<f64> = magnets.iter().map(|magnet| magnet.at).collect();
         sorted.sort_by(f64::total_cmp);
         if sorted.is_empty() {
-            return wrong("has no magnets".to_owned(), "list them: magnets = [{ at = 0.02, pole = \"N\" }]");
+            return wrong(
+                "has no magnets".to_owned(),
+                "list them: magnets = [{ at = 0.02, pole = \"N\" }]",
+            );
         }
-        if let Some(at) = sorted.iter().find(|at| !(at.abs() + width / 2.0 <= side / 2.0 + SAME)) {
+        if let Some(at) = sorted
+            .iter()
+            .find(|at| !(at.abs() + width / 2.0 <= side / 2.0 + SAME))
+        {
             return wrong(
                 format!("has a magnet at {at} m, which reaches beyond its face of {side} m"),
                 "positions are from the face's middle, in m",
@@ -42,12 +49,21 @@ pub(super) fn common(
         }
         if let Some(two) = sorted.windows(2).find(|two| two[1] - two[0] < width - SAME) {
             return wrong(
-                format!("has magnets at {} and {} m, which overlap: they are {width} m wide", two[0], two[1]),
+                format!(
+                    "has magnets at {} and {} m, which overlap: they are {width} m wide",
+                    two[0], two[1]
+                ),
                 "move them apart",
             );
         }
-        if let Some(magnet) = magnets.iter().find(|magnet| !["N", "S"].contains(&magnet.pole.as_str())) {
-            return wrong(format!("has the pole `{}`", magnet.pole), "a pole is \"N\" or \"S\"");
+        if let Some(magnet) = magnets
+            .iter()
+            .find(|magnet| !["N", "S"].contains(&magnet.pole.as_str()))
+        {
+            return wrong(
+                format!("has the pole `{}`", magnet.pole),
+                "a pole is \"N\" or \"S\"",
+            );
         }
         places.extend(sorted.iter().flat_map(|at| [*at, -at]));
     }
@@ -66,7 +82,9 @@ pub(super) fn common(
 
 fn word(magnets: &[MagnetAt], places: &[f64]) -> Word {
     let letter = |place: &f64| {
-        let magnet = magnets.iter().find(|magnet| (magnet.at - place).abs() < SAME);
+        let magnet = magnets
+            .iter()
+            .find(|magnet| (magnet.at - place).abs() < SAME);
         magnet.map_or(".", |magnet| magnet.pole.as_str())
     };
     let text: String = places.iter().map(letter).collect();

@@ -80,7 +80,10 @@ impl WordSet {
             let at = text.find(&format!("\"{code}\""))?;
             Some(at + 1..at + 1 + code.len())
         };
-        let faces = entries.faces.iter().filter(|(name, _)| !name.ends_with('*'));
+        let faces = entries
+            .faces
+            .iter()
+            .filter(|(name, _)| !name.ends_with('*'));
         let spaced: Vec<(String, Vec<MagnetAt>)> = faces
             .clone()
             .filter_map(|(name, face)| Some((name.clone(), face.magnets.clone()?)))
@@ -136,20 +139,37 @@ impl WordSet {
             .collect();
         let width = entries.magnet.size.unwrap_or(SIZE)[1];
         let needed = pitch * (places.len() as f64 - 1.0) + width;
-        let side = entries.tile.side.unwrap_or(needed.max(pitch * places.len() as f64));
+        let side = entries
+            .tile
+            .side
+            .unwrap_or(needed.max(pitch * places.len() as f64));
         if side > 0.0 && needed > side * (1.0 + 1e-9) {
             let message = format!(
                 "words of {} places {pitch} m apart need a face of {needed:.4} m, not {side} m",
                 places.len()
             );
-            return Err(error(None, message, "make [tile] side longer, or leave it out"));
+            return Err(error(
+                None,
+                message,
+                "make [tile] side longer, or leave it out",
+            ));
         }
         let stage = stage(&entries, side, model, &places, name)?;
         let names = match entries.words {
             Some(_) => Vec::new(),
-            None => entries.faces.keys().filter(|name| !name.ends_with('*')).cloned().collect(),
+            None => entries
+                .faces
+                .keys()
+                .filter(|name| !name.ends_with('*'))
+                .cloned()
+                .collect(),
         };
-        Ok(Self { words, names, places: None, stage })
+        Ok(Self {
+            words,
+            names,
+            places: None,
+            stage,
+        })
     }
 
     /// A set of words with magnets anywhere.
@@ -174,7 +194,10 @@ impl WordSet {
         }
         let Some(side) = entries.tile.side else {
             let message = "it does not say how long its faces are".to_owned();
-            return Err(error((message, "write side = 0.43 under [tile]".to_owned())));
+            return Err(error((
+                message,
+                "write side = 0.43 under [tile]".to_owned(),
+            )));
         };
         let width = entries.magnet.size.unwrap_or(SIZE)[1];
         let (places, words) = word_places::common(spaced, width, side).map_err(error)?;

@@ -116,7 +116,11 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
             si(-energy, "J", 4),
             face_name(set, found, i),
             face_name(set, found, j),
-            if is_bond(found, i, j) { ", a trap," } else { "" },
+            if is_bond(found, i, j) {
+                ", a trap,"
+            } else {
+                ""
+            },
             told(&q)
         ),
         _ => "nothing wrong attracts".to_owned(),
@@ -133,15 +137,23 @@ pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
     let mut text = headline(set, found) + ".\n";
     let proved = found.lower.as_ref().map_or("", |_| "   proved below");
     let _ = writeln!(text, "\nstrongest wrong meetings{proved:>42}");
-    let mut wrong: Vec<(usize, usize)> =
-        pairs(found).filter(|(i, j)| !is_bond(found, *i, *j)).collect();
+    let mut wrong: Vec<(usize, usize)> = pairs(found)
+        .filter(|(i, j)| !is_bond(found, *i, *j))
+        .collect();
     wrong.sort_by(|a, b| found.strongest[a.0][a.1].total_cmp(&found.strongest[b.0][b.1]));
     for (i, j) in wrong.into_iter().take(LISTED) {
         let q = found.poses[i][j];
-        let names = format!("{} on {}", face_name(set, found, i), face_name(set, found, j));
+        let names = format!(
+            "{} on {}",
+            face_name(set, found, i),
+            face_name(set, found, j)
+        );
         let energy = si(found.strongest[i][j], "J", 4);
         let place = told(&q);
-        let lower = found.lower.as_ref().map_or(String::new(), |lower| si(lower[i][j], "J", 4));
+        let lower = found
+            .lower
+            .as_ref()
+            .map_or(String::new(), |lower| si(lower[i][j], "J", 4));
         let _ = writeln!(text, "  {names:<10}{energy:>12}   {place:<30}{lower:>12}");
     }
     text + "A word and its own mate also hold where a trap is; traps are found, not proved.\n"
@@ -162,7 +174,10 @@ const LISTED: usize = 5;
 pub fn files(set: &WordSet, found: &Crosstalk) -> Files {
     let mut files = Files::new();
     files.insert("crosstalk.csv".to_owned(), csv(set, found).into_bytes());
-    files.insert(PAGE.to_owned(), Page::of_crosstalk(set, found).to_html().into_bytes());
+    files.insert(
+        PAGE.to_owned(),
+        Page::of_crosstalk(set, found).to_html().into_bytes(),
+    );
     let mut report = value(set, found);
     let sums = files
         .iter()
@@ -190,7 +205,12 @@ fn csv(set: &WordSet, found: &Crosstalk) -> String {
             x.to_string(),
             y.to_string(),
             theta.to_string(),
-            if is_bond(found, i, j) { "bond" } else { "wrong" }.to_owned(),
+            if is_bond(found, i, j) {
+                "bond"
+            } else {
+                "wrong"
+            }
+            .to_owned(),
         ]
     });
     let traps = found.traps.iter().enumerate().filter_map(|(i, trap)| {

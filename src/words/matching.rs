@@ -235,7 +235,12 @@ fn gap_area(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
 /// The area (m^2) of a polygon, counter-clockwise.
 fn area(polygon: &[Vector2<f64>]) -> f64 {
     let next = polygon.iter().cycle().skip(1);
-    polygon.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>() / 2.0
+    polygon
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.perp(b))
+        .sum::<f64>()
+        / 2.0
 }
 
 /// The area (m^2) of what a polygon has in a convex one, both counter-clockwise: clipped by side

@@ -98,7 +98,11 @@ pub struct Meeting {
 impl Meeting {
     /// The one that attracts more; the first of equals.
     fn stronger(self, other: Self) -> Self {
-        if other.energy < self.energy { other } else { self }
+        if other.energy < self.energy {
+            other
+        } else {
+            self
+        }
     }
 }
 
@@ -192,7 +196,9 @@ impl Rules {
     /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None`
     /// where they never meet.
     pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
-        let found = self.ways().filter_map(|way| self.strongest_way(lags, [u, v], way));
+        let found = self
+            .ways()
+            .filter_map(|way| self.strongest_way(lags, [u, v], way));
         found.reduce(Meeting::stronger)
     }
 

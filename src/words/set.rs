@@ -30,7 +30,11 @@ impl Judgement {
         }
         // With faults a bond may be none at all.
         if bond <= 0.0 {
-            return Some(Self { bond, worst, gap: f64::MIN });
+            return Some(Self {
+                bond,
+                worst,
+                gap: f64::MIN,
+            });
         }
         let attraction = worst.map_or(0.0, |worst| (-worst.energy).max(0.0));
         Some(Self {

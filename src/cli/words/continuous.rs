@@ -3,12 +3,12 @@
 use tilebind::design::WordSet;
 use tilebind::report::words::{Spaced, rounded, spaced_toml};
 use tilebind::words::Bar;
+use tilebind::words::Faces;
 use tilebind::words::budget::Budget;
 use tilebind::words::continuous::{SpacedWord, Wanted, search};
 use tilebind::words::crosstalk::{Crosstalk, Stage};
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
-use tilebind::words::Faces;
 
 use super::super::{Failure, tell};
 use super::Words;

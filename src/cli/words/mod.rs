@@ -17,7 +17,7 @@ use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use super::options::{PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt, tell};
-use values::{fault, faces, gap, mismatches, range, shape, whole_range};
+use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]

@@ -26,7 +26,11 @@ impl Page {
             facts.push(fact("weakest bond", si(-bond, "J", 4), ""));
         }
         if let Some(([i, j], energy, _)) = found.strongest_wrong() {
-            let note = format!("{} on {}", face_name(set, found, i), face_name(set, found, j));
+            let note = format!(
+                "{} on {}",
+                face_name(set, found, i),
+                face_name(set, found, j)
+            );
             facts.push(fact("strongest wrong meeting", si(energy, "J", 4), &note));
         }
         let drawn = (1..=MOST_DRAWN).contains(&found.words.len());
@@ -58,7 +62,10 @@ fn gaps(found: &Crosstalk) -> Vec<f64> {
         .filter(|(i, j)| !is_bond(found, *i, *j))
         .map(|(i, j)| found.strongest[i][j]);
     let traps = found.traps.iter().flatten().map(|trap| trap.0);
-    others.chain(traps).map(|energy| 1.0 - energy.min(0.0) / bond).collect()
+    others
+        .chain(traps)
+        .map(|energy| 1.0 - energy.min(0.0) / bond)
+        .collect()
 }
 
 fn meetings(set: &WordSet, found: &Crosstalk) -> Meetings {
@@ -72,7 +79,12 @@ fn meetings(set: &WordSet, found: &Crosstalk) -> Meetings {
         .collect();
     let carrier = Carrier::of_magnets(face.length(), face.normal(), magnets, places);
     let m = found.words.len();
-    let of: Vec<Word> = found.words.iter().copied().chain(found.words.iter().map(|word| word.mate())).collect();
+    let of: Vec<Word> = found
+        .words
+        .iter()
+        .copied()
+        .chain(found.words.iter().map(|word| word.mate()))
+        .collect();
     let faces: Vec<(String, String, Word)> = faces(found)
         .into_iter()
         .enumerate()
@@ -82,7 +94,12 @@ fn meetings(set: &WordSet, found: &Crosstalk) -> Meetings {
         if is_bond(found, i, j) {
             let (energy, pose) = found.traps[i.min(j)]?;
             let pose = found.seen_from(&pose, i < m);
-            return Some(Met { energy, lower: None, pose, over: false });
+            return Some(Met {
+                energy,
+                lower: None,
+                pose,
+                over: false,
+            });
         }
         Some(Met {
             energy: found.strongest[i][j],

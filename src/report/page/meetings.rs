@@ -103,7 +103,12 @@ impl Carrier {
     }
 
     /// Of a tile made elsewhere: where its places' magnets lie and how large they are.
-    pub fn of_magnets(side: f64, normal: Vector2<f64>, magnets: &[Magnet], places: Vec<f64>) -> Self {
+    pub fn of_magnets(
+        side: f64,
+        normal: Vector2<f64>,
+        magnets: &[Magnet],
+        places: Vec<f64>,
+    ) -> Self {
         let first = magnets.first();
         let size = first.map_or([0.0; 2], |magnet| [magnet.size[0], magnet.size[1]]);
         let out = first.map_or(0.0, |magnet| magnet.position.dot(&normal));
@@ -129,11 +134,15 @@ impl Meetings {
             .map(|i| (0..n).map(|j| met(i, j)).collect())
             .collect();
         fn table<T>(all: &[Vec<Option<Met>>], pick: impl Fn(&Option<Met>) -> T) -> Vec<Vec<T>> {
-            all.iter().map(|row| row.iter().map(&pick).collect()).collect()
+            all.iter()
+                .map(|row| row.iter().map(&pick).collect())
+                .collect()
         }
         let energy = |&(i, j): &(usize, usize)| all[i][j].map_or(f64::INFINITY, |met| met.energy);
         let pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-        let worst = pairs.min_by(|a, b| energy(a).total_cmp(&energy(b))).unwrap_or((0, 0));
+        let worst = pairs
+            .min_by(|a, b| energy(a).total_cmp(&energy(b)))
+            .unwrap_or((0, 0));
         let any = |has: fn(&Met) -> bool| all.iter().flatten().flatten().any(has);
         let or_none = |some: bool, table: Vec<Vec<bool>>| if some { table } else { Vec::new() };
         let half = carrier.side / 2.0;
@@ -150,12 +159,21 @@ impl Meetings {
             poses: table(&all, |met| {
                 met.map(|met| met.pose.to_array().map(|x| fixed(x, 6)))
             }),
-            over: or_none(any(|met| met.over), table(&all, |met| met.is_some_and(|met| met.over))),
+            over: or_none(
+                any(|met| met.over),
+                table(&all, |met| met.is_some_and(|met| met.over)),
+            ),
             bond,
             worst: [worst.0, worst.1],
             outline: vec![[half, -half], [half, half], [-half, half], [-half, -half]],
-            first: faces.iter().map(|face| carrier.blocks(face.2, true)).collect(),
-            second: faces.iter().map(|face| carrier.blocks(face.2, false)).collect(),
+            first: faces
+                .iter()
+                .map(|face| carrier.blocks(face.2, true))
+                .collect(),
+            second: faces
+                .iter()
+                .map(|face| carrier.blocks(face.2, false))
+                .collect(),
         }
     }
 

@@ -109,7 +109,9 @@ fn meetings_of(request: &Request, answer: &Answer) -> Meetings {
         if !task.rules.words_meet() && (i < m) == (j < m) {
             return None;
         }
-        let worst = task.rules.strongest_of(&request.energies, faces[i].2, faces[j].2)?;
+        let worst = task
+            .rules
+            .strongest_of(&request.energies, faces[i].2, faces[j].2)?;
         Some(Met {
             energy: worst.energy,
             lower: None,
@@ -169,7 +171,9 @@ fn words(request: &Request, words: &[Word]) -> Table {
 
 /// The attractions of all pairs as shares of the weakest bond.
 fn shares(request: &Request, words: &[Word]) -> Vec<Vec<f64>> {
-    let bonds = words.iter().map(|word| request.task.rules.bond(&request.energies, *word));
+    let bonds = words
+        .iter()
+        .map(|word| request.task.rules.bond(&request.energies, *word));
     let weakest = bonds.fold(f64::INFINITY, f64::min);
     let share = |u: &Word, v: &Word| {
         let worst = request.task.rules.strongest(&request.energies, *u, *v);

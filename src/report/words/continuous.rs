@@ -46,7 +46,11 @@ pub fn rounded(word: &SpacedWord) -> SpacedWord {
     // As few decimals as a text of it has.
     let told = |at: f64| format!("{:.6}", round(at)).parse().unwrap_or(at);
     SpacedWord {
-        magnets: word.magnets.iter().map(|(at, pole)| (told(*at), *pole)).collect(),
+        magnets: word
+            .magnets
+            .iter()
+            .map(|(at, pole)| (told(*at), *pole))
+            .collect(),
     }
 }
 
@@ -59,7 +63,9 @@ pub fn toml(words: &[SpacedWord], bar: &Bar, face: f64, headline: &str) -> Strin
         });
         format!("magnets = [{}]", letters.collect::<Vec<_>>().join(", "))
     };
-    let faces = words.iter().map(|word| [magnets(word), magnets(&word.mate())]);
+    let faces = words
+        .iter()
+        .map(|word| [magnets(word), magnets(&word.mate())]);
     set_toml(headline, "", bar, face, faces)
 }
 
@@ -80,7 +86,10 @@ impl Spaced {
     pub fn summary(&self) -> String {
         let mut text = self.headline() + ".\n";
         for (k, word) in self.words.iter().enumerate() {
-            let places = word.magnets.iter().map(|(at, _)| format!("{:.1}", 1e3 * at));
+            let places = word
+                .magnets
+                .iter()
+                .map(|(at, _)| format!("{:.1}", 1e3 * at));
             let places = places.collect::<Vec<_>>().join(", ");
             let _ = writeln!(text, "  {:<3} {}   at {places} mm", name(k), word.code());
         }
@@ -141,7 +150,10 @@ impl Spaced {
             let mut of_crosstalk = crosstalk::files(set, found);
             of_crosstalk.remove(REPORT);
             files.append(&mut of_crosstalk);
-            files.insert(PAGE.to_owned(), Page::of_crosstalk(set, found).to_html().into_bytes());
+            files.insert(
+                PAGE.to_owned(),
+                Page::of_crosstalk(set, found).to_html().into_bytes(),
+            );
         }
         let text = toml(&self.words, &self.bar, self.face, &self.headline());
         files.insert("words.toml".to_owned(), text.into_bytes());

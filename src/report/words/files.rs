@@ -47,7 +47,11 @@ fn words_csv(request: &Request, answer: &Answer) -> String {
             name(k),
             word.to_string(),
             word.mate().to_string(),
-            request.task.rules.bond(&request.energies, *word).to_string(),
+            request
+                .task
+                .rules
+                .bond(&request.energies, *word)
+                .to_string(),
             or_empty(worst.map(|it| it.energy.to_string())),
             or_empty(worst.map(|it| it.second.to_string())),
             or_empty(worst.map(|it| it.slide.to_string())),
@@ -117,7 +121,13 @@ fn words_toml(request: &Request, answer: &Answer) -> String {
     let faces = words.iter().map(|word| {
         [word.to_string(), word.mate().to_string()].map(|code| format!("code = \"{code}\""))
     });
-    set_toml(&headline(request, answer), &list, bar, request.side(), faces)
+    set_toml(
+        &headline(request, answer),
+        &list,
+        bar,
+        request.side(),
+        faces,
+    )
 }
 
 /// The text of a set: its magnets, the tiles' side (m), and what each face and its mate hold.

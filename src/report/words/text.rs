@@ -10,7 +10,11 @@ use crate::words::{Answer, Faces, Fault, Meeting, Question, Shape, Word};
 pub fn summary(request: &Request, answer: &Answer) -> String {
     let mut text = headline(request, answer) + "\n";
     if let Some(kind) = request.task.rules.fault {
-        let _ = writeln!(text, "All figures with the worst of {} in every face.", fault(kind));
+        let _ = writeln!(
+            text,
+            "All figures with the worst of {} in every face.",
+            fault(kind)
+        );
     }
     if !answer.frontier.is_empty() {
         text += "\ngap asked   words   at most   gap reached\n";

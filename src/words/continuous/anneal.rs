@@ -124,7 +124,10 @@ impl<'a> Set<'a> {
             faces.push((second.clone(), false));
         }
         if self.wanted.flip {
-            let over: Vec<_> = faces.iter().map(|(face, _)| (face.turned_over(), false)).collect();
+            let over: Vec<_> = faces
+                .iter()
+                .map(|(face, _)| (face.turned_over(), false))
+                .collect();
             faces.extend(over);
         }
         let strongest = faces
@@ -134,7 +137,11 @@ impl<'a> Set<'a> {
     }
 
     fn weakest_bond(&self) -> f64 {
-        self.bonds.iter().copied().fold(f64::INFINITY, f64::min).max(f64::MIN_POSITIVE)
+        self.bonds
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+            .max(f64::MIN_POSITIVE)
     }
 
     /// The worst two words.
@@ -142,7 +149,9 @@ impl<'a> Set<'a> {
         let n = self.words.len();
         let pairs = (0..n).flat_map(|i| (i..n).map(move |j| [i, j]));
         let strength = |pair: &[usize; 2]| self.wrong[pair[0]][pair[1]];
-        pairs.max_by(|a, b| strength(a).total_cmp(&strength(b))).unwrap_or([0, 0])
+        pairs
+            .max_by(|a, b| strength(a).total_cmp(&strength(b)))
+            .unwrap_or([0, 0])
     }
 
     fn share(&self) -> f64 {
@@ -173,7 +182,12 @@ impl<'a> Set<'a> {
         let Some(word) = changed(self.wanted, &self.words[i], rng) else {
             return;
         };
-        let before = (self.cost(), self.words[i].clone(), self.wrong.clone(), self.bonds[i]);
+        let before = (
+            self.cost(),
+            self.words[i].clone(),
+            self.wrong.clone(),
+            self.bonds[i],
+        );
         self.words[i] = word;
         self.judge(i);
         let allowed = before.0 - heat * (1.0 - rng.random::<f64>()).ln();
@@ -193,14 +207,19 @@ fn drawn(wanted: &Wanted, rng: &mut ChaCha8Rng) -> Option<SpacedWord> {
         return None;
     }
     (0..TRIED).find_map(|_| {
-        let mut free: Vec<f64> = (0..wanted.magnets).map(|_| room * rng.random::<f64>()).collect();
+        let mut free: Vec<f64> = (0..wanted.magnets)
+            .map(|_| room * rng.random::<f64>())
+            .collect();
         free.sort_by(f64::total_cmp);
         let first = (wanted.bar.size[1] - wanted.face) / 2.0;
         let at = |(k, free): (usize, &f64)| first + free + k as f64 * wanted.bar.pitch;
         let pole = |at: f64, north: bool| (at, if north { 1 } else { -1 });
         let positions: Vec<f64> = free.iter().enumerate().map(at).collect();
         let word = SpacedWord {
-            magnets: positions.into_iter().map(|at| pole(at, rng.random())).collect(),
+            magnets: positions
+                .into_iter()
+                .map(|at| pole(at, rng.random()))
+                .collect(),
         };
         wanted.allows(&word).then_some(word)
     })

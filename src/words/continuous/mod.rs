@@ -88,9 +88,13 @@ impl Wanted {
         let excess: i32 = magnets.iter().map(|(_, pole)| pole).sum();
         let runs = magnets.chunk_by(|a, b| a.1 == b.1).map(<[_]>::len);
         magnets.iter().all(|(at, _)| at.abs() <= end)
-            && spaced.into_iter().all(|two| two[1].0 - two[0].0 >= self.bar.pitch * (1.0 - 1e-12))
+            && spaced
+                .into_iter()
+                .all(|two| two[1].0 - two[0].0 >= self.bar.pitch * (1.0 - 1e-12))
             && (!self.balanced || excess.unsigned_abs() as usize <= self.magnets % 2)
-            && self.longest_run.is_none_or(|most| runs.max().unwrap_or(0) <= most)
+            && self
+                .longest_run
+                .is_none_or(|most| runs.max().unwrap_or(0) <= most)
     }
 }
 

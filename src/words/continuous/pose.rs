@@ -99,10 +99,17 @@ impl Meetings {
     }
 
     /// The energy (J) of two faces in contact; `None` where they pass by each other.
-    fn energy(&self, first: &SpacedWord, second: &SpacedWord, slide: f64, tilt: f64) -> Option<f64> {
+    fn energy(
+        &self,
+        first: &SpacedWord,
+        second: &SpacedWord,
+        slide: f64,
+        tilt: f64,
+    ) -> Option<f64> {
         let (sin, cos) = tilt.sin_cos();
         let out = self.contact(slide, sin, cos)?;
-        self.pairs.set(self.pairs.get() + (first.magnets.len() * second.magnets.len()) as u64);
+        self.pairs
+            .set(self.pairs.get() + (first.magnets.len() * second.magnets.len()) as u64);
         let mut energy = 0.0;
         for (other, other_pole) in &second.magnets {
             let x = out + self.depth * cos + other * sin + self.depth;

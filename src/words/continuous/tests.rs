@@ -90,9 +90,15 @@ fn words_keep_their_distance_and_annealing_widens_the_gap() {
     for word in &long.words {
         assert!(wanted.allows(word) && wanted.allows(&word.mate()));
         assert_eq!(word.mate().mate(), *word);
-        assert_eq!(word.turned_over().code().chars().rev().collect::<String>(), word.code());
+        assert_eq!(
+            word.turned_over().code().chars().rev().collect::<String>(),
+            word.code()
+        );
     }
     assert_eq!(search(&wanted, 3, &[], 0.0, &mut effort(1.0)), Some(long));
-    let crowded = Wanted { magnets: 40, ..wanted };
+    let crowded = Wanted {
+        magnets: 40,
+        ..wanted
+    };
     assert_eq!(search(&crowded, 1, &[], 0.0, &mut effort(0.1)), None);
 }

@@ -97,7 +97,9 @@ impl Stage {
         let face = self.pair.target_face().length();
         let step = face / self.places as f64 / SLIDES_A_PLACE;
         let count = (face / step).round() as i64;
-        (-count..=count).map(|number| number as f64 * step).collect()
+        (-count..=count)
+            .map(|number| number as f64 * step)
+            .collect()
     }
 
     /// The pose of a setting; `None` where the tile passes by.
@@ -112,7 +114,11 @@ impl Stage {
     }
 
     /// Compass search from a setting on.
-    pub(super) fn polished(&self, problem: &Problem, start: Setting) -> Option<(f64, Configuration)> {
+    pub(super) fn polished(
+        &self,
+        problem: &Problem,
+        start: Setting,
+    ) -> Option<(f64, Configuration)> {
         let value = |setting: Setting| {
             let q = self.placed(setting)?;
             Some((problem.energy(&q), q))

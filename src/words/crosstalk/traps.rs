@@ -38,8 +38,8 @@ impl Stage {
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..tilts.len() {
                 for j in 0..slides.len() {
-                    let beside = (i.saturating_sub(1)..=(i + 1).min(tilts.len() - 1))
-                        .flat_map(|i| {
+                    let beside =
+                        (i.saturating_sub(1)..=(i + 1).min(tilts.len() - 1)).flat_map(|i| {
                             let last = (j + 1).min(slides.len() - 1);
                             (j.saturating_sub(1)..=last).map(move |j| (i, j))
                         });

@@ -50,7 +50,9 @@ impl Search<'_> {
             if part.is_spent() || members.len() >= self.enough {
                 break;
             }
-            let against = members.iter().position(|other| !graph.joined(vertex, *other));
+            let against = members
+                .iter()
+                .position(|other| !graph.joined(vertex, *other));
             let looked = against.map_or(members.len(), |k| k + 1) as u64;
             part.spend(8 + looked * graph.judgement());
             if against.is_none() {

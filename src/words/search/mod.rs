@@ -68,7 +68,12 @@ const LADDER: usize = 8;
 /// The largest set of words with at least this gap; one of `enough` words will do.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
     let limit = |bond: f64| (1.0 - gap) * bond * (1.0 + SAME);
-    let first = Candidates::new(task, limit(task.deepest_bond()), effort.seed, effort.budget.left());
+    let first = Candidates::new(
+        task,
+        limit(task.deepest_bond()),
+        effort.seed,
+        effort.budget.left(),
+    );
     let mut words: Vec<(f64, Word)> = first
         .words
         .iter()

@@ -68,7 +68,11 @@ fn bond(word: &[i32], rules: &Rules) -> f64 {
 
 /// The strongest wrong attraction (J) of two words and their mates.
 fn wrong(u: &[i32], v: &[i32], rules: &Rules) -> f64 {
-    let last = if rules.slides() { u.len() as i32 - 1 } else { 0 };
+    let last = if rules.slides() {
+        u.len() as i32 - 1
+    } else {
+        0
+    };
     let mut strongest = 0.0f64;
     for (mates, second) in [(true, mate(v)), (false, v.to_vec())] {
         if !mates && !rules.words_meet() {
@@ -127,7 +131,10 @@ fn allowed(u: &[i32], v: &[i32], asked: &Constraints) -> bool {
     (u == v || compared(u, v, 0).0 >= asked.mismatches)
         && compared(u, &complement, 0).0 >= asked.complement_mismatches
         && least >= asked.slide_mismatches
-        && asked.consecutive.as_ref().is_none_or(|range| range.contains(&longest))
+        && asked
+            .consecutive
+            .as_ref()
+            .is_none_or(|range| range.contains(&longest))
 }
 
 /// Whether a word by itself is as asked.
@@ -135,8 +142,12 @@ fn sound(word: &[i32], rules: &Rules, asked: &Constraints) -> bool {
     let excess: i32 = word.iter().sum();
     let runs = word.chunk_by(|a, b| a == b).map(<[i32]>::len);
     (!asked.balanced || excess.unsigned_abs() as usize <= word.len() % 2)
-        && asked.longest_run.is_none_or(|most| runs.max().unwrap() <= most)
-        && asked.least_bond.is_none_or(|least| bond(word, rules) >= least)
+        && asked
+            .longest_run
+            .is_none_or(|most| runs.max().unwrap() <= most)
+        && asked
+            .least_bond
+            .is_none_or(|least| bond(word, rules) >= least)
         && allowed(word, word, asked)
 }
 
@@ -151,7 +162,11 @@ fn brute_force(places: usize, gap: f64, rules: &Rules, asked: &Constraints) -> u
         .collect();
     let n = words.len();
     let wrongs: Vec<Vec<f64>> = (0..n)
-        .map(|i| (0..n).map(|j| wrong(&words[i].1, &words[j].1, rules)).collect())
+        .map(|i| {
+            (0..n)
+                .map(|j| wrong(&words[i].1, &words[j].1, rules))
+                .collect()
+        })
         .collect();
     let both: Vec<Vec<bool>> = (0..n)
         .map(|i| {
@@ -186,7 +201,11 @@ fn grow(size: usize, left: &[usize], fits: &dyn Fn(usize, usize) -> bool, best: 
         if size + left.len() - k <= *best {
             return;
         }
-        let rest: Vec<usize> = left[k + 1..].iter().copied().filter(|j| fits(*i, *j)).collect();
+        let rest: Vec<usize> = left[k + 1..]
+            .iter()
+            .copied()
+            .filter(|j| fits(*i, *j))
+            .collect();
         grow(size + 1, &rest, fits, best);
     }
 }
@@ -202,12 +221,21 @@ fn check(places: usize, gap: f64, rules: Rules, asked: &Constraints) {
     assert_eq!((found.words.len(), found.upper), (size, size), "{told}");
     // The set again, by plain sums alone.
     let words: Vec<Poles> = found.words.iter().map(|word| poles(*word)).collect();
-    let weakest = words.iter().map(|word| bond(word, &rules)).fold(f64::INFINITY, f64::min);
+    let weakest = words
+        .iter()
+        .map(|word| bond(word, &rules))
+        .fold(f64::INFINITY, f64::min);
     for (i, u) in words.iter().enumerate() {
         assert!(sound(u, &rules, asked), "{told}");
         for v in &words[i..] {
-            assert!(wrong(u, v, &rules) <= (1.0 - gap) * weakest * (1.0 + 1e-9), "{told}");
-            assert!(u == v || (allowed(u, v, asked) && allowed(v, u, asked)), "{told}");
+            assert!(
+                wrong(u, v, &rules) <= (1.0 - gap) * weakest * (1.0 + 1e-9),
+                "{told}"
+            );
+            assert!(
+                u == v || (allowed(u, v, asked) && allowed(v, u, asked)),
+                "{told}"
+            );
         }
     }
 }
@@ -216,13 +244,34 @@ fn check(places: usize, gap: f64, rules: Rules, asked: &Constraints) {
 fn every_constraint() -> Vec<Constraints> {
     let none = Constraints::default();
     vec![
-        Constraints { balanced: true, ..none.clone() },
-        Constraints { longest_run: Some(2), ..none.clone() },
-        Constraints { mismatches: 2, ..none.clone() },
-        Constraints { complement_mismatches: 2, ..none.clone() },
-        Constraints { slide_mismatches: 1, ..none.clone() },
-        Constraints { consecutive: Some(1..=3), ..none.clone() },
-        Constraints { least_bond: Some(0.0815), ..none.clone() },
+        Constraints {
+            balanced: true,
+            ..none.clone()
+        },
+        Constraints {
+            longest_run: Some(2),
+            ..none.clone()
+        },
+        Constraints {
+            mismatches: 2,
+            ..none.clone()
+        },
+        Constraints {
+            complement_mismatches: 2,
+            ..none.clone()
+        },
+        Constraints {
+            slide_mismatches: 1,
+            ..none.clone()
+        },
+        Constraints {
+            consecutive: Some(1..=3),
+            ..none.clone()
+        },
+        Constraints {
+            least_bond: Some(0.0815),
+            ..none.clone()
+        },
         Constraints {
             balanced: true,
             longest_run: Some(3),
@@ -241,7 +290,15 @@ fn sets_are_the_largest_by_brute_force() {
     for rules in every_rule() {
         // Without slides the graphs of six places are too dense for trying all. 0.5 of six is a tie
         // of contacts, which energies decide.
-        let lengths = [(3, 0.5), (4, 0.37), (5, 0.5), (5, 0.3), (6, 0.6), (6, 0.5), (6, 0.42)];
+        let lengths = [
+            (3, 0.5),
+            (4, 0.37),
+            (5, 0.5),
+            (5, 0.3),
+            (6, 0.6),
+            (6, 0.5),
+            (6, 0.42),
+        ];
         for (places, gap) in lengths {
             if places < 6 || rules.slides() {
                 check(places, gap, rules, &Constraints::default());
@@ -269,10 +326,25 @@ fn faults_are_tolerated() {
         }
     }
     // What holds with faults holds without.
-    let shared = Rules { shape: Shape::Shared, ..Rules::default() };
-    let count = |fault| largest(&task(8, Rules { fault, ..shared }), 0.3, usize::MAX, &mut effort(20.0)).words.len();
+    let shared = Rules {
+        shape: Shape::Shared,
+        ..Rules::default()
+    };
+    let count = |fault| {
+        largest(
+            &task(8, Rules { fault, ..shared }),
+            0.3,
+            usize::MAX,
+            &mut effort(20.0),
+        )
+        .words
+        .len()
+    };
     let [none, missing, flipped] = [None, Some(Fault::Missing), Some(Fault::Flipped)].map(count);
-    assert!(none > missing && missing >= flipped && missing > 0, "{none} {missing} {flipped}");
+    assert!(
+        none > missing && missing >= flipped && missing > 0,
+        "{none} {missing} {flipped}"
+    );
 }
 
 #[test]
@@ -289,7 +361,9 @@ fn thermodynamic_ranges_are_kept() {
     assert!(!found.is_empty());
     let lowest = |u: &[i32], v: &[i32], own: bool| {
         let slides = (-5..=5).filter(|slide| !own || *slide != 0);
-        slides.map(|slide| energy(u, v, slide)).fold(f64::INFINITY, f64::min)
+        slides
+            .map(|slide| energy(u, v, slide))
+            .fold(f64::INFINITY, f64::min)
     };
     let words: Vec<Poles> = found.into_iter().map(poles).collect();
     for u in &words {

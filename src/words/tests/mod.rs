@@ -87,7 +87,12 @@ fn every_rule() -> Vec<Rules> {
             (Faces::All, Shape::Shared),
             (Faces::All, Shape::Polar),
         ] {
-            all.push(Rules { faces, shape, flip, fault: None });
+            all.push(Rules {
+                faces,
+                shape,
+                flip,
+                fault: None,
+            });
         }
     }
     all

@@ -59,8 +59,24 @@ fn nonsense_is_refused_with_the_mend() {
         &["words", "--length", "8", "--seconds", "0"],
         &["words", "missing.toml", "--length", "8"],
         &["words", "--magnets", "4", "--gap", "0.5"],
-        &["words", "--length", "8", "--gap", "0.5", "--tolerate", "missing=2"],
-        &["words", "--length", "8", "--contacts", "4", "--tolerate", "missing=1"],
+        &[
+            "words",
+            "--length",
+            "8",
+            "--gap",
+            "0.5",
+            "--tolerate",
+            "missing=2",
+        ],
+        &[
+            "words",
+            "--length",
+            "8",
+            "--contacts",
+            "4",
+            "--tolerate",
+            "missing=1",
+        ],
         &["words", "--length", "8", "--contacts", "8"],
         &["words", "--length", "8", "--min-mismatch", "2,2"],
         &["words", "--length", "8", "--consecutive", "3:1"],
@@ -68,8 +84,26 @@ fn nonsense_is_refused_with_the_mend() {
         &["words", "--continuous", "--magnets", "4"],
         &["words", "--continuous", "--magnets", "4", "--count", "30"],
         &["words", "--continuous", "--magnets", "20", "--count", "1"],
-        &["words", "--continuous", "--magnets", "4", "--count", "2", "--slots", "9"],
-        &["words", "--continuous", "--magnets", "4", "--count", "2", "--pitch", "0.005"],
+        &[
+            "words",
+            "--continuous",
+            "--magnets",
+            "4",
+            "--count",
+            "2",
+            "--slots",
+            "9",
+        ],
+        &[
+            "words",
+            "--continuous",
+            "--magnets",
+            "4",
+            "--count",
+            "2",
+            "--pitch",
+            "0.005",
+        ],
         &["words", "--length", "4", "--face", "0.3", "--count", "2"],
         &["crosstalk", "missing.toml"],
         &["match", "missing.toml"],
@@ -185,8 +219,14 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
         ("words = [\"NNX\"]", "no pole"),
         ("words = [\"NNS\", \"NNS\"]", "twice"),
         ("words = [\"NNS\"]\nside = 3", "side"),
-        ("words = [\"NNS\"]\n[tile]\nside = 0.05", "need a face of 0.0900 m"),
-        ("[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }] }", "how long its faces are"),
+        (
+            "words = [\"NNS\"]\n[tile]\nside = 0.05",
+            "need a face of 0.0900 m",
+        ),
+        (
+            "[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }] }",
+            "how long its faces are",
+        ),
         (
             "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.05, pole = \"N\" }] }",
             "reaches beyond",
@@ -236,8 +276,21 @@ fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
     let out = folder.path().join("spaced");
     let run = |threads: &str| {
         json(&[
-            "words", "--continuous", "--magnets", "3", "--pitch", "0.02", "--count", "2", "--seconds",
-            "0.3", "--threads", threads, "--out", out.to_str().unwrap(), "--json",
+            "words",
+            "--continuous",
+            "--magnets",
+            "3",
+            "--pitch",
+            "0.02",
+            "--count",
+            "2",
+            "--seconds",
+            "0.3",
+            "--threads",
+            threads,
+            "--out",
+            out.to_str().unwrap(),
+            "--json",
         ])
     };
     let (one, two) = (run("1"), run("2"));
@@ -246,7 +299,12 @@ fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
     assert!(one["upper_bound"].is_null());
     for positions in one["positions_m"].as_array().unwrap() {
         let positions = numbers(positions);
-        assert!(positions.windows(2).all(|two| two[1] - two[0] >= 0.02 - 2e-6), "{positions:?}");
+        assert!(
+            positions
+                .windows(2)
+                .all(|two| two[1] - two[0] >= 0.02 - 2e-6),
+            "{positions:?}"
+        );
     }
     // The file of the set is judged as the set was.
     let set = out.join("words.toml");
