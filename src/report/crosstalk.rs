@@ -11,6 +11,7 @@ use super::page::Page;
 use super::values::{pose, positive_zero};
 use super::words::name;
 use crate::checksum::sha256;
+use crate::configuration::Configuration;
 use crate::design::WordSet;
 use crate::units::si;
 use crate::words::crosstalk::Crosstalk;
@@ -111,7 +112,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
     };
     let wrong = match found.strongest_wrong() {
         Some(([i, j], energy, q)) if energy < 0.0 => format!(
-            "strongest wrong meeting {}: {} on {}{} at {:.1}, {:.1} mm, {:.1} deg",
+            "strongest wrong meeting {}: {} on {}{} at {}",
             si(-energy, "J", 4),
             face_name(set, found, i),
             face_name(set, found, j),
@@ -120,9 +121,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
             } else {
                 ""
             },
-            1e3 * q.x,
-            1e3 * q.y + 0.0,
-            q.theta.to_degrees() + 0.0
+            told(&q)
         ),
         _ => "nothing wrong attracts".to_owned(),
     };
@@ -150,12 +149,7 @@ pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
             face_name(set, found, j)
         );
         let energy = si(found.strongest[i][j], "J", 4);
-        let place = format!(
-            "{:.1}, {:.1} mm, {:.1} deg",
-            1e3 * q.x,
-            1e3 * q.y + 0.0,
-            q.theta.to_degrees() + 0.0
-        );
+        let place = told(&q);
         let lower = found
             .lower
             .as_ref()
@@ -163,6 +157,14 @@ pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
         let _ = writeln!(text, "  {names:<10}{energy:>12}   {place:<30}{lower:>12}");
     }
     text + "A word and its own mate also hold where a trap is; traps are found, not proved.\n"
+}
+
+/// A pose for the terminal.
+fn told(q: &Configuration) -> String {
+    // No minus of what rounds to nothing.
+    let tenth = |x: f64| (10.0 * x).round() / 10.0 + 0.0;
+    let [x, y, theta] = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()].map(tenth);
+    format!("{x:.1}, {y:.1} mm, {theta:.1} deg")
 }
 
 /// Meetings that the terminal lists.

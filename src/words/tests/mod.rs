@@ -1,6 +1,8 @@
 //! Words by principle: against plain sums over dipoles and against brute force.
 
 mod brute;
+mod definitions;
+mod outlines;
 
 use nalgebra::Vector2;
 
@@ -270,53 +272,4 @@ fn spacing_carries_more_words() {
     };
     let (uniform, spaced) = (count(&slots(4, 4)), count(&slots(9, 4)));
     assert!(spaced > uniform, "{spaced} {uniform}");
-}
-
-#[test]
-fn outlines_of_squares_match_along_their_sides() {
-    let square = crate::tile::Outline::new(
-        [[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1]]
-            .map(Vector2::from)
-            .to_vec(),
-    )
-    .unwrap();
-    let contact = crate::contact::Contact::new(&square, &square);
-    let found = matching::matches(&contact, 100);
-    // Each of four sides on each of four.
-    let full = found.iter().filter(|it| (it.contact - 0.2).abs() < 1e-9);
-    assert_eq!(full.count(), 16);
-    assert!(
-        found
-            .iter()
-            .all(|it| it.contact <= 0.2 + 1e-9 && it.gap == 0.0)
-    );
-}
-
-#[test]
-fn the_gap_of_a_match_is_the_area_that_neither_tile_fills() {
-    // A notch of 40 by 20 mm in a square of 200 mm: against a square's side its area is left.
-    let notched = [
-        [0.1, -0.1],
-        [0.1, -0.02],
-        [0.08, -0.02],
-        [0.08, 0.02],
-        [0.1, 0.02],
-        [0.1, 0.1],
-        [-0.1, 0.1],
-        [-0.1, -0.1],
-    ];
-    let square = [[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1]];
-    let outline = |corners: &[[f64; 2]]| {
-        crate::tile::Outline::new(corners.iter().map(|p| Vector2::from(*p)).collect()).unwrap()
-    };
-    let contact = crate::contact::Contact::new(&outline(&notched), &outline(&square));
-    let found = matching::matches(&contact, 1000);
-    let across = |it: &&matching::Match| {
-        (it.pose.x - 0.2).abs() < 1e-9 && it.pose.y.abs() < 1e-9 && (it.contact - 0.16).abs() < 1e-9
-    };
-    let over_notch: Vec<_> = found.iter().filter(across).collect();
-    assert_eq!(over_notch.len(), 4);
-    for it in over_notch {
-        assert!((it.gap - 0.04 * 0.02).abs() < 1e-12, "{it:?}");
-    }
 }

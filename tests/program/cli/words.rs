@@ -258,7 +258,7 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
 fn faults_cost_words_and_are_told() {
     let of = |more: &[&str]| {
         let arguments = ["words", "--length", "8", "--gap", "0.2", "--json"];
-        json(&[&arguments, more].concat())
+        json(&[&arguments[..], more].concat())
     };
     let (none, missing) = (of(&[]), of(&["--tolerate", "missing=1"]));
     let count = |found: &Value| found["count"].as_u64().unwrap();
