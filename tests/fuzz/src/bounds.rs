@@ -39,14 +39,22 @@ impl Numbers<'_> {
 fn tile(numbers: &mut Numbers, side: f64) -> Tile {
     let corners = [[-HALF, -HALF], [HALF, -HALF], [HALF, HALF], [-HALF, HALF]];
     let magnets = (0..1 + numbers.below(3)).map(|k| {
-        let size = [[0.010, 0.010, 0.003], [0.006, 0.016, 0.003], [0.012, 0.005, 0.006]];
+        let size = [
+            [0.010, 0.010, 0.003],
+            [0.006, 0.016, 0.003],
+            [0.012, 0.005, 0.006],
+        ];
         let size = size[numbers.below(3)];
         let angle = 3.1 * numbers.next();
         let reach = (size[0] * angle.cos().abs() + size[1] * angle.sin().abs()) / 2.0;
         let behind = reach + 1e-6 + 0.01 * numbers.next().max(0.0).powi(2);
         Magnet {
             // Apart from one another: blocks that overlap are no tile.
-            position: [side * (HALF - behind), 0.03 * (k as f64 - 1.0) + 0.004 * numbers.next()].into(),
+            position: [
+                side * (HALF - behind),
+                0.03 * (k as f64 - 1.0) + 0.004 * numbers.next(),
+            ]
+            .into(),
             angle,
             moment: 0.1 + 0.3 * numbers.next().abs(),
             size,

@@ -162,7 +162,10 @@ fn mean_of_reciprocals(
 ) -> Option<Interval> {
     let face = |placed: &Placed, side: f64| {
         let [along, across, _] = placed.magnet.size;
-        let middle = plus(placed.at, times(placed.axis, number(side) * number(along) / number(2.0)));
+        let middle = plus(
+            placed.at,
+            times(placed.axis, number(side) * number(along) / number(2.0)),
+        );
         let [x, y] = placed.axis;
         (middle, times([-y, x], number(across)))
     };
@@ -179,7 +182,10 @@ fn mean_of_reciprocals(
     let mut mean = number(0.0);
     for (s, first_weight) in &s {
         for (t, second_weight) in &t {
-            let flat = minus(plus(at, times(edge, *s)), plus(other_at, times(other_edge, *t)));
+            let flat = minus(
+                plus(at, times(edge, *s)),
+                plus(other_at, times(other_edge, *t)),
+            );
             let square = dot(flat, flat);
             let mut inner = number(0.0);
             for (z, third_weight) in &z {
@@ -204,7 +210,7 @@ fn mean_of_reciprocals(
 fn least_distance(at: Pair, edge: Pair, other_at: Pair, other_edge: Pair) -> f64 {
     const STEPS: usize = 32;
     let points = |at: Pair, edge: Pair| {
-        let share = move |k| number(k as f64 / STEPS as f64 - 0.5);
+        let share = |k: usize| number(k as f64 / STEPS as f64 - 0.5);
         (0..=STEPS).map(move |k| plus(at, times(edge, share(k))))
     };
     let length = |edge: Pair| dot(edge, edge).sqrt().sup();
