@@ -9,17 +9,21 @@ use tilebind::report::page::Page;
 use tilebind::report::plots::curve_data;
 use tilebind::report::sweep::{DESIGNS, Sweep as Report, counts};
 use tilebind::report::writer::{self, WriteError};
-use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
+use tilebind::sweep::{
+    self, Axis, Outcome, Plan, PlanError, Point, Progress as Counts, Shard, Store,
+};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, style};
+use super::{Failure, input, interrupt, memory, print, style, tell};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
+/// Rounds in which points are added where the figures bend.
+const ROUNDS: usize = 3;
 
 const THREADS: &str = "\
 Points worked on at the same time [default: all cores]; the results do not depend on it";
@@ -32,14 +36,16 @@ Points worked on at the same time [default: all cores]; the results do not depen
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
 Writes report.html to look at, sweep.csv, sweep.json and pictures: curves over one varied number,
-maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
-command goes on with what is missing and ends in the same bytes.
+maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep
+was stopped, the same command goes on with what is missing and ends in the same bytes.
 
 Examples:
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.05:11 \\
       --out target/tab
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0.01,0.02 \\
       --vary fixed.faces.east.profile.width=0.1:0.3:5 --out target/tabs
+  tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.04:5 \\
+      --baseline depth=0 --refine 6 --out target/depth
 
 In parts, on one machine or many:
   tilebind sweep shapes/tab-20mm.toml --vary magnet.pitch=0.02:0.06:9 --plan target/pitch/plan.json
@@ -61,6 +67,16 @@ pub struct Sweep {
     #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
+
+    /// Add so many points, between those at which the figures bend most, one number being varied
+    #[arg(long, value_name = "N", value_parser = input::count,
+          conflicts_with_all = ["plan", "run", "merge", "status"])]
+    refine: Option<usize>,
+
+    /// The point that all are set against: values that are varied, such as depth=0, or a design's
+    /// name
+    #[arg(long, value_name = "POINT", conflicts_with_all = ["run", "merge", "status"])]
+    baseline: Option<String>,
 
     #[command(flatten)]
     options: AssessmentOptions,
@@ -129,6 +145,11 @@ impl Sweep {
             self.work.seed,
         )
         .map_err(usage)?;
+        let plan = match &self.baseline {
+            Some(point) => plan.against(point).map_err(usage)?,
+            None => plan,
+        };
+        self.check_refinement(&plan)?;
         let file = self.plan_file()?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         input::check_file(&file)?;
@@ -137,8 +158,7 @@ impl Sweep {
         if self.plan.is_none() {
             self.check_memory(&plan)?;
         }
-        let text = plan.to_text();
-        interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
+        write_plan(&plan, &file)?;
         if self.plan.is_some() {
             if self.print.quiet {
                 return Ok(());
@@ -147,7 +167,57 @@ impl Sweep {
             return print(&format!("{count} points planned in {}\n", file.display()));
         }
         self.work(&plan, &folder, Shard::WHOLE)?;
+        let plan = self.refine(plan, &folder, &file)?;
         self.merge(&plan, &folder)
+    }
+
+    /// Refuses to refine what is not a curve over one number.
+    fn check_refinement(&self, plan: &Plan) -> Result<(), Failure> {
+        let numbers = plan.axes.iter().filter_map(Axis::numbers);
+        let varied: Vec<usize> = numbers.map(|n| n.len()).filter(|&n| n > 1).collect();
+        match (self.refine, &varied[..]) {
+            (None, _) => Ok(()),
+            (Some(_), [count]) if *count > 2 => Ok(()),
+            _ => Err(Failure::Usage(
+                "--refine adds points to one varied number of three values or more\n  help: vary one \
+                 number, such as --vary fixed.faces.east.profile.depth=0:0.04:5"
+                    .to_owned(),
+            )),
+        }
+    }
+
+    /// Works on points where the figures bend, in rounds that each look at what is known by then.
+    fn refine(&self, mut plan: Plan, folder: &Path, file: &Path) -> Result<Plan, Failure> {
+        let store = Store::new(folder);
+        let asked = self.refine.unwrap_or(0);
+        let mut left = asked;
+        while left > 0 {
+            let points = plan.points();
+            let outcomes: Vec<Outcome> = points.iter().filter_map(|p| store.load(p)).collect();
+            // A third at a time: enough to see what the first ones show.
+            let round = asked.div_ceil(ROUNDS).min(left);
+            let finer = (outcomes.len() == points.len())
+                .then(|| sweep::refined(&plan, &outcomes, round))
+                .flatten();
+            let Some(finer) = finer else { break };
+            let added = |plan: &Plan| {
+                plan.axes
+                    .iter()
+                    .map(|axis| axis.values.len())
+                    .sum::<usize>()
+            };
+            left -= added(&finer) - added(&plan);
+            plan = finer;
+            write_plan(&plan, file)?;
+            self.work(&plan, folder, Shard::WHOLE)?;
+        }
+        if left > 0 && !self.print.quiet {
+            tell(format!(
+                "{} of {asked} points added: nothing else bends by a twentieth",
+                asked - left
+            ));
+        }
+        Ok(plan)
     }
 
     /// Where the manifest goes.
@@ -169,7 +239,7 @@ impl Sweep {
             file.to_owned()
         };
         let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
-        let text = std::fs::read_to_string(&file)
+        let text = input::text(&file)
             .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
@@ -281,6 +351,13 @@ fn check_folders(folder: &Path) -> Result<(), Failure> {
     ["points", writer::PICTURES, DESIGNS]
         .into_iter()
         .try_for_each(|inner| input::check_folder(&folder.join(inner)))
+}
+
+fn write_plan(plan: &Plan, file: &Path) -> Result<(), Failure> {
+    let text = plan.to_text();
+    Ok(interrupt::without(|| {
+        writer::write_file(file, text.as_bytes())
+    })?)
 }
 
 fn folder_of(file: &Path) -> PathBuf {

@@ -35,6 +35,7 @@ mod base;
 mod build;
 mod doubts;
 pub(crate) mod drawings;
+mod entry;
 mod error;
 mod face;
 mod faults;
@@ -181,11 +182,7 @@ impl Design {
     ///
     /// # Errors
     /// Where the text is no sound design.
-    pub(crate) fn parse_with(
-        text: &str,
-        file: &str,
-        drawings: &BTreeMap<String, String>,
-    ) -> Result<Self> {
+    pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
         Self::read(text, file, Drawings::new(Some(drawings)))
     }
 

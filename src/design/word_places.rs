@@ -40,7 +40,7 @@ pub(super) fn common(
         }
         if let Some(at) = sorted
             .iter()
-            .find(|at| !(at.abs() + width / 2.0 <= side / 2.0 + SAME))
+            .find(|at| at.is_nan() || at.abs() + width / 2.0 > side / 2.0 + SAME)
         {
             return wrong(
                 format!("has a magnet at {at} m, which reaches beyond its face of {side} m"),

@@ -8,7 +8,8 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPoolBuilder;
 
-use super::plan::{Plan, Point};
+use super::plan::Plan;
+use super::point::Point;
 use super::store::Outcome;
 use crate::comparison;
 use crate::observer::Silent;

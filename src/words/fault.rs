@@ -54,11 +54,11 @@ impl Fault {
             sign * poles * lags.apart(j as i32 - k as i32 - s)
         };
         let (mut by_first, mut by_second) = ([0.0; MOST_PLACES], [0.0; MOST_PLACES]);
-        for k in 0..n {
-            for j in 0..n {
+        for (k, of_first) in by_first[..n].iter_mut().enumerate() {
+            for (j, of_second) in by_second[..n].iter_mut().enumerate() {
                 let energy = pair(k, j);
-                by_first[k] += energy;
-                by_second[j] += energy;
+                *of_first += energy;
+                *of_second += energy;
             }
         }
         let whole: f64 = by_first[..n].iter().sum();

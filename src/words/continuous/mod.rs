@@ -2,7 +2,7 @@
 //!
 //! A word is a number of magnets anywhere along a face, a least spacing apart. Simulated annealing
 //! moves magnets, exchanges poles and redraws words; what it makes small is the strongest wrong
-//! attraction over the weakest bond. Wrong meetings are judged over poses in contact ([`pose`]):
+//! attraction over the weakest bond. Wrong meetings are judged over poses in contact (`pose`):
 //! tilted, and slid so that two attracting magnets face each other, the strongest then polished. A
 //! word and its own mate meet wrongly where they are slid by half the least spacing or more: nearer,
 //! everything lies on the bond's own slope.
