@@ -48,6 +48,7 @@
 
 mod document;
 mod drawings;
+mod error;
 mod plan;
 mod point;
 mod refine;
@@ -56,7 +57,8 @@ mod source;
 mod store;
 mod vary;
 
-pub use plan::{Plan, PlanError};
+pub use error::PlanError;
+pub use plan::Plan;
 pub use point::{Point, Shard};
 pub use refine::refined;
 pub use run::run;

@@ -8,15 +8,16 @@ use serde_json::json;
 use sha2::{Digest, Sha256};
 use toml::Table;
 
+use super::error::PlanError;
 use super::point::Point;
 use super::source::Source;
 use super::vary::{Axis, Value, number};
 use super::{document, drawings};
 use crate::comparison::AssessmentSettings;
-use crate::design::{Design, DesignError};
+use crate::design::Design;
 
 /// Most points of a sweep.
-const MOST_POINTS: usize = 1_000_000;
+pub(super) const MOST_POINTS: usize = 1_000_000;
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
 /// Characters of the name that make the seed: 48 bits, exact in every reader of JSON.
@@ -38,43 +39,6 @@ pub struct Plan {
     /// The point that all are set against, see [`Plan::against`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub baseline: Option<String>,
-}
-
-/// Why there is no such sweep.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PlanError {
-    /// A point is no design that can be built.
-    #[error(transparent)]
-    Design(#[from] Box<DesignError>),
-    /// A key is varied by two axes.
-    #[error("`{0}` is varied twice")]
-    Twice(String),
-    /// There are more points than can be handled.
-    #[error("the sweep has {0} points, more than {MOST_POINTS}")]
-    TooMany(u128),
-    /// Two designs have one name.
-    #[error("two designs are called `{0}`: give them different names")]
-    SameName(String),
-    /// No point is called so.
-    #[error("no point is `{0}`: name a design, or values that are varied, such as `{1}`")]
-    NoBaseline(String, String),
-    /// A key cannot be varied.
-    #[error("`{path}` cannot be varied: {reason}")]
-    Unknown {
-        /// Its path in the design.
-        path: String,
-        /// Why not.
-        reason: String,
-    },
-    /// No point is a design that can be built.
-    #[error("none of the {0} points is possible; the first: {1}")]
-    NonePossible(usize, String),
-    /// What was read is no manifest.
-    #[error("this is no manifest of a sweep: {0}")]
-    Malformed(String),
-    /// The manifest was written by another version.
-    #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
-    Version(String),
 }
 
 impl Plan {

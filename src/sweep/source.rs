@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
-use super::plan::PlanError;
+use super::error::PlanError;
 use super::vary::{Axis, Value};
 use super::{document, drawings};
 use crate::design::{Design, DesignError, file};
