@@ -159,9 +159,9 @@ mod tests {
 
     #[test]
     fn points_are_added_beside_a_bend() {
+        // There is nothing between whole numbers next to each other.
         let (coarse, outcomes) = plan("0:4:5", |x| (x - 2.0).abs() + 1.0);
-        let finer = refined(&coarse, &outcomes, 2).unwrap();
-        assert!(finer.axes[0].values.len() <= 7);
+        assert_eq!(refined(&coarse, &outcomes, 2), None);
         let (coarse, outcomes) = plan("0.0,1.0,2.0,3.0,4.0", |x| (x - 2.0).abs() + 1.0);
         let finer = refined(&coarse, &outcomes, 2).unwrap();
         let added = [0.0, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
