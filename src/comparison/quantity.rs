@@ -227,7 +227,7 @@ pub static QUANTITIES: &[Quantity] = &[
     },
     Quantity {
         key: "unlisted_depth", label: "unlisted at most", measure: Energy,
-        column: at(1, 4, "unlisted at most"),
+        column: at(1, 4, "unlisted"),
         read: |a| a.unlisted_above.map(|energy| Number(-energy)).ok_or("not proved"), ..PLAIN
     },
 ];

@@ -57,7 +57,7 @@ impl Comparison {
         if self.designs.iter().any(has_estimates) {
             let _ = writeln!(out, "({ESTIMATES})");
         }
-        let _ = writeln!(out, "(unlisted at most: {UNLISTED})");
+        let _ = writeln!(out, "(unlisted: {UNLISTED})");
         if self.designs.iter().any(misses_head_on) {
             let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
         }
@@ -126,7 +126,7 @@ impl Comparison {
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
         );
-        let _ = write!(note, " \u{201c}Unlisted at most\u{201d}: {UNLISTED}.");
+        let _ = write!(note, " \u{201c}Unlisted\u{201d}: {UNLISTED}.");
         if self.designs.iter().any(has_estimates) {
             let _ = write!(note, " (The {ESTIMATES}.)");
         }
@@ -261,8 +261,8 @@ impl Comparison {
 }
 
 /// What is proved of traps that were not found.
-const UNLISTED: &str = "states that were not found are less deep than this, or take less than half \
-                        a hundredth of the bond to leave, proved";
+const UNLISTED: &str = "proved that no state deeper than this, and harder to leave than 0.5 % of the \
+                        bond, was missed";
 /// What barriers are of which nothing is proved.
 const ESTIMATES: &str = "barriers without brackets are estimates of a roadmap: too high where \
                          it misses a passage";

@@ -283,7 +283,7 @@ fn files_for_the_workshop_are_to_scale() {
         "N35 (1.19 T",
         "| pole outwards |",
         "east 1",
-        "kerf of 0.200 mm",
+        "kerf of 0.2 mm",
     ] {
         assert!(sheet.contains(said), "{said} in\n{sheet}");
     }
