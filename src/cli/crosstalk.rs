@@ -8,6 +8,7 @@ use tilebind::report::crosstalk as report;
 use tilebind::report::writer;
 use tilebind::words::crosstalk::Stage;
 
+use super::figures::command_line;
 use super::options::PrintOptions;
 use super::{Failure, input, interrupt, tell};
 
@@ -81,7 +82,7 @@ impl Crosstalk {
         }
         let json = report::json(&set, &found);
         if let Some(folder) = &self.out {
-            let files = report::files(&set, &found);
+            let files = report::files(&set, &found, &command_line());
             let kept = interrupt::without(|| writer::write(folder, &files))?;
             for path in kept {
                 tell(format!("note: kept what was there as {}", path.display()));

@@ -5,12 +5,11 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::csv::table;
-use super::files::{Files, PAGE, REPORT};
+use super::files::{Files, with_report};
 use super::json as layout;
 use super::page::Page;
 use super::values::{pose, positive_zero};
 use super::words::name;
-use crate::checksum::sha256;
 use crate::configuration::Configuration;
 use crate::design::WordSet;
 use crate::units::si;
@@ -170,21 +169,16 @@ fn told(q: &Configuration) -> String {
 /// Meetings that the terminal lists.
 const LISTED: usize = 5;
 
-/// All files.
-pub fn files(set: &WordSet, found: &Crosstalk) -> Files {
-    let mut files = Files::new();
-    files.insert("crosstalk.csv".to_owned(), csv(set, found).into_bytes());
-    files.insert(
-        PAGE.to_owned(),
-        Page::of_crosstalk(set, found).to_html().into_bytes(),
-    );
-    let mut report = value(set, found);
-    let sums = files
-        .iter()
-        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-    report["files"] = Value::Object(sums.collect());
-    files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
-    files
+/// All files, made by `command`.
+pub fn files(set: &WordSet, found: &Crosstalk, command: &str) -> Files {
+    let page = Page::of_crosstalk(set, found);
+    with_report(tables(set, found), Some(page), value(set, found), command)
+}
+
+/// The tables.
+pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> Files {
+    let table = csv(set, found).into_bytes();
+    Files::from([("crosstalk.csv".to_owned(), table)])
 }
 
 fn csv(set: &WordSet, found: &Crosstalk) -> String {

@@ -10,6 +10,7 @@ use tilebind::words::crosstalk::{Crosstalk, Stage};
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
 
+use super::super::figures::command_line;
 use super::super::{Failure, tell};
 use super::Words;
 
@@ -64,7 +65,11 @@ impl Words {
             late,
             judged,
         };
-        self.finish(&spaced.json(), || spaced.files(), || spaced.summary())
+        self.finish(
+            &spaced.json(),
+            || spaced.files(&command_line()),
+            || spaced.summary(),
+        )
     }
 
     fn check(&self, wanted: &Wanted) -> Result<(), Failure> {

@@ -15,6 +15,7 @@ use tilebind::words::budget::Budget;
 use tilebind::words::search::Effort;
 use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
+use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt, tell};
 use values::{faces, fault, gap, mismatches, range, shape, whole_range};
@@ -215,7 +216,7 @@ impl Words {
         let json = report::json(&request, &answer);
         self.finish(
             &json,
-            || report::files(&request, &answer),
+            || report::files(&request, &answer, &command_line()),
             || report::summary(&request, &answer),
         )
     }

@@ -5,11 +5,10 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{files::set_toml, name};
-use crate::checksum::sha256;
 use crate::design::WordSet;
 use crate::report::crosstalk;
 use crate::report::csv::table;
-use crate::report::files::{Files, PAGE, REPORT};
+use crate::report::files::{Files, with_report};
 use crate::report::json as layout;
 use crate::report::page::Page;
 use crate::report::values::positive_zero;
@@ -143,28 +142,16 @@ impl Spaced {
         layout::text(&self.value())
     }
 
-    /// All files.
-    pub fn files(&self) -> Files {
-        let mut files = Files::new();
-        if let Some((set, found)) = &self.judged {
-            let mut of_crosstalk = crosstalk::files(set, found);
-            of_crosstalk.remove(REPORT);
-            files.append(&mut of_crosstalk);
-            files.insert(
-                PAGE.to_owned(),
-                Page::of_crosstalk(set, found).to_html().into_bytes(),
-            );
-        }
+    /// All files, made by `command`.
+    pub fn files(&self, command: &str) -> Files {
+        let judged = self.judged.as_ref();
+        let mut files =
+            judged.map_or_else(Files::new, |(set, found)| crosstalk::tables(set, found));
         let text = toml(&self.words, &self.bar, self.face, &self.headline());
         files.insert("words.toml".to_owned(), text.into_bytes());
         files.insert("words.csv".to_owned(), self.csv().into_bytes());
-        let mut report = self.value();
-        let sums = files
-            .iter()
-            .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-        report["files"] = Value::Object(sums.collect());
-        files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
-        files
+        let page = judged.map(|(set, found)| Page::of_crosstalk(set, found));
+        with_report(files, page, self.value(), command)
     }
 
     /// Every magnet of every word.

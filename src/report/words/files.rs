@@ -2,21 +2,17 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
-
 use super::{Request, headline, name, value};
-use crate::checksum::sha256;
 use crate::potential::MagnetModel;
 use crate::report::csv::table;
-use crate::report::files::{Files, PAGE, REPORT};
-use crate::report::json as layout;
+use crate::report::files::{Files, with_report};
 use crate::report::page::Page;
 use crate::report::values::positive_zero;
 use crate::units::MU0;
 use crate::words::{Answer, Bar};
 
-/// All files of an answer.
-pub fn files(request: &Request, answer: &Answer) -> Files {
+/// All files of an answer, made by `command`.
+pub fn files(request: &Request, answer: &Answer, command: &str) -> Files {
     let mut files = Files::new();
     let mut add = |name: &str, text: String| {
         files.insert(name.to_owned(), text.into_bytes());
@@ -24,14 +20,8 @@ pub fn files(request: &Request, answer: &Answer) -> Files {
     add("words.csv", words_csv(request, answer));
     add("crosstalk.csv", crosstalk_csv(request, answer));
     add("words.toml", words_toml(request, answer));
-    add(PAGE, Page::of_words(request, answer).to_html());
-    let mut report = value(request, answer);
-    let sums = files
-        .iter()
-        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-    report["files"] = Value::Object(sums.collect());
-    files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
-    files
+    let page = Page::of_words(request, answer);
+    with_report(files, Some(page), value(request, answer), command)
 }
 
 /// The words, each with its bond and its own worst meeting.
