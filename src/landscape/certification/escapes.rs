@@ -1,11 +1,10 @@
 //! The way out of a state leads to the first of all places that lie lower, not only to the one that
 //! the roadmap suggests.
 
-use super::BEND;
+use super::{BEND, shortest};
 use crate::configuration::Configuration;
 use crate::landscape::certificate::{Bracket, Certifier, Effort};
 use crate::landscape::inventory::Inventory;
-use crate::landscape::pathway;
 use crate::landscape::results::{Barrier, Place, SAME_ENERGY, State};
 use crate::problem::Problem;
 
@@ -59,7 +58,8 @@ fn found(
     };
     let mut found = Barrier::without_a_way((known.from, known.from_energy), *start, to);
     let bend = BEND * problem.depth();
-    found.lead_along(pathway::of_configurations(problem, &bracket.pathway, bend));
+    let upper = bracket.bounds.upper?;
+    found.lead_along(shortest(problem, &bracket.pathway, upper, bend)?);
     found.bounds = bracket.bounds;
-    found.has_way().then_some(found)
+    Some(found)
 }

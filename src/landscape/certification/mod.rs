@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::certificate::{Bracket, Certifier, Effort, End};
 use super::inventory::{Inventory, LEAST_GAIN};
 use super::pathway::{self, Limits};
-use super::results::{Barrier, Place, StateKind, highest_point};
+use super::results::{Barrier, Pathway, Place, StateKind, highest_point};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
 use crate::potential::Unbounded;
@@ -166,13 +166,16 @@ fn narrow(
     let barrier = &mut inventory.barriers[number];
     let mut cells = 0;
     let mut beside = None;
+    let mut most = f64::INFINITY;
     if let Some((escape, found)) = escape {
         cells = escape.cells;
         match found {
-            None => {
+            None if !escape.improved => {
                 barrier.bounds.tighten(escape.bounds);
                 return (cells, None);
             }
+            // There is a lower way that cannot be told: the escape is no higher.
+            None => most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
             Some(way) if way.to == barrier.to => {
                 take_over(problem, barrier, &escape, bend);
                 return (cells, None);
@@ -188,6 +191,7 @@ fn narrow(
         cells += bracket.cells;
         take_over(problem, barrier, &bracket, bend);
     }
+    barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(most));
     (cells, beside)
 }
 
@@ -198,14 +202,20 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
     let Some(upper) = bracket.bounds.upper.filter(lower) else {
         return;
     };
-    // The certificate's own leads through the middles of its cells.
-    let limits = Limits::below(upper, problem.depth());
-    let direct = pathway::shortened(problem, &bracket.pathway, &limits);
-    for points in [&direct, &bracket.pathway] {
-        let pathway = pathway::of_configurations(problem, points, bend);
-        if highest_point(&pathway).is_some_and(|highest| highest.energy <= upper) {
-            barrier.lead_along(pathway);
-            return;
-        }
+    if let Some(pathway) = shortest(problem, &bracket.pathway, upper, bend) {
+        barrier.lead_along(pathway);
     }
+}
+
+/// A pathway of the certificate, which leads through the middles of its cells, made short, if it does
+/// not rise above `upper` (J).
+fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
+    let limits = Limits::below(upper, problem.depth());
+    let direct = pathway::shortened(problem, points, &limits);
+    let pathways = [direct.as_slice(), points]
+        .into_iter()
+        .map(|points| pathway::of_configurations(problem, points, bend));
+    pathways
+        .into_iter()
+        .find(|pathway| highest_point(pathway).is_some_and(|highest| highest.energy <= upper))
 }
