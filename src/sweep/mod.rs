@@ -52,7 +52,7 @@ mod run;
 mod store;
 mod vary;
 
-pub use plan::{Plan, PlanError, Point, Shard};
+pub use plan::{Plan, PlanError, Point, Shard, Source};
 pub use run::run;
 pub use store::{Outcome, Progress, Store};
 pub use vary::{Axis, Value};

@@ -10,6 +10,7 @@ use toml::Table;
 
 use super::vary::{Axis, Value};
 use super::{document, drawings};
+use crate::checksum::sha256;
 use crate::comparison::AssessmentSettings;
 use crate::design::{Design, DesignError, file};
 
@@ -38,11 +39,13 @@ pub struct Plan {
 /// A design that is varied.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
+    /// Its name.
     pub name: String,
     /// Its file as it was named.
     pub file: String,
     /// SHA-256 of the file's bytes.
     pub sha256: String,
+    /// The text of the file.
     pub text: String,
     /// The text of each drawing that it refers to, by its name in the design.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -141,7 +144,23 @@ impl Plan {
     ) -> Result<Self, PlanError> {
         let mut designs: Vec<Source> = Vec::new();
         for file in files {
-            designs.push(Source::read(file.as_ref(), &axes)?);
+            designs.push(Source::read(file.as_ref()).map_err(Box::new)?.0);
+        }
+        Self::of(designs, axes, settings, seed)
+    }
+
+    /// A sweep over designs that have been read.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of(
+        mut designs: Vec<Source>,
+        axes: Vec<Axis>,
+        settings: AssessmentSettings,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        for design in &mut designs {
+            design.hold_drawings(&axes);
         }
         let plan = Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
@@ -237,7 +256,7 @@ impl Plan {
         let mut document = documents[design].clone();
         let mut set = self.axes.iter().zip(&values);
         let text = set
-            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value))
+            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value.toml()))
             .map(|()| document.to_string());
         let held = &self.designs[design].drawings;
         let drawings = drawings::named(&document).into_iter();
@@ -322,19 +341,70 @@ impl Plan {
 }
 
 impl Source {
-    fn read(path: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
-        let design = Design::load(path).map_err(Box::new)?;
-        let text = file::read_text(path)
-            .map_err(|error| PlanError::Malformed(format!("{}: {error}", path.display())))?;
+    /// A design file with its drawings.
+    ///
+    /// # Errors
+    /// Where it cannot be read or is no sound design.
+    pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
+        let design = Design::load(path)?;
+        // What has just been read is there.
+        let text = file::read_text(path).unwrap_or_default();
+        Ok((Self::new(text, path.display().to_string(), &design), design))
+    }
+
+    /// The text of a design, whose drawings lie beside `file`.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
+        let design = Design::parse(text, file)?;
+        Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
+    }
+
+    fn new(text: String, file: String, design: &Design) -> Self {
         let mut source = Self {
-            name: design.name,
-            file: path.display().to_string(),
-            sha256: design.sha256,
+            name: design.name.clone(),
+            file,
+            sha256: design.sha256.clone(),
             text,
             drawings: BTreeMap::new(),
         };
-        source.drawings = drawings::held(&source.file, &source.document(), axes);
-        Ok(source)
+        source.hold_drawings(&[]);
+        source
+    }
+
+    /// Keeps the drawings that the design names, as it stands or with varied keys set, and that can
+    /// be read; those that are held already stay as they are.
+    fn hold_drawings(&mut self, axes: &[Axis]) {
+        let mut found = drawings::held(&self.file, &self.document(), axes);
+        found.append(&mut self.drawings);
+        self.drawings = found;
+    }
+
+    /// The design itself, with the drawings that are held.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn design(&self) -> Result<Design, DesignError> {
+        self.parse(&self.text)
+    }
+
+    /// The same design with the key at a dotted path set to a value; tables on the way that are
+    /// missing are made.
+    ///
+    /// # Errors
+    /// Where the path leads through something that is neither a table nor an array long enough.
+    pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
+        let mut document = self.document();
+        document::set(&mut document, path, value)?;
+        let text = document.to_string();
+        let mut with = Self {
+            sha256: sha256(&text),
+            text,
+            ..self.clone()
+        };
+        with.hold_drawings(&[]);
+        Ok(with)
     }
 
     /// A design made of this one, with the drawings that are held.
@@ -354,7 +424,7 @@ impl Source {
     /// What is wrong with the design where only this key is set.
     fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
         let mut document = document.clone();
-        if let Err(reason) = document::set(&mut document, key, value) {
+        if let Err(reason) = document::set(&mut document, key, value.toml()) {
             return Some(reason);
         }
         let error = self.parse(&document.to_string()).err()?;
