@@ -27,6 +27,11 @@ pub struct AssessmentOptions {
     #[arg(long, value_name = "N", default_value_t = AssessmentSettings::default().certify_cells,
           value_parser = input::count_or_none)]
     certify_cells: usize,
+
+    /// Cells spent on the search for states that the survey missed, at most; 0 for no search
+    #[arg(long, value_name = "N", default_value_t = AssessmentSettings::default().complete_cells,
+          value_parser = input::count_or_none)]
+    complete_cells: usize,
 }
 
 impl AssessmentOptions {
@@ -38,6 +43,7 @@ impl AssessmentOptions {
             far_starts: self.survey.far_starts,
             tolerance: self.tolerance,
             certify_cells: self.certify_cells,
+            complete_cells: self.complete_cells,
             dynamics_runs: self.survey.dynamics_runs(),
         }
     }

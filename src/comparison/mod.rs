@@ -47,6 +47,8 @@ pub struct AssessmentSettings {
     pub tolerance: Option<f64>,
     /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
     pub certify_cells: usize,
+    /// Cells spent on the search for states that the survey missed, at most; 0 for no search.
+    pub complete_cells: usize,
     /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub dynamics_runs: usize,
@@ -67,13 +69,11 @@ impl Default for AssessmentSettings {
             far_starts: settings.far_starts,
             tolerance: settings.tolerance,
             certify_cells: 200_000,
+            complete_cells: 300_000,
             dynamics_runs: 0,
         }
     }
 }
-
-/// Cells spent on the search for states that may be missing.
-const COMPLETE_CELLS: usize = 300_000;
 
 impl AssessmentSettings {
     /// The settings of the main job.
@@ -93,8 +93,12 @@ impl AssessmentSettings {
             },
             // Cells, not seconds, so that the same is found on every machine.
             completeness: CompletenessSettings {
-                cells: COMPLETE_CELLS,
-                seconds: f64::INFINITY,
+                cells: self.complete_cells,
+                seconds: if self.complete_cells > 0 {
+                    f64::INFINITY
+                } else {
+                    0.0
+                },
                 ..Settings::default().completeness
             },
             claims: Claims::BondAndDeepestTrap,

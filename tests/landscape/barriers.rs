@@ -1,11 +1,19 @@
 //! Barriers of real tiles: none lower by way of a third state, and a way out without play.
 
 use tilebind::Settings;
-use tilebind::landscape::{Barrier, Place};
+use tilebind::landscape::{Barrier, CompletenessSettings, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
 
 use crate::designs;
+
+/// No search for states that the survey missed.
+fn unsought() -> CompletenessSettings {
+    CompletenessSettings {
+        seconds: 0.0,
+        ..Settings::default().completeness
+    }
+}
 
 #[test]
 fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
@@ -38,6 +46,7 @@ fn teeth_without_play_are_pulled_out_straight() {
     let settings = Settings {
         milestones: 300,
         certify_seconds: 0.0,
+        completeness: unsought(),
         far_starts: 1,
         ..Settings::default()
     };
@@ -91,6 +100,7 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     let settings = Settings {
         milestones: 2000,
         certify_seconds: 0.0,
+        completeness: unsought(),
         ..Settings::default()
     };
     let analysis = analyse(&design, &settings, &Silent);

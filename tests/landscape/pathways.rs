@@ -2,7 +2,7 @@
 //! theta, theta the short way) they are free and rise nowhere above the stated peak. And tiles dock
 //! the natural way.
 
-use tilebind::landscape::{Barrier, highest_point, work};
+use tilebind::landscape::{Barrier, CompletenessSettings, highest_point, work};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
 use tilebind::report::csv;
@@ -22,6 +22,10 @@ fn analysis(file: &str) -> Analysis {
         far_starts: 300,
         certify_seconds: 1e9,
         certify_cells: 2000,
+        completeness: CompletenessSettings {
+            seconds: 0.0,
+            ..Settings::default().completeness
+        },
         ..Settings::default()
     };
     analyse(&designs::load(file), &settings, &Silent)

@@ -18,7 +18,14 @@ fn compare(designs: &[&str], out: &Path, more: &[&str]) -> Output {
         .args(designs)
         .arg("--out")
         .arg(out)
-        .args(["--milestones", "1500", "--far-starts", "60"])
+        .args([
+            "--milestones",
+            "1500",
+            "--far-starts",
+            "60",
+            "--complete-cells",
+            "0",
+        ])
         .args(more)
         .output()
         .expect("the program starts")

@@ -59,8 +59,12 @@ fn shortened(command: &str) -> String {
         });
     }
     let quick = match words[0] {
-        "analyse" => " --milestones 300 --far-starts 10 --certify-seconds 0.1 --quiet",
-        "compare" | "sweep" => " --milestones 300 --far-starts 10 --certify-cells 300 --quiet",
+        "analyse" => {
+            " --milestones 300 --far-starts 10 --certify-seconds 0.1 --complete-seconds 0 --quiet"
+        }
+        "compare" | "sweep" => {
+            " --milestones 300 --far-starts 10 --certify-cells 300 --complete-cells 0 --quiet"
+        }
         _ => "",
     };
     format!("tilebind {}{quick}", short.join(" "))

@@ -8,7 +8,7 @@
 //! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
 //!   linear scale.
 //!
-//! A picture is a [`composition`] of panels, laid out for a [`Sheet`]. Charts are drawn by plotters.
+//! A picture is a composition of panels, laid out for a [`Sheet`]. Charts are drawn by plotters.
 //! Its SVG backend writes the vector form; pixels (by tiny-skia) and PDF (by pdf-writer) are drawn
 //! from the same calls, with a font that is part of the program, so that no form depends on what is
 //! installed.

@@ -2,8 +2,8 @@
 //!
 //! One tile carries the first word on its target face, the other the second on its own; their other
 //! faces are empty. The energy is bilinear in the two words, so that what is known of every two
-//! magnets in a pose, or in a cell of poses, is known of every two words: [`sampled`] finds the
-//! strongest attraction of all pairs from one grid of poses, [`certified`] bounds it from one
+//! magnets in a pose, or in a cell of poses, is known of every two words: `sampled` finds the
+//! strongest attraction of all pairs from one grid of poses, `certified` bounds it from one
 //! subdivision.
 //!
 //! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So of

@@ -5,11 +5,13 @@ use serde_json::Value;
 use super::{json, tilebind};
 use crate::program::{stderr, stdout};
 
-const QUICK: [&str; 6] = [
+const QUICK: [&str; 8] = [
     "--milestones",
     "2000",
     "--far-starts",
     "100",
+    "--complete-seconds",
+    "0",
     "--certify-seconds",
     "20",
 ];

@@ -56,6 +56,8 @@ fn a_design_to_start_from_docks() {
         "1500",
         "--far-starts",
         "100",
+        "--complete-seconds",
+        "0",
         "--certify-seconds",
         "0",
     ];
@@ -308,6 +310,8 @@ fn the_summary_fits_its_terminal() {
         "1000",
         "--far-starts",
         "50",
+        "--complete-seconds",
+        "0",
         "--certify-seconds",
         "0",
     ];

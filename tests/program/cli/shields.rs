@@ -14,7 +14,14 @@ const BARE: &str = "tests/designs/good/flat.toml";
 /// The summary and the report of a quick analysis into a folder.
 fn analysed(design: &str, folder: &Path) -> (String, Value) {
     let out = folder.to_str().unwrap();
-    let quick = ["--milestones", "500", "--far-starts", "20"];
+    let quick = [
+        "--milestones",
+        "500",
+        "--far-starts",
+        "20",
+        "--complete-seconds",
+        "0",
+    ];
     let output = tilebind(&[&["analyse", design, "--out", out], &quick[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = std::fs::read_to_string(folder.join("report.json")).unwrap();

@@ -35,7 +35,15 @@ fn the_starter_binds() {
     let [file, out] = ["mine.toml", "out"].map(|name| folder.path().join(name));
     let [file, out] = [&file, &out].map(|path| path.to_str().unwrap());
     assert_eq!(tilebind(&["init", file]).status.code(), Some(0));
-    let quick = ["--milestones", "1500", "--far-starts", "100", "--json"];
+    let quick = [
+        "--milestones",
+        "1500",
+        "--far-starts",
+        "100",
+        "--complete-seconds",
+        "0",
+        "--json",
+    ];
     let report = json(&[&["analyse", file, "--out", out], &quick[..]].concat());
     let states = report["states"].as_array().unwrap();
     let energy = |k: usize| states[k]["energy_J"].as_f64().unwrap();

@@ -18,13 +18,15 @@ const DESIGN: &str = "shapes/tab-20mm.toml";
 const DEPTH: &str = "fixed.faces.east.profile.depth";
 
 /// The least work that still finds the states.
-const QUICK: [&str; 6] = [
+const QUICK: [&str; 8] = [
     "--milestones",
     "500",
     "--far-starts",
     "20",
     "--certify-cells",
     "1000",
+    "--complete-cells",
+    "0",
 ];
 
 fn sweep(arguments: &[&str]) -> Command {
