@@ -56,7 +56,9 @@ impl Claims {
 }
 
 /// Why barriers have no certified bounds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
 pub enum Uncertified {
     /// None was asked for.
     #[error("no time was given to the certificate")]

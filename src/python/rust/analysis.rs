@@ -331,7 +331,10 @@ impl Analysis {
         let grid = map.lowest;
         let shape = vec![grid.y.len(), grid.x.len()];
         let of = |of: fn(&tilebind::landscape::map::Sample) -> f64| {
-            let values = grid.values.iter().map(|one| one.as_ref().map_or(f64::NAN, of));
+            let values = grid
+                .values
+                .iter()
+                .map(|one| one.as_ref().map_or(f64::NAN, of));
             table::grid(py, values.collect(), shape.clone())
         };
         let fields = PyDict::new(py);
@@ -388,7 +391,10 @@ impl Analysis {
         let (design, found) = (&self.content.design, &self.found);
         let text = summary::summary(design, found, "", Some(COLUMNS));
         let told = |line: &&str| !line.starts_with("results in ");
-        text.lines().filter(told).map(|line| format!("{line}\n")).collect()
+        text.lines()
+            .filter(told)
+            .map(|line| format!("{line}\n"))
+            .collect()
     }
 
     /// The page with the landscape to move about in, pathways that play and tables that sort.
@@ -446,13 +452,21 @@ impl Analysis {
                 folder.display()
             )));
         }
-        for inner in FOLDERS.iter().map(|inner| folder.join(inner)).chain([folder.clone()]) {
+        for inner in FOLDERS
+            .iter()
+            .map(|inner| folder.join(inner))
+            .chain([folder.clone()])
+        {
             if inner.exists() && !inner.is_dir() {
                 return Err(fault::value(format!("{} is no folder", inner.display())));
             }
         }
         let contents = Contents {
-            extent: if compact { Extent::Compact } else { Extent::Full },
+            extent: if compact {
+                Extent::Compact
+            } else {
+                Extent::Full
+            },
             arrays,
             sheet: Sheet::SCREEN,
             command: command.unwrap_or_else(|| self.command()),
@@ -511,7 +525,9 @@ impl Analysis {
         style: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let plots = slf.py().import("tilebind._plots")?;
-        plots.getattr("plot_profile")?.call((slf, start, end, ax), style)
+        plots
+            .getattr("plot_profile")?
+            .call((slf, start, end, ax), style)
     }
 
     /// Draw which kinds of states merge at which energy.
@@ -532,7 +548,9 @@ impl Analysis {
         style: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let plots = slf.py().import("tilebind._plots")?;
-        plots.getattr("plot_disconnectivity")?.call((slf, ax), style)
+        plots
+            .getattr("plot_disconnectivity")?
+            .call((slf, ax), style)
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

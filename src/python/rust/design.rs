@@ -86,7 +86,10 @@ pub struct Design {
 }
 
 impl Design {
-    fn read(py: Python<'_>, read: Result<(Source, Whole), tilebind::design::DesignError>) -> PyResult<Self> {
+    fn read(
+        py: Python<'_>,
+        read: Result<(Source, Whole), tilebind::design::DesignError>,
+    ) -> PyResult<Self> {
         read.map(|read| Self {
             content: Content::new(read),
         })
@@ -300,7 +303,10 @@ impl Design {
     fn magnets<'py>(&self, py: Python<'py>, tile: &str) -> PyResult<Bound<'py, PyAny>> {
         let magnets = &self.tile(tile)?.magnets;
         let real = |name: &str, of: fn(&tilebind::tile::Magnet) -> f64| -> Named {
-            (name.to_owned(), Values::Real(magnets.iter().map(of).collect()))
+            (
+                name.to_owned(),
+                Values::Real(magnets.iter().map(of).collect()),
+            )
         };
         let faces = magnets.iter().map(|magnet| magnet.face as i64).collect();
         let columns = vec![
@@ -543,11 +549,17 @@ impl Design {
     fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
         let problem = self.content.problem(None).clone();
         let found = crate::job::quietly(py, move || {
-            problem.contact.as_ref().map(|contact| matches(contact, most))
+            problem
+                .contact
+                .as_ref()
+                .map(|contact| matches(contact, most))
         })?;
         let found = found.unwrap_or_default();
         let real = |name: &str, of: fn(&tilebind::words::matching::Match) -> f64| -> Named {
-            (name.to_owned(), Values::Real(found.iter().map(of).collect()))
+            (
+                name.to_owned(),
+                Values::Real(found.iter().map(of).collect()),
+            )
         };
         let columns = vec![
             real("x_m", |one| one.pose.x),
@@ -634,7 +646,10 @@ impl Design {
         let Whole {
             name, interaction, ..
         } = &self.content.design;
-        format!("<tilebind.Design {name:?}, {} magnets>", interaction.model.name())
+        format!(
+            "<tilebind.Design {name:?}, {} magnets>",
+            interaction.model.name()
+        )
     }
 
     fn __eq__<'py>(&self, py: Python<'py>, other: &Bound<'py, PyAny>) -> PyResult<Py<PyAny>> {

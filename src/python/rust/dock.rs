@@ -197,7 +197,10 @@ impl Docking {
     fn traps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let traps = &self.found.traps;
         let real = |name: &str, of: fn(&Trap) -> f64| -> Named {
-            (name.to_owned(), Values::Real(traps.iter().map(of).collect()))
+            (
+                name.to_owned(),
+                Values::Real(traps.iter().map(of).collect()),
+            )
         };
         let columns = vec![
             real("x_m", |trap| trap.configuration.x),

@@ -72,7 +72,9 @@ pub fn fraction(name: &str, number: f64) -> PyResult<()> {
     if number > 0.0 && number < 1.0 {
         return Ok(());
     }
-    Err(value(format!("{name} must be between 0 and 1, not {number}")))
+    Err(value(format!(
+        "{name} must be between 0 and 1, not {number}"
+    )))
 }
 
 /// A `ValueError` unless there is at least one.

@@ -28,7 +28,10 @@ impl Told {
     }
 
     fn last(&self) -> (f64, String) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
     }
 }
 
@@ -124,7 +127,9 @@ fn look(py: Python<'_>, bar: Option<&Py<PyAny>>, told: &Told) -> PyResult<()> {
 }
 
 fn broken(payload: &(dyn Any + Send)) -> PyErr {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = payload
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned());
     let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
     let text = text.unwrap_or_else(|| "no message".to_owned());
     fault::run(format!(
@@ -137,7 +142,9 @@ pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()
     const SUPPOSED: f64 = 8e9;
     let needed = tilebind::roadmap::memory(milestones, neighbours);
     let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let line = told
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"));
     let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
     let free = kibibytes.map_or(SUPPOSED, |kibibytes| 1024.0 * kibibytes);
     if needed <= free {

@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 
-use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -23,19 +22,12 @@ impl<'a, 'py> Keywords<'a, 'py> {
     }
 
     /// An argument, or what it is where it is not given, or `None`.
-    pub fn or<T: FromPyObjectOwned<'py>>(
-        &self,
-        name: &'static str,
-        default: T,
-    ) -> PyResult<T> {
+    pub fn or<T: FromPyObjectOwned<'py>>(&self, name: &'static str, default: T) -> PyResult<T> {
         Ok(self.get(name)?.unwrap_or(default))
     }
 
     /// An argument, if it is given and not `None`.
-    pub fn get<T: FromPyObjectOwned<'py>>(
-        &self,
-        name: &'static str,
-    ) -> PyResult<Option<T>> {
+    pub fn get<T: FromPyObjectOwned<'py>>(&self, name: &'static str) -> PyResult<Option<T>> {
         self.known.borrow_mut().push(name);
         let Some(given) = self.given else {
             return Ok(None);

@@ -45,9 +45,10 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<(AssessmentSettings, 
 
 fn quantity(key: &str) -> PyResult<&'static Quantity> {
     let known = || QUANTITIES.iter().map(|one| one.key).collect::<Vec<_>>();
-    QUANTITIES.iter().find(|one| one.key == key).ok_or_else(|| {
-        fault::value(format!("by = {key:?}: known are {}", known().join(", ")))
-    })
+    QUANTITIES
+        .iter()
+        .find(|one| one.key == key)
+        .ok_or_else(|| fault::value(format!("by = {key:?}: known are {}", known().join(", "))))
 }
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range.
@@ -79,7 +80,10 @@ pub fn compare(
     if designs.is_empty() {
         return Err(fault::value("there is no design to compare"));
     }
-    let contents: Vec<_> = designs.iter().map(|one| one.get().content.clone()).collect();
+    let contents: Vec<_> = designs
+        .iter()
+        .map(|one| one.get().content.clone())
+        .collect();
     let count = contents.len();
     let assessments = job::run(py, progress, |told| {
         let parts = contents.iter().enumerate();
@@ -186,7 +190,10 @@ impl Comparison {
             by,
             settings,
         } = &slf.get().0;
-        Ok((restore, (pickle::dump(slf.py(), &(designs, by.key, settings))?,)))
+        Ok((
+            restore,
+            (pickle::dump(slf.py(), &(designs, by.key, settings))?,),
+        ))
     }
 
     #[staticmethod]
@@ -263,17 +270,23 @@ fn worked(plan: &Plan, told: &Told) -> Vec<Outcome> {
         let done = 1 + done.fetch_add(1, Ordering::Relaxed);
         let text = format!("{done} of {} points", points.len());
         told.tell(done as f64 / points.len() as f64, text);
-        let mut found = found.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut found = found
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         found.insert(point.name.clone(), outcome.clone());
         Ok(())
     });
     let Ok(()) = kept;
-    let found = found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let found = found
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
     let missing = || Outcome::Failed {
         reason: "it was not worked on".to_owned(),
     };
     let outcomes = points.iter().map(|point| found.get(&point.name).cloned());
-    outcomes.map(|outcome| outcome.unwrap_or_else(missing)).collect()
+    outcomes
+        .map(|outcome| outcome.unwrap_or_else(missing))
+        .collect()
 }
 
 /// Many designs made from one. It never changes.
@@ -372,9 +385,17 @@ impl Sweep {
     }
 
     fn __repr__(&self) -> String {
-        let keys: Vec<_> = self.plan.axes.iter().map(|axis| axis.key.as_str()).collect();
+        let keys: Vec<_> = self
+            .plan
+            .axes
+            .iter()
+            .map(|axis| axis.key.as_str())
+            .collect();
         let count = self.outcomes.len();
-        format!("<tilebind.Sweep of {count} points over {}>", keys.join(", "))
+        format!(
+            "<tilebind.Sweep of {count} points over {}>",
+            keys.join(", ")
+        )
     }
 
     fn __reduce__<'py>(

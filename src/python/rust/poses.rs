@@ -51,11 +51,16 @@ pub fn truths<'py>(
     holds: impl Fn(&Configuration) -> bool + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
     let shape = outer_shape(poses)?;
-    let found = evaluate(py, poses, false, |qs: &[Configuration], out: &mut [bool]| {
-        for (q, held) in qs.iter().zip(out) {
-            *held = holds(q);
-        }
-    })?;
+    let found = evaluate(
+        py,
+        poses,
+        false,
+        |qs: &[Configuration], out: &mut [bool]| {
+            for (q, held) in qs.iter().zip(out) {
+                *held = holds(q);
+            }
+        },
+    )?;
     if shape.is_empty() {
         let one = found.first().copied().unwrap_or(false);
         return Ok(one.into_pyobject(py)?.to_owned().into_any());
@@ -109,14 +114,10 @@ fn evaluate<T: Copy + Send + Sync>(
 /// Leaves `out` as it is where a pose is not finite.
 fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configuration], &mut [T])) {
     for (rows, out) in rows.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
-        let mut qs = [Configuration::new(0.0, 0.0, 0.0); TOGETHER];
         let is_finite = |row: &[f64; 3]| row.iter().all(|number| number.is_finite());
         if rows.iter().all(is_finite) {
-            let qs = &mut qs[..rows.len()];
-            for (q, row) in qs.iter_mut().zip(rows) {
-                *q = Configuration::from(*row);
-            }
-            kernel(qs, out);
+            let qs: Vec<_> = rows.iter().copied().map(Configuration::from).collect();
+            kernel(&qs, out);
             continue;
         }
         for (row, out) in rows.iter().zip(out) {

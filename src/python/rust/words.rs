@@ -67,7 +67,9 @@ pub fn words<'py>(
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
     if !(1..=MOST_PLACES).contains(&length) {
-        return Err(fault::value(format!("length must be from 1 to {MOST_PLACES}")));
+        return Err(fault::value(format!(
+            "length must be from 1 to {MOST_PLACES}"
+        )));
     }
     fault::positive("seconds", Some(seconds))?;
     let question = match (gap, count) {

@@ -22,7 +22,7 @@ def plot_map(analysis, ax=None, **style):
     energy = 1e3 * found.energy
     most = np.nanmax(np.abs(energy))
     # Blue holds and red repels, for the colour-blind too; small energies are told apart.
-    norm = SymLogNorm(linthresh=1e-2 * most, vmin=-most, vmax=most, base=10)
+    norm = SymLogNorm(linthresh=1e-2 * most, linscale=0.5, vmin=-most, vmax=most, base=10)
     mesh = ax.pcolormesh(
         found.x, found.y, energy, **{"cmap": "RdBu_r", "norm": norm, "rasterized": True, **style}
     )
@@ -36,7 +36,10 @@ def plot_map(analysis, ax=None, **style):
     ax.set(aspect="equal", xlabel="x (m)", ylabel="y (m)")
     if len(states):
         ax.legend(loc="upper right")
-    ax.figure.colorbar(mesh, ax=ax, label="lowest energy (mJ)")
+    decades = [10.0**k for k in range(-12, 12) if 2e-2 * most < 10.0**k < most]
+    ticks = [-level for level in reversed(decades)] + [0.0] + decades
+    bar = ax.figure.colorbar(mesh, ax=ax, ticks=ticks, label="lowest energy (mJ)")
+    bar.ax.set_yticklabels([f"{tick:g}" for tick in ticks])
     return ax
 
 
