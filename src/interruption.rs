@@ -26,6 +26,10 @@ thread_local! {
     static MARK: RefCell<Option<Interruption>> = const { RefCell::new(None) };
 }
 
+/// Whether any work of this process was ever asked to be given up: until then, a [`check`] is one
+/// load.
+static ANY: AtomicBool = AtomicBool::new(false);
+
 /// Work was given up because it was asked to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("interrupted")]
@@ -39,6 +43,7 @@ impl Interruption {
     /// From now on the work is not wanted.
     pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
+        ANY.store(true, Ordering::Relaxed);
     }
 
     /// Whether the work is no longer wanted.
@@ -79,6 +84,13 @@ impl Interruption {
 /// Gives the work of this thread up if it is no longer wanted.
 #[inline]
 pub fn check() {
+    if ANY.load(Ordering::Relaxed) {
+        check_mark();
+    }
+}
+
+#[cold]
+fn check_mark() {
     if MARK.with_borrow(|mark| mark.as_ref().is_some_and(Interruption::is_asked)) {
         resume_unwind(Box::new(Interrupted));
     }

@@ -89,6 +89,13 @@
 //! two cores; after one in the kernels of `src/potential`, which are inlined everywhere, the build
 //! takes about 70 s of processor time. The first build takes 2 min 36 s.
 //! The program is then half as fast as a release build, which is the one to measure.
+//!
+//! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour, `drawing` that of
+//! drawings, and `bounds` compares the energies' bounds over cells with interval arithmetic of
+//! `inari`; it is built apart, with compiler flags of its own. `cargo mutants --file
+//! 'src/roadmap/**'` asks which changes of the code no test notices (`.cargo/mutants.toml`).
+//! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
+//! dependencies state; a compiler that old has not been tried.
 
 pub mod calibration;
 pub mod cell;

@@ -15,7 +15,7 @@ use tilebind::report::writer::{self, Contents, Extent, WriteError};
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, style, tell};
+use super::{Failure, input, interrupt, memory, style, tell, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -116,6 +116,7 @@ impl Analyse {
         let sheet = self.figures.sheet()?;
         memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
+        workload::tell_of(&design, &self.survey, &self.work);
 
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);

@@ -52,7 +52,7 @@ impl Calibrate {
         let wrong = |error: &dyn std::fmt::Display| {
             Failure::Usage(format!("{}: {error}", self.table.display()))
         };
-        let text = std::fs::read_to_string(&self.table).map_err(|error| wrong(&error))?;
+        let text = input::text(&self.table).map_err(|error| wrong(&error))?;
         let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
         let specimen = Specimen {
             model: design.interaction.model,

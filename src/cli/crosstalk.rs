@@ -15,7 +15,7 @@ use super::{Failure, input, interrupt, tell};
 #[derive(Args)]
 #[command(after_help = "\
 The set is a TOML file: words = [\"NNSN\", ...], without their mates, and if they are not the paper's
-[magnet] and [tile] side; `tilebind words --out DIR` writes one. Two square tiles carry a word each
+[magnet] and [tile] side, or faces with codes or magnets; `tilebind words --out DIR` writes one. Two square tiles carry a word each
 on one face; every pose is looked at: slid, tilted, drawn back. Rows and columns are the words, then
 their mates; a pose is of the tile whose west face carries the column's word, in the frame of the
 one whose east face carries the row's.
@@ -27,7 +27,7 @@ pub struct Crosstalk {
     /// The set of words
     set: PathBuf,
 
-    /// Prove that no attraction is stronger, to within E_J [default: a twentieth of a contact]
+    /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
           value_parser = input::positive)]
     certify: Option<Option<f64>>,
@@ -41,7 +41,7 @@ pub struct Crosstalk {
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
-    /// Folder for crosstalk.csv and report.json
+    /// Folder for report.html, report.json and crosstalk.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -54,7 +54,7 @@ pub struct Crosstalk {
 }
 
 /// The default width of bounds, as a share of two magnets' energy.
-const TOLERANCE: f64 = 0.05;
+const TOLERANCE: f64 = 0.25;
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
@@ -79,21 +79,18 @@ impl Crosstalk {
                  hold, and --certify-cells makes them closer",
             );
         }
-        let json = report::json(&found);
+        let json = report::json(&set, &found);
         if let Some(folder) = &self.out {
-            let files = report::files(&found);
+            let files = report::files(&set, &found);
             let kept = interrupt::without(|| writer::write(folder, &files))?;
             for path in kept {
                 tell(format!("note: kept what was there as {}", path.display()));
             }
         }
         self.print.results(&json, || {
-            let mut text = report::summary(&found);
+            let mut text = report::summary(&set, &found);
             if let Some(folder) = &self.out {
-                text += &format!(
-                    "results in {}: crosstalk.csv, report.json\n",
-                    folder.display()
-                );
+                text += &format!("results in {}: {}\n", folder.display(), report::FILES);
             }
             text
         })

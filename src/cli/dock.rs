@@ -44,7 +44,7 @@ pub struct Dock {
 
     /// Trajectories
     #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
-          value_parser = input::count)]
+          value_parser = input::runs)]
     runs: usize,
 
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and pictures/

@@ -75,7 +75,7 @@ impl Energy {
 /// The poses of a file.
 fn read(file: &Path) -> Result<Vec<Configuration>, Failure> {
     let wrong = |error: &dyn Display| Failure::Usage(format!("{}: {error}", file.display()));
-    let text = std::fs::read_to_string(file).map_err(|error| wrong(&error))?;
+    let text = input::text(file).map_err(|error| wrong(&error))?;
     poses::read(&text).map_err(|error| wrong(&error))
 }
 

@@ -14,7 +14,7 @@ use super::{Failure, input, print, tell};
 #[derive(Args)]
 #[command(after_help = "\
 Without options: 43 cm squares that bind by a tab, with a remark on every key. With any of them: a
-design to measure, magnets as large and as far apart as there is room for and with the code that
+design to measure, magnets sized and spaced in proportion as on the paper's tile, with the code that
 slides least into wrong places.
 
 Examples:

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use tilebind::Configuration;
@@ -45,9 +45,9 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     let [Some(x), Some(y), Some(theta)] = numbers else {
         return Err(FORM.to_owned());
     };
-    if theta.abs() > 1.001 * std::f64::consts::TAU {
+    if theta.abs() > 2.0 * std::f64::consts::TAU {
         return Err(format!(
-            "theta = {theta} rad is more than a whole turn: for degrees write \"{x},{y},{theta} deg\""
+            "theta = {theta} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
         ));
     }
     Ok(Configuration::from([x, y, theta]))
@@ -92,6 +92,26 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
     found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
 }
 
+/// Most runs of anything whose results are all held in memory.
+const MOST_RUNS: usize = 10_000_000;
+
+/// A number of runs, at least 1.
+pub fn runs(text: &str) -> Result<usize, String> {
+    count(text).and_then(not_too_many)
+}
+
+/// A number of runs, 0 among them.
+pub fn runs_or_none(text: &str) -> Result<usize, String> {
+    count_or_none(text).and_then(not_too_many)
+}
+
+fn not_too_many(count: usize) -> Result<usize, String> {
+    match count {
+        0..=MOST_RUNS => Ok(count),
+        _ => Err(format!("at most {MOST_RUNS} can be held in memory")),
+    }
+}
+
 /// A positive length (m), or with a unit.
 pub fn length(text: &str) -> Result<f64, String> {
     design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
@@ -128,6 +148,22 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x| *x < 1.0)
         .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+}
+
+/// Largest table or manifest that is read (bytes).
+const LARGEST: u64 = 256 << 20;
+
+/// The text of a table or manifest named on the command line; a pipe may be, too.
+pub fn text(path: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?
+        .take(LARGEST + 1)
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("it is larger than {} MB", LARGEST >> 20);
+        return Err(io::Error::other(message));
+    }
+    String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
 }
 
 /// Refuses a folder that results cannot be written to, before any work is done. Nothing is left in
@@ -217,5 +253,8 @@ mod tests {
     fn limits() {
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+        assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
+        assert!(runs("1e7").is_ok() && runs("4294967295").is_err());
+        assert!(runs_or_none("4294967295").is_err());
     }
 }

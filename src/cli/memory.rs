@@ -37,12 +37,18 @@ pub fn check(milestones: usize, neighbours: Option<usize>, at_once: usize) -> Re
     Ok(())
 }
 
-/// Memory that can be had without swapping (bytes), as Linux tells it.
+/// Memory that can be had without swapping (bytes), as Linux tells it: the machine's, or what the
+/// process may have (`ulimit -v`) where that is less.
 fn available() -> Option<f64> {
-    let told = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = told
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: f64 = line.split_whitespace().next()?.parse().ok()?;
-    Some(1024.0 * kibibytes)
+    let free = first_number("/proc/meminfo", "MemAvailable:").map(|kibibytes| 1024.0 * kibibytes);
+    let allowed = first_number("/proc/self/limits", "Max address space");
+    let least = |least: Option<f64>, x: f64| Some(least.map_or(x, |least| least.min(x)));
+    free.into_iter().chain(allowed).fold(None, least)
+}
+
+/// The first number of the line with such a beginning.
+fn first_number(file: &str, beginning: &str) -> Option<f64> {
+    let told = std::fs::read_to_string(file).ok()?;
+    let line = told.lines().find_map(|line| line.strip_prefix(beginning))?;
+    line.split_whitespace().next()?.parse().ok()
 }

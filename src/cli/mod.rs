@@ -27,6 +27,7 @@ pub mod sweep;
 mod sweep_progress;
 mod word;
 pub mod words;
+mod workload;
 
 pub use failure::Failure;
 use failure::WRONG;

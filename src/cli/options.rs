@@ -10,7 +10,7 @@ use tilebind::Settings;
 use tilebind::design::{Design, MagnetModel};
 
 use super::progress::Progress;
-use super::{Failure, input, print};
+use super::{Failure, input, print, tell};
 
 /// A design, and how its magnets are to be modelled.
 #[derive(Args)]
@@ -62,12 +62,12 @@ pub struct SurveyOptions {
 
     /// Far starts from which capture shares are counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().far_starts,
-          value_parser = input::count_or_none)]
+          value_parser = input::runs_or_none)]
     pub far_starts: usize,
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = input::count)]
+          default_missing_value = "1000", value_parser = input::runs)]
     dynamics: Option<usize>,
 }
 
@@ -93,8 +93,7 @@ pub struct WorkOptions {
 impl WorkOptions {
     /// The number of threads asked for, or else that of cores.
     pub fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.threads.map_or_else(cores, usize::from)
+        self.threads.map_or_else(cores, useful)
     }
 
     /// Has the library work on the number of threads asked for.
@@ -103,13 +102,32 @@ impl WorkOptions {
     }
 }
 
+/// Most threads for a core: thousands would wait for each other.
+const MOST_FOR_A_CORE: usize = 8;
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The threads asked for, as far as they are of use.
+fn useful(threads: u16) -> usize {
+    usize::from(threads).min(MOST_FOR_A_CORE * cores())
+}
+
 /// Has the library work on so many threads, or on all cores.
 pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
     let Some(threads) = threads else {
         return Ok(());
     };
+    let used = useful(threads);
+    if used < usize::from(threads) {
+        tell(format!(
+            "note: {used} threads are used: more on {} cores would gain nothing",
+            cores()
+        ));
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
+        .num_threads(used)
         .build_global()
         .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }

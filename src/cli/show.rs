@@ -6,13 +6,15 @@ use std::time::{Duration, SystemTime};
 use clap::Args;
 use tilebind::design::Design;
 use tilebind::inspection::Inspection;
-use tilebind::report::plots::glance;
+use tilebind::report::plots::{Sheet, glance};
 use tilebind::report::writer::{self, WriteError};
 use tilebind::report::{inspection, json};
 
 use super::options::DesignOptions;
 use super::{Failure, input, interrupt, print, style, tell};
 
+/// Of a PDF (mm): the width of a text on A4 in a thousand pixels.
+const PIXEL: f64 = 0.17;
 /// How often a watched file is looked at.
 const BLINK: Duration = Duration::from_millis(300);
 
@@ -30,7 +32,7 @@ pub struct Show {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// File for the picture: .svg or .png by its ending
+    /// File for the picture: .svg, .png or .pdf by its ending
     #[arg(long, short, value_name = "FILE", value_parser = picture_file)]
     out: Option<PathBuf>,
 
@@ -75,11 +77,7 @@ impl Show {
         let design = self.design.load_silently()?;
         let found = Inspection::new(&design);
         if let Some(file) = &self.out {
-            let picture = glance::draw(&design, &found).map_err(WriteError::from)?;
-            let bytes = match file.extension().is_some_and(|ending| ending == "png") {
-                true => picture.png,
-                false => picture.svg.into_bytes(),
-            };
+            let bytes = picture(&design, &found, file)?;
             interrupt::without(|| writer::write_file(file, &bytes))?;
         }
         if self.json {
@@ -113,6 +111,21 @@ impl Show {
     }
 }
 
+/// The picture of a design as the file's ending asks for it.
+fn picture(design: &Design, found: &Inspection, file: &Path) -> Result<Vec<u8>, WriteError> {
+    let ending = file.extension().unwrap_or_default();
+    let sheet = match ending == "pdf" {
+        true => Sheet::of_pixels(PIXEL),
+        false => Sheet::SCREEN,
+    };
+    let picture = glance::draw(design, found, &sheet)?;
+    Ok(match picture.pdf {
+        Some(pdf) => pdf,
+        None if ending == "png" => picture.png,
+        None => picture.svg.into_bytes(),
+    })
+}
+
 /// A file that a picture can be written to.
 fn picture_file(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
@@ -120,7 +133,7 @@ fn picture_file(text: &str) -> Result<PathBuf, String> {
         .extension()
         .map(|ending| ending.to_string_lossy().into_owned());
     match ending.as_deref() {
-        Some("svg" | "png") => Ok(file),
-        _ => Err("a picture is a .svg or a .png file, such as design.svg".to_owned()),
+        Some("svg" | "png" | "pdf") => Ok(file),
+        _ => Err("a picture is a .svg, .png or .pdf file, such as design.svg".to_owned()),
     }
 }

@@ -1,5 +1,7 @@
 //! `tilebind sweep`: many designs from one.
 
+mod refinement;
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -32,14 +34,16 @@ Points worked on at the same time [default: all cores]; the results do not depen
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
 Writes report.html to look at, sweep.csv, sweep.json and pictures: curves over one varied number,
-maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep was stopped, the same
-command goes on with what is missing and ends in the same bytes.
+maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep
+was stopped, the same command goes on with what is missing and ends in the same bytes.
 
 Examples:
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.05:11 \\
       --out target/tab
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0.01,0.02 \\
       --vary fixed.faces.east.profile.width=0.1:0.3:5 --out target/tabs
+  tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.04:5 \\
+      --baseline depth=0 --refine 6 --out target/depth
 
 In parts, on one machine or many:
   tilebind sweep shapes/tab-20mm.toml --vary magnet.pitch=0.02:0.06:9 --plan target/pitch/plan.json
@@ -61,6 +65,16 @@ pub struct Sweep {
     #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
+
+    /// Add so many points, between those at which the figures bend most, one number being varied
+    #[arg(long, value_name = "N", value_parser = input::count,
+          conflicts_with_all = ["plan", "run", "merge", "status"])]
+    refine: Option<usize>,
+
+    /// The point that all are set against: values that are varied, such as depth=0, or a design's
+    /// name
+    #[arg(long, value_name = "POINT", conflicts_with_all = ["run", "merge", "status"])]
+    baseline: Option<String>,
 
     #[command(flatten)]
     options: AssessmentOptions,
@@ -129,6 +143,11 @@ impl Sweep {
             self.work.seed,
         )
         .map_err(usage)?;
+        let plan = match &self.baseline {
+            Some(point) => plan.against(point).map_err(usage)?,
+            None => plan,
+        };
+        self.check_refinement(&plan)?;
         let file = self.plan_file()?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         input::check_file(&file)?;
@@ -137,8 +156,7 @@ impl Sweep {
         if self.plan.is_none() {
             self.check_memory(&plan)?;
         }
-        let text = plan.to_text();
-        interrupt::without(|| writer::write_file(&file, text.as_bytes()))?;
+        write_plan(&plan, &file)?;
         if self.plan.is_some() {
             if self.print.quiet {
                 return Ok(());
@@ -147,6 +165,7 @@ impl Sweep {
             return print(&format!("{count} points planned in {}\n", file.display()));
         }
         self.work(&plan, &folder, Shard::WHOLE)?;
+        let plan = self.refine(plan, &folder, &file)?;
         self.merge(&plan, &folder)
     }
 
@@ -169,7 +188,7 @@ impl Sweep {
             file.to_owned()
         };
         let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
-        let text = std::fs::read_to_string(&file)
+        let text = input::text(&file)
             .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
@@ -281,6 +300,13 @@ fn check_folders(folder: &Path) -> Result<(), Failure> {
     ["points", writer::PICTURES, DESIGNS]
         .into_iter()
         .try_for_each(|inner| input::check_folder(&folder.join(inner)))
+}
+
+fn write_plan(plan: &Plan, file: &Path) -> Result<(), Failure> {
+    let text = plan.to_text();
+    Ok(interrupt::without(|| {
+        writer::write_file(file, text.as_bytes())
+    })?)
 }
 
 fn folder_of(file: &Path) -> PathBuf {

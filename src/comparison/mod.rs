@@ -9,6 +9,8 @@
 //!   barrier for binding is the saddle's energy above that of tiles far apart, which is 0, and 0
 //!   where the saddle lies below that. Bounds are those of the saddle, shifted likewise.
 //! - *Selectivity* is the depth of the bond over that of the deepest trap.
+//! - What is *unlisted* is at most so deep: besides the states that were found no other takes more
+//!   than half a hundredth of the bond to leave, proved but for what lies above that.
 //! - The *capture range* is defined in [`capture_range`].
 
 pub mod capture_range;
@@ -20,10 +22,11 @@ use serde::{Deserialize, Serialize};
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
 use crate::landscape::{
-    Barrier, Claims, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
+    Barrier, Claims, Completeness, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
 };
 use crate::observer::Observer;
 use crate::pipeline::{self, Analysis, Settings};
+use crate::potential::MagnetModel;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
@@ -47,7 +50,8 @@ pub struct AssessmentSettings {
     pub tolerance: Option<f64>,
     /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
     pub certify_cells: usize,
-    /// Cells spent on the search for states that the survey missed, at most; 0 for no search.
+    /// Cells spent on the search for states that the survey missed, at most; 0 for no search. Of blocks
+    /// it is a thirtieth, which takes about as long.
     pub complete_cells: usize,
     /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -109,7 +113,7 @@ impl AssessmentSettings {
 }
 
 /// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
     /// Of the design.
     pub name: String,
@@ -131,6 +135,14 @@ pub struct Assessment {
     pub trap_kinds: usize,
     /// The one of lowest energy; `None` where there are no traps.
     pub deepest_trap: Option<Trap>,
+    /// Besides the states that were found none lies lower than this (J) that takes more than a share
+    /// of the bond to leave, proved; `None` where nothing is.
+    #[serde(
+        default,
+        rename = "unlisted_above_J",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub unlisted_above: Option<f64>,
     /// Number of far starts.
     pub far_starts: usize,
     /// How many of the far starts end in the bond.
@@ -211,6 +223,9 @@ impl Way {
     }
 }
 
+/// A cell of blocks takes as long as about this many of dipoles.
+const CELLS_OF_BLOCKS: usize = 30;
+
 /// Analyses a design and keeps what is compared.
 pub fn assess(
     design: &Design,
@@ -218,7 +233,11 @@ pub fn assess(
     seed: u64,
     observer: &dyn Observer,
 ) -> Assessment {
-    let analysis = pipeline::analyse(design, &settings.settings(seed), observer);
+    let mut settings = settings.settings(seed);
+    if design.interaction.model == MagnetModel::Cuboid {
+        settings.completeness.cells /= CELLS_OF_BLOCKS;
+    }
+    let analysis = pipeline::analyse(design, &settings, observer);
     Assessment::new(design, &analysis)
 }
 
@@ -270,6 +289,11 @@ impl Assessment {
                 energy: state.energy,
                 escape: Way::new(analysis.escape(state.id).as_ref()),
             }),
+            unlisted_above: analysis
+                .completeness
+                .as_ref()
+                .ok()
+                .map(Completeness::lowest),
             far_starts: analysis.uncaptured.gone.of,
             captured: inventory
                 .states

@@ -225,6 +225,11 @@ pub static QUANTITIES: &[Quantity] = &[
         column: at(1, 3, "kinds of trap"),
         read: |a| Ok(Number(a.trap_kinds as f64)), ..PLAIN
     },
+    Quantity {
+        key: "unlisted_depth", label: "unlisted at most", measure: Energy,
+        column: at(1, 4, "unlisted at most"),
+        read: |a| a.unlisted_above.map(|energy| Number(-energy)).ok_or("not proved"), ..PLAIN
+    },
 ];
 
 fn bond(assessment: &Assessment) -> Result<&Bond, &'static str> {

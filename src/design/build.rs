@@ -104,6 +104,9 @@ fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
     Ok(mass)
 }
 
+/// Most points of an outline: each is compared with every other.
+const MOST_POINTS: usize = 10_000;
+
 fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
     let line = |content: &FaceContent| FaceLine {
         polyline: content.polyline.clone(),
@@ -123,6 +126,13 @@ fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline
             "make `fit` smaller, or the profile's details larger",
         )
     })?;
+    let points = ring.points.len();
+    if points > MOST_POINTS {
+        return Err(entry.section.error(
+            format!("the tile's outline has {points} points, more than {MOST_POINTS}"),
+            "draw its faces with fewer points, or with fewer teeth",
+        ));
+    }
     match Outline::new(ring.points.clone()) {
         Ok(outline) => Ok((ring, outline)),
         Err(error) => Err(mend_outline(entry, contents, &ring, &error)),

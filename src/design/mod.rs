@@ -35,6 +35,7 @@ mod base;
 mod build;
 mod doubts;
 pub(crate) mod drawings;
+mod entry;
 mod error;
 mod face;
 mod faults;
@@ -56,7 +57,9 @@ mod syntax;
 mod target;
 mod tile;
 mod units;
+mod word_places;
 mod word_set;
+mod word_stage;
 
 pub use crate::potential::MagnetModel;
 pub use drawings::Drawing;
@@ -179,11 +182,7 @@ impl Design {
     ///
     /// # Errors
     /// Where the text is no sound design.
-    pub(crate) fn parse_with(
-        text: &str,
-        file: &str,
-        drawings: &BTreeMap<String, String>,
-    ) -> Result<Self> {
+    pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
         Self::read(text, file, Drawings::new(Some(drawings)))
     }
 

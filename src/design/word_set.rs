@@ -9,19 +9,15 @@
 //! [potential]
 //! model = "cuboid"
 //! [faces]                        # in place of `words`: names with codes; mates (A*) are left out
-//! A = { code = "NNSN" }
+//! A = { code = "NNSN" }          # or magnets anywhere: { magnets = [{ at = 0.02, pole = "N" }] }
 //! ```
 
-use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
 
-use serde::Deserialize;
-
+use super::word_places::{self, MagnetAt};
+use super::word_stage::{Entries, PITCH, SIZE, stage};
 use super::{Design, DesignError, MagnetModel, Place, file};
-use crate::tile::{Magnet, Tile};
 use crate::words::Word;
 
 /// A set of words and what carries them.
@@ -29,56 +25,13 @@ use crate::words::Word;
 pub struct WordSet {
     /// The words, in the order of the file, of one length.
     pub words: Vec<Word>,
+    /// The faces' names, where the file gives them.
+    pub names: Vec<String>,
+    /// Where the places lie along the face (m), where they are not a pitch apart.
+    pub places: Option<Vec<f64>>,
     /// Two square tiles whose target faces, east and west, carry a north pole in every place, and
     /// nothing elsewhere.
     pub stage: Design,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entries {
-    #[allow(dead_code)]
-    name: Option<String>,
-    #[allow(dead_code)]
-    description: Option<String>,
-    words: Option<Vec<String>>,
-    #[serde(default)]
-    magnet: MagnetEntry,
-    #[serde(default)]
-    tile: TileEntry,
-    #[serde(default)]
-    potential: PotentialEntry,
-    #[serde(default)]
-    faces: BTreeMap<String, FaceEntry>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MagnetEntry {
-    size: Option<[f64; 3]>,
-    remanence: Option<f64>,
-    moment: Option<f64>,
-    surface_field: Option<f64>,
-    pitch: Option<f64>,
-    inset: Option<f64>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TileEntry {
-    side: Option<f64>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PotentialEntry {
-    model: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FaceEntry {
-    code: String,
 }
 
 /// Most words of a set.
@@ -127,15 +80,20 @@ impl WordSet {
             let at = text.find(&format!("\"{code}\""))?;
             Some(at + 1..at + 1 + code.len())
         };
+        let faces = entries
+            .faces
+            .iter()
+            .filter(|(name, _)| !name.ends_with('*'));
+        let spaced: Vec<(String, Vec<MagnetAt>)> = faces
+            .clone()
+            .filter_map(|(name, face)| Some((name.clone(), face.magnets.clone()?)))
+            .collect();
+        if entries.words.is_none() && !spaced.is_empty() {
+            return Self::of_spaced(&entries, &spaced, model, name);
+        }
         let codes = match &entries.words {
             Some(words) => words.clone(),
-            None => {
-                let named = entries
-                    .faces
-                    .iter()
-                    .filter(|(name, _)| !name.ends_with('*'));
-                named.map(|(_, face)| face.code.clone()).collect()
-            }
+            None => faces.filter_map(|(_, face)| face.code.clone()).collect(),
         };
         let mut words: Vec<Word> = Vec::new();
         for code in &codes {
@@ -174,80 +132,80 @@ impl WordSet {
             let message = format!("it holds {} words, more than {MOST_WORDS}", words.len());
             return Err(error(None, message, "split the set"));
         }
-        let design = stage(&entries, first.places(), model);
-        // What is wrong with magnets or tile is told of the design made of them.
-        let mut stage = Design::parse(&design, name).map_err(|found| DesignError {
-            place: None,
-            ..found
-        })?;
-        let pitch = stage.pitch.unwrap_or_default();
-        let (fixed, moving) = stage.pair.target;
-        let pair = Arc::make_mut(&mut stage.pair);
-        fill(&mut pair.fixed, fixed, first.places(), pitch);
-        fill(&mut pair.moving, moving, first.places(), pitch);
-        Ok(Self { words, stage })
-    }
-}
-
-/// Puts a magnet like the one of a face's first place into every place, `pitch` (m) apart: slots may
-/// be narrower than magnets.
-fn fill(tile: &mut Tile, face: usize, places: usize, pitch: f64) {
-    let Some(first) = tile.magnets.first().cloned() else {
-        return;
-    };
-    let along = tile.faces[face].tangent() * pitch;
-    let magnet = |k: usize| Magnet {
-        position: first.position + along * k as f64,
-        ..first.clone()
-    };
-    tile.magnets = (0..places).map(magnet).collect();
-}
-
-/// The design of two tiles with a magnet in the first of so many places of their target faces.
-fn stage(entries: &Entries, places: usize, model: Option<MagnetModel>) -> String {
-    let magnet = &entries.magnet;
-    let pitch = magnet.pitch.unwrap_or(0.040);
-    let size = magnet.size.unwrap_or([0.010, 0.010, 0.003]);
-    let side = entries.tile.side.unwrap_or(pitch * places as f64);
-    let strength = match (magnet.remanence, magnet.moment, magnet.surface_field) {
-        (None, None, None) => "remanence = 1.2".to_owned(),
-        (remanence, moment, surface) => {
-            let keys = [
-                ("remanence", remanence),
-                ("moment", moment),
-                ("surface_field", surface),
-            ];
-            let lines = keys
-                .iter()
-                .filter_map(|(key, value)| Some(format!("{key} = {:?}", (*value)?)));
-            lines.collect::<Vec<_>>().join("\n")
+        let pitch = entries.magnet.pitch.unwrap_or(PITCH);
+        let middle = (first.places() as f64 - 1.0) / 2.0;
+        let places: Vec<f64> = (0..first.places())
+            .map(|k| (k as f64 - middle) * pitch)
+            .collect();
+        let width = entries.magnet.size.unwrap_or(SIZE)[1];
+        let needed = pitch * (places.len() as f64 - 1.0) + width;
+        let side = entries
+            .tile
+            .side
+            .unwrap_or(needed.max(pitch * places.len() as f64));
+        if side > 0.0 && needed > side * (1.0 + 1e-9) {
+            let message = format!(
+                "words of {} places {pitch} m apart need a face of {needed:.4} m, not {side} m",
+                places.len()
+            );
+            return Err(error(
+                None,
+                message,
+                "make [tile] side longer, or leave it out",
+            ));
         }
-    };
-    let model = match (model, &entries.potential.model) {
-        (Some(model), _) => model.name().to_owned(),
-        (None, Some(model)) => model.replace(['"', '\\', '\n'], " "),
-        (None, None) => MagnetModel::default().name().to_owned(),
-    };
-    let code = format!("N{}", ".".repeat(places - 1));
-    let table = 8.0 * side.abs();
-    let mut text = format!(
-        "name = \"words\"\n[table]\nsize = [{table:?}, {table:?}]\n[magnet]\nsize = [{:?}, {:?}, \
-         {:?}]\n{strength}\npitch = {pitch:?}\ninset = {:?}\n",
-        size[0],
-        size[1],
-        size[2],
-        magnet.inset.unwrap_or(0.0)
-    );
-    for (tile, face) in [("fixed", "east"), ("moving", "west")] {
-        let _ = write!(
-            text,
-            "[{tile}]\nside = {side:?}\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n{face} = {{ \
-             code = \"{code}\" }}\n"
-        );
+        let stage = stage(&entries, side, model, &places, name)?;
+        let names = match entries.words {
+            Some(_) => Vec::new(),
+            None => entries
+                .faces
+                .keys()
+                .filter(|name| !name.ends_with('*'))
+                .cloned()
+                .collect(),
+        };
+        Ok(Self {
+            words,
+            names,
+            places: None,
+            stage,
+        })
     }
-    let _ = write!(
-        text,
-        "[target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"{model}\"\n"
-    );
-    text
+
+    /// A set of words with magnets anywhere.
+    fn of_spaced(
+        entries: &Entries,
+        spaced: &[(String, Vec<MagnetAt>)],
+        model: Option<MagnetModel>,
+        name: &str,
+    ) -> Result<Self, DesignError> {
+        let error = |(message, help): (String, String)| DesignError {
+            also: Vec::new(),
+            file: name.to_owned(),
+            place: None,
+            message,
+            help,
+        };
+        let codes = entries.faces.values().filter(|face| face.magnets.is_none());
+        if codes.count() > 0 {
+            let message = "some of its faces have `code` and others `magnets`".to_owned();
+            let help = "give all of them the one or the other";
+            return Err(error((message, help.to_owned())));
+        }
+        let Some(side) = entries.tile.side else {
+            let message = "it does not say how long its faces are".to_owned();
+            return Err(error((
+                message,
+                "write side = 0.43 under [tile]".to_owned(),
+            )));
+        };
+        let width = entries.magnet.size.unwrap_or(SIZE)[1];
+        let (places, words) = word_places::common(spaced, width, side).map_err(error)?;
+        Ok(Self {
+            words,
+            names: spaced.iter().map(|(name, _)| name.clone()).collect(),
+            stage: stage(entries, side, model, &places, name)?,
+            places: Some(places),
+        })
+    }
 }

@@ -118,6 +118,13 @@ impl Problem {
         })
     }
 
+    /// Whether one of the tiles has no magnets: U is zero everywhere.
+    pub fn is_inert(&self) -> bool {
+        let has_none =
+            |pair: &Arc<Pair>| pair.fixed.magnets.is_empty() || pair.moving.magnets.is_empty();
+        self.pair.as_ref().is_some_and(has_none)
+    }
+
     /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
     /// of the flush meetings of two faces where the bound one does not attract.
     pub fn depth(&self) -> f64 {

@@ -5,21 +5,15 @@ use std::iter::once;
 
 use serde_json::{Map, Value, json};
 
-use super::csv::{number, table};
+use super::assessments::{capture_settings, cells, columns, merge, quantities};
+use super::csv::table;
 use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
 use super::json;
-use super::summary::write_folded;
+use super::markdown::{markdown_table, without_html};
+use super::terminal::write_folded;
 use crate::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use crate::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use crate::landscape::certificate::Ordering;
-
-/// Columns of what moving tiles say of the barriers: how many they checked, contradict, and show to
-/// be estimated too high.
-const CHECKED: [&str; 3] = [
-    "barriers_checked",
-    "barriers_contradicted",
-    "barriers_overestimated",
-];
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]
@@ -63,6 +57,7 @@ impl Comparison {
         if self.designs.iter().any(has_estimates) {
             let _ = writeln!(out, "({ESTIMATES})");
         }
+        let _ = writeln!(out, "(unlisted at most: {UNLISTED})");
         if self.designs.iter().any(misses_head_on) {
             let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
         }
@@ -131,6 +126,7 @@ impl Comparison {
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
         );
+        let _ = write!(note, " \u{201c}Unlisted at most\u{201d}: {UNLISTED}.");
         if self.designs.iter().any(has_estimates) {
             let _ = write!(note, " (The {ESTIMATES}.)");
         }
@@ -264,6 +260,9 @@ impl Comparison {
     }
 }
 
+/// What is proved of traps that were not found.
+const UNLISTED: &str = "states that were not found are less deep than this, or take less than half \
+                        a hundredth of the bond to leave, proved";
 /// What barriers are of which nothing is proved.
 const ESTIMATES: &str = "barriers without brackets are estimates of a roadmap: too high where \
                          it misses a passage";
@@ -297,98 +296,4 @@ fn ordered() -> impl Iterator<Item = (&'static str, &'static Quantity)> {
     let certified = |quantity: &Quantity| quantity.column.filter(|_| quantity.bounds == CERTIFIED);
     let places = placed(certified).into_iter();
     places.flat_map(|(place, shared)| shared.into_iter().map(move |one| (place.heading, one)))
-}
-
-/// What a capture range depends on.
-pub fn capture_settings() -> Value {
-    json!({
-        "steps": capture_range::STEPS,
-        "halvings": capture_range::HALVINGS,
-        "same_bond_m": capture_range::SAME_BOND,
-        "energy_share": capture_range::ENERGY_SHARE,
-    })
-}
-
-/// Adds the keys of one object to another.
-pub fn merge(object: &mut Value, more: Value) {
-    if let (Value::Object(object), Value::Object(more)) = (object, more) {
-        object.extend(more);
-    }
-}
-
-/// The figures of a design as JSON: a number, or an object with its bounds.
-pub fn quantities(design: &Assessment) -> Value {
-    let entry = |quantity: &Quantity| {
-        let [value, low, high] = finite(quantity, design);
-        let entry = match quantity.bounds {
-            Some([below, above]) => json!({"value": value, below: low, above: high}),
-            None => json!(value),
-        };
-        (quantity.name(""), entry)
-    };
-    QUANTITIES.iter().map(entry).collect()
-}
-
-/// A figure and its bounds, `None` for what is not known or not finite.
-fn finite(quantity: &Quantity, design: &Assessment) -> [Option<f64>; 3] {
-    let estimate = quantity.of(design);
-    estimate.map_or([None; 3], |estimate| estimate.finite())
-}
-
-/// Columns of a table of assessments.
-pub fn columns() -> Vec<String> {
-    let mut columns = Vec::new();
-    for quantity in QUANTITIES {
-        columns.push(quantity.name(""));
-        let bounds = quantity.bounds.into_iter().flatten();
-        columns.extend(bounds.map(|bound| quantity.name(&format!("_{bound}"))));
-    }
-    columns.extend(["caged", "target_energy_J", "seed", "sha256"].map(str::to_owned));
-    columns.extend(CHECKED.map(str::to_owned));
-    columns
-}
-
-/// The cells of [`columns`]; empty where there is nothing to say, or no way at all.
-pub fn cells(design: &Assessment) -> Vec<String> {
-    let mut cells = Vec::new();
-    for quantity in QUANTITIES {
-        let [value, bounds @ ..] = finite(quantity, design);
-        let bounds = quantity.bounds.map(|_| bounds);
-        let numbers = once(value).chain(bounds.into_iter().flatten());
-        cells.extend(numbers.map(|value| value.map(number).unwrap_or_default()));
-    }
-    let caged = design.bond.as_ref().is_some_and(|b| b.way_out.bounds.caged);
-    cells.extend([
-        caged.to_string(),
-        number(design.target_energy),
-        design.seed.to_string(),
-        design.sha256.clone(),
-    ]);
-    let counts = design.checks();
-    let counts = counts.map(|checks| checks.map(|count| count.to_string()));
-    cells.extend(counts.unwrap_or_else(|| CHECKED.map(|_| String::new())));
-    cells
-}
-
-/// Markdown passes HTML on as it is; this shows it.
-fn without_html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
-}
-
-/// Rows as a Markdown table, the first one its head.
-pub fn markdown_table(rows: &[Vec<String>]) -> String {
-    let line = |cells: &[String]| {
-        let cells: Vec<String> = cells
-            .iter()
-            .map(|cell| without_html(cell).replace('|', "\\|"))
-            .collect();
-        format!("| {} |\n", cells.join(" | "))
-    };
-    let mut out = String::new();
-    if let Some((head, rest)) = rows.split_first() {
-        out += &line(head);
-        out += &format!("|{}\n", "---|".repeat(head.len()));
-        rest.iter().for_each(|row| out += &line(row));
-    }
-    out
 }

@@ -5,20 +5,26 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::csv::table;
-use super::files::{Files, REPORT};
+use super::files::{Files, PAGE, REPORT};
 use super::json as layout;
+use super::page::Page;
 use super::values::{pose, positive_zero};
 use super::words::name;
 use crate::checksum::sha256;
+use crate::configuration::Configuration;
+use crate::design::WordSet;
 use crate::units::si;
 use crate::words::crosstalk::Crosstalk;
 
+/// What is written, for the terminal.
+pub const FILES: &str = "report.html to look at; crosstalk.csv, report.json";
+
 /// What `--json` prints.
-pub fn json(found: &Crosstalk) -> String {
-    layout::text(&value(found))
+pub fn json(set: &WordSet, found: &Crosstalk) -> String {
+    layout::text(&value(set, found))
 }
 
-fn value(found: &Crosstalk) -> Value {
+fn value(set: &WordSet, found: &Crosstalk) -> Value {
     let numbers = |matrix: &[Vec<f64>]| -> Value {
         let row =
             |row: &Vec<f64>| json!(row.iter().copied().map(positive_zero).collect::<Vec<_>>());
@@ -33,9 +39,22 @@ fn value(found: &Crosstalk) -> Value {
         "words": found.words.iter().map(ToString::to_string).collect::<Vec<_>>(),
         // Rows and columns: words, then their mates.
         "faces": faces(found),
+        // Where the places of the words lie along the face, if not a pitch apart.
+        "places_m": set.places,
         "strongest_J": numbers(&found.strongest),
         "lower_J": found.lower.as_ref().map(|lower| numbers(lower)),
         "poses": poses.collect::<Value>(),
+        // Of each word and its own mate the deepest meeting found that holds beside the bond.
+        "traps_J": found.traps.iter()
+            .map(|trap| json!(trap.map(|trap| positive_zero(trap.0))))
+            .collect::<Value>(),
+        "trap_poses": found.traps.iter()
+            .map(|trap| json!(trap.map(|trap| pose(&trap.1))))
+            .collect::<Value>(),
+        "bond_J": found.weakest_bond().map(|bond| -bond.1),
+        "gap": found.gap(),
+        "model": set.stage.interaction.model.name(),
+        "pitch_m": set.stage.pitch,
         // Whether all lower bounds are as close as asked for.
         "settled": found.lower.as_ref().map(|_| found.settled),
         "cells": found.cells,
@@ -43,7 +62,7 @@ fn value(found: &Crosstalk) -> Value {
 }
 
 /// The codes of all faces, in the order of rows and columns.
-fn faces(found: &Crosstalk) -> Vec<String> {
+pub(super) fn faces(found: &Crosstalk) -> Vec<String> {
     let words = found.words.iter().copied();
     words
         .clone()
@@ -53,15 +72,16 @@ fn faces(found: &Crosstalk) -> Vec<String> {
 }
 
 /// The name of a face: `A`, or `A*` of a mate.
-fn face_name(found: &Crosstalk, face: usize) -> String {
+pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String {
+    let word = |k: usize| set.names.get(k).cloned().unwrap_or_else(|| name(k));
     match face.checked_sub(found.words.len()) {
-        Some(mate) => name(mate) + "*",
-        None => name(face),
+        Some(mate) => word(mate) + "*",
+        None => word(face),
     }
 }
 
 /// Whether two faces are a word and its own mate.
-fn is_bond(found: &Crosstalk, first: usize, second: usize) -> bool {
+pub(super) fn is_bond(found: &Crosstalk, first: usize, second: usize) -> bool {
     first.abs_diff(second) == found.words.len()
 }
 
@@ -71,57 +91,94 @@ fn pairs(found: &Crosstalk) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |i| (i..n).map(move |j| (i, j)))
 }
 
-/// What the terminal is told.
-pub fn summary(found: &Crosstalk) -> String {
-    let strength = |&(i, j): &(usize, usize)| found.strongest[i][j];
-    let lowest = |a: &(usize, usize), b: &(usize, usize)| strength(a).total_cmp(&strength(b));
-    let bonds = pairs(found).filter(|(i, j)| is_bond(found, *i, *j));
-    let wrong = pairs(found).filter(|(i, j)| !is_bond(found, *i, *j));
-    let told = |(i, j): (usize, usize)| {
-        let q = found.poses[i][j];
-        let bound = found.lower.as_ref().map_or(String::new(), |lower| {
-            format!(" (no stronger than {}, proved)", si(-lower[i][j], "J", 4))
-        });
-        format!(
-            "{} on {} {}{bound} at {:.1}, {:.1} mm, {:.1} deg",
-            face_name(found, i),
-            face_name(found, j),
-            si(-found.strongest[i][j], "J", 4),
-            1e3 * q.x,
-            1e3 * q.y,
-            q.theta.to_degrees() + 0.0
-        )
+/// The first sentence: the gap over all poses, how sure, the weakest bond and the strongest wrong
+/// meeting.
+pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
+    let many = match found.words.len() {
+        1 => "1 word".to_owned(),
+        m => format!("{m} words"),
     };
-    let mut text = String::new();
-    let weakest = bonds.max_by(lowest);
-    let strongest = wrong.min_by(lowest);
-    if let (Some(bond), Some(wrong)) = (weakest, strongest) {
-        let gap = 1.0 - (found.strongest[wrong.0][wrong.1] / found.strongest[bond.0][bond.1]);
-        let proof = match &found.lower {
-            Some(lower) => {
-                let deepest = pairs(found)
-                    .filter(|(i, j)| !is_bond(found, *i, *j))
-                    .map(|(i, j)| lower[i][j])
-                    .fold(0.0, f64::min);
-                let proved = 1.0 - deepest / found.strongest[bond.0][bond.1];
-                format!("gap {gap:.4} over all poses, at least {proved:.4} proved")
-            }
-            None => format!("gap {gap:.4} over sampled poses"),
-        };
-        let _ = writeln!(text, "{} words: {proof}.", found.words.len());
-        let _ = writeln!(text, "Weakest bond:            {}", told(bond));
-        let _ = writeln!(text, "Strongest wrong meeting: {}", told(wrong));
-    }
-    text +=
-        "Between a word and its own mate the bond is told; what else holds them are its traps.\n";
-    text
+    let (Some((weakest, bond)), Some(gap)) = (found.weakest_bond(), found.gap()) else {
+        return format!("{many}, of which one does not bind its mate");
+    };
+    let proof = match &found.lower {
+        Some(lower) => {
+            let others = pairs(found).filter(|(i, j)| !is_bond(found, *i, *j));
+            let deepest = others.map(|(i, j)| lower[i][j]).fold(0.0, f64::min);
+            let proved = 1.0 - deepest / bond;
+            format!("; proved at least {proved:.4} but for words on their own mates")
+        }
+        None => String::new(),
+    };
+    let wrong = match found.strongest_wrong() {
+        Some(([i, j], energy, q)) if energy < 0.0 => format!(
+            "strongest wrong meeting {}: {} on {}{} at {}",
+            si(-energy, "J", 4),
+            face_name(set, found, i),
+            face_name(set, found, j),
+            if is_bond(found, i, j) {
+                ", a trap,"
+            } else {
+                ""
+            },
+            told(&q)
+        ),
+        _ => "nothing wrong attracts".to_owned(),
+    };
+    format!(
+        "{many}: gap {gap:.4} over sampled poses{proof}; weakest bond {} ({}); {wrong}",
+        si(-bond, "J", 4),
+        face_name(set, found, weakest),
+    )
 }
 
+/// What the terminal is told.
+pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
+    let mut text = headline(set, found) + ".\n";
+    let proved = found.lower.as_ref().map_or("", |_| "   proved below");
+    let _ = writeln!(text, "\nstrongest wrong meetings{proved:>42}");
+    let mut wrong: Vec<(usize, usize)> = pairs(found)
+        .filter(|(i, j)| !is_bond(found, *i, *j))
+        .collect();
+    wrong.sort_by(|a, b| found.strongest[a.0][a.1].total_cmp(&found.strongest[b.0][b.1]));
+    for (i, j) in wrong.into_iter().take(LISTED) {
+        let q = found.poses[i][j];
+        let names = format!(
+            "{} on {}",
+            face_name(set, found, i),
+            face_name(set, found, j)
+        );
+        let energy = si(found.strongest[i][j], "J", 4);
+        let place = told(&q);
+        let lower = found
+            .lower
+            .as_ref()
+            .map_or(String::new(), |lower| si(lower[i][j], "J", 4));
+        let _ = writeln!(text, "  {names:<10}{energy:>12}   {place:<30}{lower:>12}");
+    }
+    text + "A word and its own mate also hold where a trap is; traps are found, not proved.\n"
+}
+
+/// A pose for the terminal.
+fn told(q: &Configuration) -> String {
+    // No minus of what rounds to nothing.
+    let tenth = |x: f64| (10.0 * x).round() / 10.0 + 0.0;
+    let [x, y, theta] = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()].map(tenth);
+    format!("{x:.1}, {y:.1} mm, {theta:.1} deg")
+}
+
+/// Meetings that the terminal lists.
+const LISTED: usize = 5;
+
 /// All files.
-pub fn files(found: &Crosstalk) -> Files {
+pub fn files(set: &WordSet, found: &Crosstalk) -> Files {
     let mut files = Files::new();
-    files.insert("crosstalk.csv".to_owned(), csv(found).into_bytes());
-    let mut report = value(found);
+    files.insert("crosstalk.csv".to_owned(), csv(set, found).into_bytes());
+    files.insert(
+        PAGE.to_owned(),
+        Page::of_crosstalk(set, found).to_html().into_bytes(),
+    );
+    let mut report = value(set, found);
     let sums = files
         .iter()
         .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
@@ -130,7 +187,7 @@ pub fn files(found: &Crosstalk) -> Files {
     files
 }
 
-fn csv(found: &Crosstalk) -> String {
+fn csv(set: &WordSet, found: &Crosstalk) -> String {
     let codes = faces(found);
     let rows = pairs(found).map(|(i, j)| {
         let [x, y, theta] = pose(&found.poses[i][j]);
@@ -139,8 +196,8 @@ fn csv(found: &Crosstalk) -> String {
             .as_ref()
             .map_or(String::new(), |lower| lower[i][j].to_string());
         vec![
-            face_name(found, i),
-            face_name(found, j),
+            face_name(set, found, i),
+            face_name(set, found, j),
             codes[i].clone(),
             codes[j].clone(),
             lower,
@@ -148,7 +205,30 @@ fn csv(found: &Crosstalk) -> String {
             x.to_string(),
             y.to_string(),
             theta.to_string(),
+            if is_bond(found, i, j) {
+                "bond"
+            } else {
+                "wrong"
+            }
+            .to_owned(),
         ]
+    });
+    let traps = found.traps.iter().enumerate().filter_map(|(i, trap)| {
+        let (energy, q) = (*trap)?;
+        let j = i + found.words.len();
+        let [x, y, theta] = pose(&q).map(|x| x.to_string());
+        Some(vec![
+            face_name(set, found, i),
+            face_name(set, found, j),
+            codes[i].clone(),
+            codes[j].clone(),
+            String::new(),
+            positive_zero(energy).to_string(),
+            x,
+            y,
+            theta,
+            "trap".to_owned(),
+        ])
     });
     let header = [
         "first",
@@ -160,6 +240,7 @@ fn csv(found: &Crosstalk) -> String {
         "x_m",
         "y_m",
         "theta_rad",
+        "meeting",
     ];
-    table(header.map(str::to_owned), rows)
+    table(header.map(str::to_owned), rows.chain(traps))
 }

@@ -1,8 +1,8 @@
 //! Figures of designs for people: numbers with their bounds, or the word for why there is none.
 
-use super::summary::percent;
 use crate::comparison::quantity::{Measure, Reading};
 use crate::comparison::{Assessment, Estimate, Quantity};
+use crate::landscape::Proportion;
 use crate::units::{prefix_of, si, si_range};
 
 /// Significant digits of energies.
@@ -107,4 +107,21 @@ impl Shown {
     pub fn axis(&self) -> String {
         self.named(self.what)
     }
+}
+
+/// `56 % (53-59)`, with the interval.
+pub fn percent(proportion: &Proportion) -> String {
+    if proportion.of == 0 {
+        return "not counted".to_owned();
+    }
+    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
+        let percent = 100.0 * x;
+        // Whole percents, but 0 only for none and 100 only for all.
+        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
+            format!("{percent:.1}")
+        } else {
+            format!("{percent:.0}")
+        }
+    });
+    format!("{share} % ({low}-{high})")
 }

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde_json::{Value, json};
 
 use super::braille::Braille;
-use super::summary::write_table;
+use super::terminal::write_table;
 use super::values::{pose, positive_zero};
 use crate::configuration::Configuration;
 use crate::design::Design;
@@ -53,7 +53,13 @@ pub fn headline(design: &Design, inspection: &Inspection) -> String {
 
 /// A force in newtons and grams.
 pub fn force(newtons: f64) -> String {
-    format!("{} ({:.0} g)", si(newtons, "N", 3), newtons / GRAM)
+    let grams = newtons / GRAM;
+    let decimals = match grams.abs() {
+        100.0.. => 0,
+        1.0.. => 1,
+        _ => 3,
+    };
+    format!("{} ({grams:.decimals$} g)", si(newtons, "N", 3))
 }
 
 /// What is shown on a terminal: the tiles drawn, the bond, the faces, what is wrong.

@@ -18,6 +18,7 @@
 //! - [`writer`] - all of it as [`files`] of one folder.
 
 pub mod arrays;
+mod assessments;
 mod braille;
 pub mod calibration;
 pub mod columns;
@@ -25,12 +26,14 @@ pub mod comparison;
 pub mod crosstalk;
 pub mod csv;
 pub mod docking;
+mod docking_tables;
 pub mod dynamics;
 mod earlier;
 pub mod figures;
 pub mod files;
 pub mod inspection;
 pub mod json;
+mod markdown;
 pub mod names;
 mod packing;
 pub mod page;
@@ -38,6 +41,7 @@ pub mod plots;
 pub mod summary;
 pub mod sweep;
 mod sweep_answer;
+mod terminal;
 pub mod topsearch;
 mod values;
 pub mod words;

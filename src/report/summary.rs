@@ -12,7 +12,9 @@ use crate::inspection;
 use crate::landscape::{Barrier, Inventory, Kind, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
+use crate::report::figures::percent;
 use crate::report::names::face_names;
+use crate::report::terminal::write_rows;
 use crate::units::{si, si_range};
 
 /// Traps that are listed one by one.
@@ -75,7 +77,9 @@ fn write_completeness(text: &mut String, analysis: &Analysis) {
         Err(why) => {
             let _ = writeln!(
                 text,
-                "the list of states is sampled and may lack some: {why}"
+                "the list of states is sampled and may lack some: {why};\n\
+                 of more far starts {} would end in kinds not seen yet (Good-Turing estimate)",
+                percent(&analysis.inventory.unseen())
             );
             return;
         }
@@ -191,70 +195,6 @@ fn row(design: &Design, analysis: &Analysis, class: &Kind) -> [String; 6] {
     ]
 }
 
-/// Rows of equal length with their columns aligned.
-pub(crate) fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
-    let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.as_ref().get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    for row in rows {
-        let cells = row.as_ref().iter().zip(&widths);
-        let line: Vec<String> = cells
-            .map(|(cell, &width)| format!("{cell:<width$}"))
-            .collect();
-        let _ = writeln!(text, "{}", line.join("  ").trim_end());
-    }
-}
-
-/// Rows whose last cells go on lines of their own, indented below the second cells, where they are
-/// too long for a terminal.
-fn write_rows(text: &mut String, rows: &[[String; 6]], columns: Option<usize>) {
-    let mut table = String::new();
-    write_table(&mut table, rows);
-    let fits = |width: usize| table.lines().all(|line| line.chars().count() <= width);
-    if columns.is_none_or(fits) {
-        text.push_str(&table);
-        return;
-    }
-    let short: Vec<&[String]> = rows.iter().map(|row| &row[..row.len() - 1]).collect();
-    let mut table = String::new();
-    write_table(&mut table, &short);
-    let names = rows.iter().map(|row| row[0].chars().count());
-    let indent = " ".repeat(names.max().unwrap_or(0) + 2);
-    for (line, row) in table.lines().zip(rows) {
-        let _ = writeln!(text, "{line}\n{indent}{}", row[row.len() - 1]);
-    }
-}
-
-/// A table in as many parts below each other as a terminal's width asks for, each with the first
-/// column.
-pub(crate) fn write_folded(text: &mut String, rows: &[Vec<String>], columns: Option<usize>) {
-    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let room = columns.unwrap_or(usize::MAX);
-    let mut start = 1;
-    while start < count.max(2) {
-        let (mut end, mut used) = (start, width(0));
-        while end < count && (end == start || used + 2 + width(end) <= room) {
-            used += 2 + width(end);
-            end += 1;
-        }
-        let part = |row: &Vec<String>| -> Vec<String> {
-            let cells = row.iter().enumerate();
-            let kept = cells.filter(|(k, _)| *k == 0 || (start..end).contains(k));
-            kept.map(|(_, cell)| cell.clone()).collect()
-        };
-        let part: Vec<Vec<String>> = rows.iter().map(part).collect();
-        write_table(text, &part);
-        start = end.max(start + 1);
-    }
-}
-
 fn write_rest(text: &mut String, rest: &[Kind]) {
     let deepest = rest.iter().map(|t| t.first().energy).fold(0.0, f64::min);
     let captured: usize = rest.iter().map(|t| t.captured().count).sum();
@@ -354,21 +294,4 @@ fn pose(q: &Configuration) -> String {
 /// One decimal, without a sign where it is 0.
 fn tenths(value: f64) -> String {
     format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
-}
-
-/// `56 % (53-59)`, with the interval.
-pub(crate) fn percent(proportion: &Proportion) -> String {
-    if proportion.of == 0 {
-        return "not counted".to_owned();
-    }
-    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
-        let percent = 100.0 * x;
-        // Whole percents, but 0 only for none and 100 only for all.
-        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
-            format!("{percent:.1}")
-        } else {
-            format!("{percent:.0}")
-        }
-    });
-    format!("{share} % ({low}-{high})")
 }

@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::comparison::{capture_settings, cells, checked, columns, merge, quantities};
+use super::assessments::{capture_settings, cells, columns, merge, quantities};
+use super::comparison::checked;
 use super::csv::table;
 use super::json;
+use super::plots::curve_names::said;
 use crate::comparison::Assessment;
 use crate::sweep::{Outcome, Plan, Point, Progress, Store};
 
@@ -110,6 +112,7 @@ impl<'a> Sweep<'a> {
             "capture_range": capture_settings(),
             "seed": self.plan.seed,
             "counts": self.progress(),
+            "baseline": self.plan.baseline_of(&self.points),
             "points": points,
         }))
     }
@@ -172,22 +175,25 @@ impl<'a> Sweep<'a> {
         points.filter_map(|point| Some((self.design_file(point)?, point.text()?)))
     }
 
-    /// A point by its values: `depth = 0.05, model = dipole`.
+    /// A point by its values: `depth = 5 mm, model = dipole`; with several designs, or where nothing
+    /// is varied, by its design first.
     pub fn called(&self, point: &Point) -> String {
-        let axes = self.plan.axes.iter().zip(&point.values);
-        let mut parts: Vec<String> = axes
-            .map(|(axis, value)| format!("{} = {value}", short(&axis.key)))
-            .collect();
-        if self.plan.designs.len() > 1 {
-            parts.insert(0, self.plan.designs[point.design].name.clone());
-        }
-        parts.join(", ")
+        let design = &self.plan.designs[point.design].name;
+        let named = self.plan.designs.len() > 1 || self.plan.axes.is_empty();
+        let values = self.plan.axes.iter().zip(&point.values);
+        let values = values.map(|(axis, value)| {
+            let name = axis.name();
+            format!("{name} = {}", said(name, value))
+        });
+        let parts = named.then(|| design.clone()).into_iter().chain(values);
+        parts.collect::<Vec<_>>().join(", ")
     }
-}
 
-/// The last part of a dotted path.
-pub fn short(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
+    /// The point that all are set against, if one was named and could be assessed.
+    pub fn baseline(&self) -> Option<usize> {
+        let index = self.plan.baseline_of(&self.points)?;
+        self.assessment(index).map(|_| index)
+    }
 }
 
 /// `11 points: 10 done, 1 impossible`.

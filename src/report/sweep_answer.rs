@@ -1,8 +1,8 @@
 //! What a sweep answers: one sentence, and a table of its points.
 
 use super::figures::cell;
-use super::summary::write_folded;
 use super::sweep::Sweep;
+use super::terminal::write_folded;
 use crate::comparison::quantity::QUANTITIES;
 use crate::comparison::{Assessment, Quantity};
 
@@ -23,16 +23,21 @@ fn quantity(key: &str) -> &'static Quantity {
 }
 
 impl Sweep<'_> {
-    /// The sentence that answers: the best point by selectivity (by the bond's depth where there
-    /// are no traps), the least, and the first for comparison; empty where nothing was assessed.
+    /// What the points are ranked by: selectivity, or the bond's depth where there are no traps.
+    fn by(&self) -> &'static Quantity {
+        let selectivity = quantity("selectivity");
+        let mut done = self.done().into_iter();
+        match done.any(|(_, one)| selectivity.of(one).is_some()) {
+            true => selectivity,
+            false => quantity("bond_depth"),
+        }
+    }
+
+    /// The sentence that answers: the best point, the least, and how much better the best is than
+    /// the one that all are set against, or the first; empty where nothing was assessed.
     pub fn answer(&self) -> String {
         let done = self.done();
-        let has = |key: &str| done.iter().any(|(_, one)| quantity(key).of(one).is_some());
-        let by = quantity(if has("selectivity") {
-            "selectivity"
-        } else {
-            "bond_depth"
-        });
+        let by = self.by();
         let mut ranked: Vec<(usize, &Assessment)> = done.clone();
         let value = |one: &Assessment| by.of(one).map_or(f64::NEG_INFINITY, |e| e.value);
         let degree = |one: &Assessment| one.obstacle().map_or(0, |(degree, _)| degree);
@@ -41,18 +46,14 @@ impl Sweep<'_> {
                 .cmp(&degree(b))
                 .then(value(b).total_cmp(&value(a)))
         });
-        let (Some(&best), Some(&least), Some(&first)) =
-            (ranked.first(), ranked.last(), done.first())
-        else {
+        let (Some(&best), Some(&least)) = (ranked.first(), ranked.last()) else {
             return String::new();
         };
+        let base = self.baseline();
+        let is_base = |(index, _): &&(usize, &Assessment)| base.is_none_or(|base| base == *index);
+        let base = done.iter().find(is_base).copied().unwrap_or(best);
         let told = |(index, one): (usize, &Assessment)| {
             let called = self.called(&self.points[index]);
-            let called = if called.is_empty() {
-                one.name.clone()
-            } else {
-                called
-            };
             let captured = cell(&[quantity("captured")], one);
             format!(
                 "{called}: {} {}, captures {captured}",
@@ -64,9 +65,12 @@ impl Sweep<'_> {
             return format!("no point finds into its bond; {}\n", told(best));
         }
         let mut sentence = format!("best {}", told(best));
-        let (high, base) = (value(best.1), value(first.1));
-        if best.0 != first.0 && base > 0.0 && high.is_finite() {
-            sentence += &format!(", {:.1} x the first point", high / base);
+        let ratio = value(best.1) / value(base.1);
+        if best.0 != base.0 && ratio.is_finite() && value(base.1) > 0.0 {
+            sentence += &format!(", {ratio:.1} x {}", self.called(&self.points[base.0]));
+        }
+        if self.baseline().is_some() && ![best.0, least.0].contains(&base.0) {
+            sentence += &format!("; {}", told(base));
         }
         if least.0 != best.0 {
             sentence += &format!("; last {}", told(least));
@@ -84,14 +88,25 @@ impl Sweep<'_> {
         let mut rows = vec![head.map(str::to_owned).collect::<Vec<_>>()];
         rows.extend(done.iter().take(LISTED).map(|(index, one)| {
             let called = self.called(&self.points[*index]);
-            let called = if called.is_empty() {
-                one.name.clone()
-            } else {
-                called
-            };
             let figures = COLUMNS.map(|key| cell(&[quantity(key)], one));
             std::iter::once(called).chain(figures).collect()
         }));
+        let by = self.by();
+        let base = self.baseline().and_then(|index| {
+            let value = by.of(self.assessment(index)?)?.value;
+            Some((index, value)).filter(|_| value > 0.0)
+        });
+        if let Some((index, base)) = base {
+            // How much better, beside what it is.
+            let place = COLUMNS.iter().position(|key| *key == by.key);
+            let place = place.map_or(1, |place| place + 2);
+            rows[0].insert(place, format!("x {}", self.called(&self.points[index])));
+            for (row, (_, one)) in rows[1..].iter_mut().zip(&done) {
+                let ratio = by.of(one).map(|own| own.value / base);
+                let ratio = ratio.filter(|ratio| ratio.is_finite());
+                row.insert(place, ratio.map_or("-".to_owned(), |x| format!("{x:.2}")));
+            }
+        }
         let mut text = String::new();
         if done.is_empty() {
             return text;

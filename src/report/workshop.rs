@@ -7,8 +7,8 @@ use std::fmt::Write;
 
 use nalgebra::Vector2;
 
-use super::comparison::markdown_table;
 use super::inspection::GRAM;
+use super::markdown::markdown_table;
 use crate::design::Design;
 use crate::tile::barcode::Pole;
 use crate::tile::{Magnet, Tile};
@@ -49,6 +49,12 @@ pub fn files(design: &Design, making: &Making) -> Result<Vec<(String, Vec<u8>)>,
 /// Millimetres to a micrometre.
 fn mm(metres: f64) -> String {
     format!("{:.3}", 1e3 * metres + 0.0).replace("-0.000", "0.000")
+}
+
+/// The same without zeros at the end.
+fn plain(metres: f64) -> String {
+    let text = mm(metres);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn letter(pole: Pole) -> &'static str {
@@ -163,8 +169,8 @@ fn sheet(design: &Design, making: &Making, parts: &[(&str, &Tile, Part)]) -> Str
         "Drawings are to scale in mm: `fixed` and `moving` as `.dxf` (layers OUTLINE, POCKETS, POLES) \
          and `.svg`. They are the lines of the cutter's middle: a kerf of {} mm is allowed for, and \
          pockets are {} mm larger than their magnets on every side.\n",
-        mm(making.kerf),
-        mm(making.clearance)
+        plain(making.kerf),
+        plain(making.clearance)
     );
     text.push_str("## Magnets\n\n");
     text.push_str(&markdown_table(&purchases(parts)));
@@ -173,14 +179,19 @@ fn sheet(design: &Design, making: &Making, parts: &[(&str, &Tile, Part)]) -> Str
             text,
             "\n## The {name} tile\n\n{} mm thick; pockets {} mm deep hold the magnets midway. Put \
              them in from above, in this order:\n",
-            mm(part.thickness),
+            plain(part.thickness),
             depths(part)
         );
         text.push_str(&markdown_table(&steps(tile, part)));
-        if part.pockets.iter().any(|pocket| pocket.is_open) {
-            text.push_str(
+        let wanting = part.pockets.iter().map(Pocket::wanting).fold(0.0, f64::max);
+        if wanting > 0.0 {
+            // Up to tenths of a millimetre.
+            let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
+            let _ = writeln!(
+                text,
                 "\nPockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them \
-                 through it and glue the magnets flush, or raise `inset`.\n",
+                 through it and glue the magnets flush, or raise `inset` by {} mm, on slopes by more.",
+                plain(more)
             );
         }
     }
@@ -189,7 +200,8 @@ fn sheet(design: &Design, making: &Making, parts: &[(&str, &Tile, Part)]) -> Str
 
 /// The depths of a part's pockets.
 fn depths(part: &Part) -> String {
-    let mut depths: Vec<String> = part.pockets.iter().map(|pocket| mm(pocket.depth)).collect();
+    let depths = part.pockets.iter().map(|pocket| plain(pocket.depth));
+    let mut depths: Vec<String> = depths.collect();
     depths.sort();
     depths.dedup();
     depths.join(" or ")
@@ -256,7 +268,7 @@ fn steps(tile: &Tile, part: &Part) -> Vec<Vec<String>> {
                 ),
                 _ => "stays by itself".to_owned(),
             };
-            let open = if pocket.is_open { " (*open*)" } else { "" };
+            let open = if pocket.is_open() { " (*open*)" } else { "" };
             rows.push(vec![
                 rows.len().to_string(),
                 format!("{}{open}", pocket.name),

@@ -47,6 +47,27 @@ pub fn set(document: &mut Table, path: &str, value: Toml) -> Result<(), String> 
     Ok(())
 }
 
+/// The dotted paths of all keys of this name.
+pub fn paths(document: &Table, name: &str) -> Vec<String> {
+    fn below(here: &Toml, path: &str, name: &str, found: &mut Vec<String>) {
+        if let Toml::Table(table) = here {
+            within(table, &format!("{path}."), name, found);
+        }
+    }
+    fn within(table: &Table, path: &str, name: &str, found: &mut Vec<String>) {
+        for (key, value) in table {
+            let own = format!("{path}{key}");
+            below(value, &own, name, found);
+            if key == name {
+                found.push(own);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    within(document, "", name, &mut found);
+    found
+}
+
 /// Whether there is something at a dotted path.
 pub fn holds(document: &Table, path: &str) -> bool {
     let mut parts = path.split('.').map(str::trim);

@@ -4,8 +4,9 @@
 //! A [`Plan`] holds all that decides a sweep: the text of the designs, the varied keys with their
 //! values, the settings and the seed. Each of its [`Point`]s is a design of its own and is named
 //! after it: the name is a hash of the design as it is assessed, with its drawings, of the settings
-//! and of the version of tilebind; the seed of its random numbers comes from the name. So a point's result depends
-//! neither on the other points nor on when, where and beside which others it is worked on.
+//! and of the version of tilebind; the seed of its random numbers comes from the name. So a point's
+//! result depends neither on the other points nor on when, where and beside which others it is
+//! worked on. [`refined`] adds points where the figures bend.
 //!
 //! A [`Store`] keeps one file a point. It is written under a temporary name, synced and renamed:
 //! whenever the work is stopped, by whatever means, a point's file is there as a whole or not at
@@ -47,12 +48,20 @@
 
 mod document;
 mod drawings;
+mod error;
 mod plan;
+mod point;
+mod refine;
 mod run;
+mod source;
 mod store;
 mod vary;
 
-pub use plan::{Plan, PlanError, Point, Shard, Source};
+pub use error::PlanError;
+pub use plan::Plan;
+pub use point::{Point, Shard};
+pub use refine::refined;
 pub use run::run;
+pub use source::Source;
 pub use store::{Outcome, Progress, Store};
 pub use vary::{Axis, Value};

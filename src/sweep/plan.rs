@@ -1,6 +1,6 @@
 //! The manifest of a sweep: everything that decides it, and the points that come of it.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -8,14 +8,16 @@ use serde_json::json;
 use sha2::{Digest, Sha256};
 use toml::Table;
 
-use super::vary::{Axis, Value};
+use super::error::PlanError;
+use super::point::Point;
+use super::source::Source;
+use super::vary::{Axis, Value, number};
 use super::{document, drawings};
-use crate::checksum::sha256;
 use crate::comparison::AssessmentSettings;
-use crate::design::{Design, DesignError, file};
+use crate::design::Design;
 
 /// Most points of a sweep.
-const MOST_POINTS: usize = 1_000_000;
+pub(super) const MOST_POINTS: usize = 1_000_000;
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
 /// Characters of the name that make the seed: 48 bits, exact in every reader of JSON.
@@ -34,99 +36,9 @@ pub struct Plan {
     pub settings: AssessmentSettings,
     /// Goes into every point's name, and so into its seed.
     pub seed: u64,
-}
-
-/// A design that is varied.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Source {
-    /// Its name.
-    pub name: String,
-    /// Its file as it was named.
-    pub file: String,
-    /// SHA-256 of the file's bytes.
-    pub sha256: String,
-    /// The text of the file.
-    pub text: String,
-    /// The text of each drawing that it refers to, by its name in the design.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub drawings: BTreeMap<String, String>,
-}
-
-/// One design of a sweep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Point {
-    /// Place in the sweep, from 0.
-    pub index: usize,
-    /// Hash of the design, the settings and the version.
-    pub name: String,
-    /// Of its random numbers, from its name.
-    pub seed: u64,
-    /// Which of the plan's designs.
-    pub design: usize,
-    /// A value for each of the plan's axes.
-    pub values: Vec<Value>,
-    /// The design's text with the values set; where they cannot be set, why.
-    text: Result<String, String>,
-}
-
-impl Point {
-    /// The design's text with the values set, where they can be set.
-    pub fn text(&self) -> Option<&str> {
-        self.text.as_deref().ok()
-    }
-}
-
-/// Part `number`, from 1, of `of` parts of a sweep: every `of`th point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// Which part, from 1.
-    pub number: usize,
-    /// How many parts there are.
-    pub of: usize,
-}
-
-impl Shard {
-    /// The only part of a sweep that is not divided.
-    pub const WHOLE: Self = Self { number: 1, of: 1 };
-
-    /// Whether the part holds a point.
-    pub fn contains(&self, point: &Point) -> bool {
-        point.index % self.of + 1 == self.number
-    }
-}
-
-/// Why there is no such sweep.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PlanError {
-    /// A point is no design that can be built.
-    #[error(transparent)]
-    Design(#[from] Box<DesignError>),
-    /// A key is varied by two axes.
-    #[error("`{0}` is varied twice")]
-    Twice(String),
-    /// There are more points than can be handled.
-    #[error("the sweep has {0} points, more than {MOST_POINTS}")]
-    TooMany(u128),
-    /// Two designs have one name.
-    #[error("two designs are called `{0}`: give them different names")]
-    SameName(String),
-    /// A key cannot be varied.
-    #[error("`{path}` cannot be varied: {reason}")]
-    Unknown {
-        /// Its path in the design.
-        path: String,
-        /// Why not.
-        reason: String,
-    },
-    /// No point is a design that can be built.
-    #[error("none of the {0} points is possible; the first: {1}")]
-    NonePossible(usize, String),
-    /// What was read is no manifest.
-    #[error("this is no manifest of a sweep: {0}")]
-    Malformed(String),
-    /// The manifest was written by another version.
-    #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
-    Version(String),
+    /// The point that all are set against, see [`Plan::against`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<String>,
 }
 
 impl Plan {
@@ -168,11 +80,48 @@ impl Plan {
             axes,
             settings,
             seed,
+            baseline: None,
         };
         plan.check()?;
         plan.check_keys()?;
         plan.check_possible()?;
         Ok(plan)
+    }
+
+    /// The same, all points set against one: the first of a design by its name, or of some values
+    /// (`depth=0`, or `depth=0,width=0.1`; the last part of a key's path is enough).
+    ///
+    /// # Errors
+    /// Where there is no such point.
+    pub fn against(self, baseline: &str) -> Result<Self, PlanError> {
+        let plan = Self {
+            baseline: Some(baseline.to_owned()),
+            ..self
+        };
+        let points = plan.points();
+        if plan.baseline_of(&points).is_some() {
+            return Ok(plan);
+        }
+        let axes = plan.axes.iter();
+        let values = axes.map(|axis| format!("{}={}", axis.name(), axis.values[0]));
+        let example = values.collect::<Vec<_>>().join(",");
+        Err(PlanError::NoBaseline(baseline.to_owned(), example))
+    }
+
+    /// The place of the point that all are set against, if one was named.
+    pub fn baseline_of(&self, points: &[Point]) -> Option<usize> {
+        let parts: Vec<&str> = self.baseline.as_ref()?.split(',').map(str::trim).collect();
+        let is_meant = |point: &&Point| {
+            parts.iter().all(|part| match part.split_once('=') {
+                None => self.designs[point.design].name == *part,
+                Some((key, value)) => self.axes.iter().zip(&point.values).any(|(axis, own)| {
+                    let (key, value) = (key.trim(), value.trim());
+                    let same = own.number().zip(number(value)).is_some_and(|(a, b)| a == b);
+                    (axis.key == key || axis.name() == key) && (same || own.to_string() == value)
+                }),
+            })
+        };
+        Some(points.iter().find(is_meant)?.index)
     }
 
     /// Refuses what leaves nothing to do, too much, or something twice.
@@ -329,105 +278,15 @@ impl Plan {
                     .map_while(|value| source.fault(document, &axis.key, value))
                     .collect();
                 if reasons.len() == axis.values.len() {
-                    return Err(PlanError::Unknown {
-                        path: axis.key.clone(),
-                        reason: reasons.into_iter().next().unwrap_or_default(),
-                    });
+                    let mut reason = reasons.into_iter().next().unwrap_or_default();
+                    if let Some(meant) = document::paths(document, &axis.key).first() {
+                        reason = format!("it takes its whole path, such as `{meant}`");
+                    }
+                    let path = axis.key.clone();
+                    return Err(PlanError::Unknown { path, reason });
                 }
             }
         }
         Ok(())
-    }
-}
-
-impl Source {
-    /// A design file with its drawings.
-    ///
-    /// # Errors
-    /// Where it cannot be read or is no sound design.
-    pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
-        let design = Design::load(path)?;
-        // What has just been read is there.
-        let text = file::read_text(path).unwrap_or_default();
-        Ok((Self::new(text, path.display().to_string(), &design), design))
-    }
-
-    /// The text of a design, whose drawings lie beside `file`.
-    ///
-    /// # Errors
-    /// Where it is no sound design.
-    pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
-        let design = Design::parse(text, file)?;
-        Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
-    }
-
-    fn new(text: String, file: String, design: &Design) -> Self {
-        let mut source = Self {
-            name: design.name.clone(),
-            file,
-            sha256: design.sha256.clone(),
-            text,
-            drawings: BTreeMap::new(),
-        };
-        source.hold_drawings(&[]);
-        source
-    }
-
-    /// Keeps the drawings that the design names, as it stands or with varied keys set, and that can
-    /// be read; those that are held already stay as they are.
-    fn hold_drawings(&mut self, axes: &[Axis]) {
-        let mut found = drawings::held(&self.file, &self.document(), axes);
-        found.append(&mut self.drawings);
-        self.drawings = found;
-    }
-
-    /// The design itself, with the drawings that are held.
-    ///
-    /// # Errors
-    /// Where it is no sound design.
-    pub fn design(&self) -> Result<Design, DesignError> {
-        self.parse(&self.text)
-    }
-
-    /// The same design with the key at a dotted path set to a value; tables on the way that are
-    /// missing are made.
-    ///
-    /// # Errors
-    /// Where the path leads through something that is neither a table nor an array long enough.
-    pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
-        let mut document = self.document();
-        document::set(&mut document, path, value)?;
-        let text = document.to_string();
-        let mut with = Self {
-            sha256: sha256(&text),
-            text,
-            ..self.clone()
-        };
-        with.hold_drawings(&[]);
-        Ok(with)
-    }
-
-    /// A design made of this one, with the drawings that are held.
-    fn parse(&self, text: &str) -> Result<Design, DesignError> {
-        Design::parse_with(text, &self.file, &self.drawings)
-    }
-
-    /// The design as a document, always with its name.
-    fn document(&self) -> Table {
-        let mut document: Table = self.text.parse().unwrap_or_default();
-        document
-            .entry("name")
-            .or_insert_with(|| self.name.clone().into());
-        document
-    }
-
-    /// What is wrong with the design where only this key is set.
-    fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
-        let mut document = document.clone();
-        if let Err(reason) = document::set(&mut document, key, value.toml()) {
-            return Some(reason);
-        }
-        let error = self.parse(&document.to_string()).err()?;
-        Some(format!("{}; {}", error.message, error.help))
     }
 }

@@ -6,7 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::plan::{Plan, Point};
+use super::plan::Plan;
+use super::point::Point;
 use super::store::Outcome;
 use crate::comparison;
 use crate::interruption;

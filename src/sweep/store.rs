@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::plan::Point;
+use super::point::Point;
 use crate::checksum::sha256;
 use crate::comparison::Assessment;
 

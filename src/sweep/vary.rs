@@ -78,6 +78,18 @@ pub struct Axis {
     pub values: Vec<Value>,
 }
 
+impl Axis {
+    /// The last part of its path.
+    pub fn name(&self) -> &str {
+        self.key.rsplit('.').next().unwrap_or(&self.key)
+    }
+
+    /// Its values as numbers, if all are.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        self.values.iter().map(Value::number).collect()
+    }
+}
+
 impl std::str::FromStr for Axis {
     type Err = String;
 
@@ -138,14 +150,18 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     Ok(numbers.into_iter().map(value).collect())
 }
 
-/// An end of a range: a number, or a length or an angle with its unit.
+/// A number, or a length or an angle with its unit.
+pub(super) fn number(text: &str) -> Option<f64> {
+    length(text).or_else(|| angle(text))
+}
+
+/// An end of a range.
 fn end(text: &str) -> Result<f64, String> {
-    let number = length(text).or_else(|| angle(text));
-    number.ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
+    number(text).ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
 }
 
 /// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
     rounded + 0.0
 }

@@ -7,6 +7,10 @@
 //! neighbours (Hertel and Mehlhorn's rule), the longest first. A tooth is then cut off at its
 //! foot; ear clipping would leave long slivers that reach right across the tile, and every test
 //! for overlap would have to look at most of them.
+//!
+//! Time goes as the cube of the vertices, so that polygons with very many are halved first: every
+//! triangulation has a diagonal with at least a third of the vertices on either side (B. Chazelle,
+//! *A theorem on polygon cutting with applications*, 1982).
 
 use std::cmp::Reverse;
 
@@ -18,20 +22,50 @@ use super::outline::{cross, segments_meet};
 /// Sines of angles below this count as zero.
 const STRAIGHT: f64 = 1e-12;
 
+/// Polygons with more vertices than this are halved first.
+const LARGE: usize = 600;
+
 /// Lists of vertex numbers, each a convex polygon running the way the whole one does
-/// (counter-clockwise), or none where the vertices form no simple polygon. Takes time and memory
-/// as the cube and the square of the number of vertices.
+/// (counter-clockwise), or none where the vertices form no simple polygon. Takes time as the square
+/// of the number of vertices, where these are very many.
 pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>> {
-    let triangulation = Triangulation::shortest(vertices)?;
     let mut parts = Vec::new();
     let mut diagonals = Vec::new();
-    triangulation.collect(0, vertices.len() - 1, &mut parts, &mut diagonals);
+    let mut open = vec![(0..vertices.len()).collect::<Vec<_>>()];
+    while let Some(chain) = open.pop() {
+        let corners: Vec<_> = chain.iter().map(|&k| vertices[k]).collect();
+        if chain.len() > LARGE {
+            let (i, j) = halving_diagonal(&corners)?;
+            diagonals.push((chain[i], chain[j]));
+            open.push(chain[i..=j].to_vec());
+            open.push([&chain[..=i], &chain[j..]].concat());
+            continue;
+        }
+        let triangulation = Triangulation::shortest(&corners)?;
+        let (mut triangles, mut cuts) = (Vec::new(), Vec::new());
+        triangulation.collect(0, corners.len() - 1, &mut triangles, &mut cuts);
+        let numbers = |part: Vec<usize>| part.iter().map(|&k| chain[k]).collect::<Vec<_>>();
+        parts.extend(triangles.into_iter().map(numbers));
+        diagonals.extend(cuts.into_iter().map(|(i, j)| (chain[i], chain[j])));
+    }
     let length = |&(i, j): &(usize, usize)| (vertices[i] - vertices[j]).norm();
     diagonals.sort_by_key(|d| (Reverse(OrderedFloat(length(d))), *d));
     for (i, j) in diagonals {
         merge(&mut parts, vertices, i, j);
     }
     Some(parts)
+}
+
+/// A diagonal with about as many vertices on either side, the shortest of those that part them
+/// alike.
+fn halving_diagonal(vertices: &[Vector2<f64>]) -> Option<(usize, usize)> {
+    let n = vertices.len();
+    let length = |&(i, j): &(usize, usize)| OrderedFloat((vertices[i] - vertices[j]).norm());
+    (n / 4..=n / 2).rev().find_map(|span| {
+        let pairs = (0..n).map(|i| (i.min((i + span) % n), i.max((i + span) % n)));
+        let inside = pairs.filter(|&(i, j)| is_diagonal(vertices, i, j));
+        inside.min_by_key(|pair| (length(pair), *pair))
+    })
 }
 
 /// Merges the two parts on either side of a diagonal where their union is convex.
@@ -254,6 +288,26 @@ mod tests {
             [0.0, 2.0],
         ];
         assert_eq!(check(&points(&battlements)).len(), 4);
+    }
+
+    #[test]
+    fn polygons_of_very_many_vertices_are_halved() {
+        // Slots into which no straight way leads far, and teeth; 48 times as long without halves.
+        let slots: Vec<_> = (0..1000)
+            .map(|k| f64::from(k) / 1000.0)
+            .flat_map(|s| {
+                [
+                    [s + 2e-4, 0.0],
+                    [s + 2e-4, 0.9],
+                    [s + 8e-4, 0.9],
+                    [s + 8e-4, 0.0],
+                ]
+            })
+            .chain([[1.0, 1.0], [0.0, 1.0]])
+            .collect();
+        assert!(check(&points(&slots)).len() >= 1000);
+        let parts = check(&toothed(200, 20));
+        assert!(parts.iter().all(|part| part.len() < 300), "{}", parts.len());
     }
 
     #[test]

@@ -144,7 +144,7 @@ fn beyond(task: &Task, gap: f64, effort: &mut Effort) -> Option<Point> {
     let rest = task.lags.rest(task.magnets as u32) / task.lags.contact();
     let tied = (contacts - contacts.round()).abs() < 1e-6 && rest > 0.0 && rest < 0.5;
     let few = super::candidates::number(task.places, task.magnets) <= MOST_BEYOND;
-    if !tied || !few || contacts.round() >= magnets {
+    if !tied || !few || task.rules.fault.is_some() || contacts.round() >= magnets {
         return None;
     }
     let asked = 1.0 - (contacts.round() + 0.5) / magnets;

@@ -73,6 +73,11 @@ impl Budget {
         self.late |= part.late;
     }
 
+    /// Units left.
+    pub fn left(&self) -> u64 {
+        self.left.max(0) as u64
+    }
+
     /// Counts work done.
     #[inline]
     pub fn spend(&mut self, units: u64) {

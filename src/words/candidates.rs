@@ -9,9 +9,12 @@ use rayon::prelude::*;
 use super::Task;
 use super::word::Word;
 
-/// Up to so many words are looked at one and all; of more a sample of this size is drawn.
+/// Up to so many words are looked at one and all, if there is work enough for it; of more a sample
+/// is drawn, of at most this size.
 const MOST_ENUMERATED: f64 = (1u64 << 23) as f64;
-const SAMPLE: usize = 1 << 19;
+const SAMPLE: u64 = 1 << 19;
+/// Of a sample so small that all of it can be judged so often with the work there is.
+const JUDGED: u64 = 1000;
 /// Words of a sample share a random stream.
 const CHUNK: usize = 1 << 12;
 
@@ -26,9 +29,12 @@ pub struct Candidates {
 
 impl Candidates {
     /// The words that satisfy a task's constraints and attract nothing wrong of their own by more
-    /// than `limit` (J).
-    pub fn new(task: &Task, limit: f64, seed: u64) -> Self {
-        let complete = number(task.places, task.magnets) <= MOST_ENUMERATED;
+    /// than `limit` (J). With so much work to do on them, which decides how many are drawn where
+    /// they are too many.
+    pub fn new(task: &Task, limit: f64, seed: u64, work: u64) -> Self {
+        let number = number(task.places, task.magnets);
+        let complete = number <= MOST_ENUMERATED && number * task.judgement() as f64 <= work as f64;
+        let sampled = (work / (JUDGED * task.judgement())).clamp(2 * CHUNK as u64, SAMPLE) as usize;
         let sound = |word: &Word| {
             let (lags, rules) = (&task.lags, &task.rules);
             (!task.exchangeable() || *word <= word.mate())
@@ -46,7 +52,7 @@ impl Candidates {
                 .flat_map_iter(|places| with_poles(places, task.places))
                 .filter(sound)
                 .collect(),
-            (false, _) => (0..SAMPLE / CHUNK)
+            (false, _) => (0..sampled / CHUNK)
                 .into_par_iter()
                 .flat_map_iter(|chunk| drawn(task, seed, chunk))
                 .map(|word| match task.exchangeable() {

@@ -8,7 +8,7 @@
 use std::ops::RangeInclusive;
 
 use super::lag::Lags;
-use super::rules::{Rules, bond};
+use super::rules::Rules;
 use super::word::Word;
 
 /// What words must satisfy beside the gap; `None`, zero and false ask for nothing.
@@ -29,7 +29,7 @@ pub struct Constraints {
     pub slide_mismatches: usize,
     /// Longest run of consecutive matches over all these slides.
     pub consecutive: Option<RangeInclusive<usize>>,
-    /// Least depth of a bond (J).
+    /// Least depth of a bond (J); with the worst faults where faces may have some.
     pub least_bond: Option<f64>,
     /// Where the lowest energy (J) of two words, of a word and another's mate, and of two mates
     /// may lie.
@@ -46,7 +46,7 @@ impl Constraints {
             && (self.least_spacing < 2 || word.least_spacing() >= self.least_spacing)
             && self
                 .least_bond
-                .is_none_or(|least| bond(lags, word) >= least)
+                .is_none_or(|least| rules.bond(lags, word) >= least)
             && self.allow_both(lags, rules, word, word)
     }
 

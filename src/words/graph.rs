@@ -68,12 +68,7 @@ impl<'a> Graph<'a> {
 
     /// Units of work that finding out whether two words go together counts as.
     pub fn judgement(&self) -> u64 {
-        let meetings = self.task.rules.meetings(self.task.places) as u64;
-        match self.task.magnets == self.task.places {
-            // Most pairs that conflict do so at once.
-            true => 8 + meetings / 4,
-            false => 8 + 2 * meetings,
-        }
+        self.task.judgement()
     }
 
     /// The graph of pairs of vertices that a symmetry exchanges, of which both or none are taken:
@@ -100,7 +95,7 @@ impl<'a> Graph<'a> {
     }
 
     /// Whether two words go together.
-    fn joined(&self, a: usize, b: usize) -> bool {
+    pub fn joined(&self, a: usize, b: usize) -> bool {
         a != b
             && self
                 .task

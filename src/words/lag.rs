@@ -105,6 +105,13 @@ impl Lags {
         2.0 * f64::from(magnets) * self.beside
     }
 
+    /// J(d) (J) of magnets d places apart, either way.
+    #[inline]
+    pub(super) fn apart(&self, d: i32) -> f64 {
+        let energy = self.energies.get(d.unsigned_abs() as usize);
+        energy.copied().unwrap_or(0.0)
+    }
+
     /// `sum_d J(d) c(s + d)` (J).
     pub fn energy(&self, correlations: &Correlations, s: i32) -> f64 {
         let last = correlations.places as i32 - 1;

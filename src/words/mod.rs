@@ -7,11 +7,13 @@
 //! contact over all slides.
 //!
 //! - [`word`] - words as bits; [`lag`] - energies of magnets so many places apart;
-//! - [`rules`] - which meetings are wrong; [`constraint`] - what else is asked of words;
+//! - [`rules`] - which meetings are wrong; [`fault`] - badly made faces; [`constraint`] - what else
+//!   is asked of words;
 //! - [`candidates`], [`graph`] - words that will do, and which go together;
 //! - [`clique`], [`local`], [`bound`] - largest sets, with proof; large sets; bounds without search;
 //! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
 //! - [`answer`](mod@answer) - a question answered;
+//! - [`continuous`] - positions and poles together, over all poses;
 //! - [`crosstalk`] - attraction of every two words over all poses; [`matching`] - outlines alone;
 //! - [`budget`] - work, counted so that results do not depend on the machine.
 
@@ -21,7 +23,9 @@ pub mod budget;
 pub mod candidates;
 pub mod clique;
 pub mod constraint;
+pub mod continuous;
 pub mod crosstalk;
+pub mod fault;
 pub mod frontier;
 pub mod graph;
 pub mod lag;
@@ -37,6 +41,7 @@ mod tests;
 
 pub use answer::{Answer, Question, answer};
 pub use constraint::Constraints;
+pub use fault::Fault;
 pub use lag::{Bar, BarError, Lags};
 pub use rules::{Faces, Meeting, Rules, Shape};
 pub use set::Judgement;
@@ -69,6 +74,20 @@ impl Task {
         (!self.rules.words_meet() || u != v.mate())
             && self.rules.within(&self.lags, u, v, limit)
             && self.constraints.allow_both(&self.lags, &self.rules, u, v)
+    }
+
+    /// Units of work that finding out whether two words go together counts as.
+    fn judgement(&self) -> u64 {
+        let meetings = self.rules.meetings(self.places) as u64;
+        let one = match self.rules.fault {
+            Some(_) => (self.places * self.places) as u64,
+            None => 1,
+        };
+        match self.magnets == self.places {
+            // Most pairs that conflict do so at once.
+            true => 8 + one * meetings / 4,
+            false => 8 + 2 * one * meetings,
+        }
     }
 
     /// What a set of words is worth; `None` of no words.

@@ -4,6 +4,7 @@
 //! and the reverse of v, and v* with those of u and -v. A face turned over carries its word
 //! reversed. So all meetings of two words and their mates come down to four correlations at most.
 
+use super::fault::{Fault, Faulty};
 use super::lag::{Correlations, Lags};
 use super::word::Word;
 
@@ -38,6 +39,9 @@ pub struct Rules {
     pub shape: Shape,
     /// Tiles may lie upside down.
     pub flip: bool,
+    /// What may be wrong with one magnet of every face; bonds and wrong meetings are then those of
+    /// the worst faults.
+    pub fault: Option<Fault>,
 }
 
 /// Contacts that differ by less than this are as many.
@@ -62,6 +66,12 @@ impl Way {
         }
     }
 
+    /// The place of the second face, as it is when not turned over, of magnet j of
+    /// [`Self::facing`].
+    fn place(self, j: usize, places: usize) -> usize {
+        if self.flipped { j } else { places - 1 - j }
+    }
+
     /// What attraction is in terms of the energy of [`Self::facing`].
     fn sign(self) -> f64 {
         if self.mate { 1.0 } else { -1.0 }
@@ -81,6 +91,19 @@ pub struct Meeting {
     pub slide: i32,
     /// J.
     pub energy: f64,
+    /// Places of the faulty magnets, of faces that may have faults.
+    pub faulty: Faulty,
+}
+
+impl Meeting {
+    /// The one that attracts more; the first of equals.
+    fn stronger(self, other: Self) -> Self {
+        if other.energy < self.energy {
+            other
+        } else {
+            self
+        }
+    }
 }
 
 impl Rules {
@@ -135,7 +158,8 @@ impl Rules {
         // The facing magnets nearly always decide: so many are fine whatever the others add, and
         // more than so many are too many.
         let (contact, rest) = (lags.contact(), lags.rest(magnets));
-        let fine = ((limit - rest) / contact - ROUNDED).floor() as i32;
+        let by_faults = self.fault.map_or(0, Fault::contacts);
+        let fine = ((limit - rest) / contact - ROUNDED).floor() as i32 - by_faults;
         let most = ((limit + rest) / contact + ROUNDED).floor() as i32;
         let last = if self.slides() {
             places - fine.max(0) - 1
@@ -158,6 +182,9 @@ impl Rules {
                 if facing_alone > most {
                     return false;
                 }
+                if let Some(fault) = self.fault {
+                    return -fault.least(lags, -way.sign(), [u, facing], s).0 <= limit;
+                }
                 let all = all_lags.get_or_insert_with(|| Correlations::new(u, facing));
                 way.sign() * lags.energy(all, s) <= limit
             };
@@ -169,29 +196,53 @@ impl Rules {
     /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None`
     /// where they never meet.
     pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
-        let same = u == v;
-        let mut strongest: Option<Meeting> = None;
-        for way in self.ways() {
-            let all = Correlations::new(u, way.facing(v));
-            for s in self.slides_of(u.places()) {
-                let energy = -way.sign() * lags.energy(&all, s);
-                if !Self::is_bond(way, s, same) && strongest.is_none_or(|it| energy < it.energy) {
-                    strongest = Some(Meeting {
-                        first: u,
-                        second: if way.mate { v.mate() } else { v },
-                        flipped: way.flipped,
-                        // u[k] faces place k + s of the second, counted from its end.
-                        slide: -s,
-                        energy,
-                    });
-                }
-            }
-        }
-        strongest
+        let found = self
+            .ways()
+            .filter_map(|way| self.strongest_way(lags, [u, v], way));
+        found.reduce(Meeting::stronger)
     }
 
-    /// All energies (J) of wrong meetings of two faces, the second a mate or not, neither turned
-    /// over.
+    /// The same of two faces alone, that of a word and its mate left out at slide 0.
+    pub fn strongest_of(&self, lags: &Lags, first: Word, second: Word) -> Option<Meeting> {
+        let ways = self.ways().filter(|way| way.mate);
+        let found = ways.filter_map(|way| self.strongest_way(lags, [first, second.mate()], way));
+        found.reduce(Meeting::stronger)
+    }
+
+    fn strongest_way(&self, lags: &Lags, [u, v]: [Word; 2], way: Way) -> Option<Meeting> {
+        let facing = way.facing(v);
+        let all = Correlations::new(u, facing);
+        let slides = self.slides_of(u.places());
+        let wrong = slides.filter(|s| !Self::is_bond(way, *s, u == v));
+        let energies = wrong.map(|s| {
+            let (energy, faulty) = match self.fault {
+                Some(fault) => fault.least(lags, -way.sign(), [u, facing], s),
+                None => (-way.sign() * lags.energy(&all, s), [None; 2]),
+            };
+            Meeting {
+                first: u,
+                second: if way.mate { v.mate() } else { v },
+                flipped: way.flipped,
+                // u[k] faces place k + s of the second, counted from its end.
+                slide: -s,
+                energy,
+                faulty: [faulty[0], faulty[1].map(|j| way.place(j, v.places()))],
+            }
+        });
+        energies.reduce(Meeting::stronger)
+    }
+
+    /// The depth (J) of the bond of a word and its mate, flush; with the worst faults where faces
+    /// may have some.
+    pub fn bond(&self, lags: &Lags, word: Word) -> f64 {
+        match self.fault {
+            Some(fault) => fault.least(lags, 1.0, [word, word], 0).0,
+            None => lags.energy(&Correlations::new(word, word), 0),
+        }
+    }
+
+    /// All energies (J) of wrong meetings of two faces without faults, the second a mate or not,
+    /// neither turned over.
     pub fn energies(&self, lags: &Lags, [u, v]: [Word; 2], mate: bool) -> Vec<f64> {
         let way = Way {
             mate,
@@ -203,9 +254,4 @@ impl Rules {
             .map(|s| -way.sign() * lags.energy(&all, s))
             .collect()
     }
-}
-
-/// The depth (J) of the bond of a word and its mate, flush.
-pub fn bond(lags: &Lags, word: Word) -> f64 {
-    lags.energy(&Correlations::new(word, word), 0)
 }

@@ -1,7 +1,7 @@
 //! Sets of words, judged.
 
 use super::lag::Lags;
-use super::rules::{Meeting, Rules, bond};
+use super::rules::{Meeting, Rules};
 use super::word::Word;
 
 /// What a set of words is worth: all of it worked out again from the words alone.
@@ -18,7 +18,7 @@ pub struct Judgement {
 impl Judgement {
     /// Of words, each with its mate; `None` of no words.
     pub fn of(words: &[Word], lags: &Lags, rules: &Rules) -> Option<Self> {
-        let bonds = words.iter().map(|word| bond(lags, *word));
+        let bonds = words.iter().map(|word| rules.bond(lags, *word));
         let bond = bonds.reduce(f64::min)?;
         let mut worst: Option<Meeting> = None;
         for (i, u) in words.iter().enumerate() {
@@ -27,6 +27,14 @@ impl Judgement {
                 let worse = |it: &Meeting| worst.is_none_or(|worst| it.energy < worst.energy);
                 worst = found.filter(worse).or(worst);
             }
+        }
+        // With faults a bond may be none at all.
+        if bond <= 0.0 {
+            return Some(Self {
+                bond,
+                worst,
+                gap: f64::MIN,
+            });
         }
         let attraction = worst.map_or(0.0, |worst| (-worst.energy).max(0.0));
         Some(Self {

@@ -47,8 +47,20 @@ pub struct Pocket {
     pub middle: Vector2<f64>,
     /// How deep the pocket is milled from either side (m), so that the magnet lies midway.
     pub depth: f64,
+    /// The least wall between the pocket and the tile's rim (m), below 0 where it breaks through.
+    pub wall: f64,
+}
+
+impl Pocket {
     /// Whether the pocket opens through the tile's rim, or leaves a wall too thin to stand.
-    pub is_open: bool,
+    pub fn is_open(&self) -> bool {
+        self.wall < THINNEST
+    }
+
+    /// How much thicker its wall is to be (m).
+    pub fn wanting(&self) -> f64 {
+        (THINNEST - self.wall).max(0.0)
+    }
 }
 
 impl Part {
@@ -122,8 +134,9 @@ fn pocket(
         north: moment.normalize() * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
-        is_open: hole
+        wall: -hole
             .iter()
-            .any(|p| tile.outline.signed_distance(*p) > -THINNEST),
+            .map(|p| tile.outline.signed_distance(*p))
+            .fold(f64::NEG_INFINITY, f64::max),
     })
 }

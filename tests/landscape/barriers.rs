@@ -1,7 +1,7 @@
 //! Barriers of real tiles: none lower by way of a third state, and a way out without play.
 
 use tilebind::Settings;
-use tilebind::landscape::{Barrier, CompletenessSettings, Place};
+use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
 
@@ -56,6 +56,32 @@ fn teeth_without_play_are_pulled_out_straight() {
     // It never climbs.
     assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
     assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
+}
+
+/// The teeth's trap, slid by one pitch, has its lowest way out to the bond, hardly lower than that to
+/// `free` and so narrow that no roadmap holds it.
+#[test]
+fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
+    let design = designs::load("shapes/square-teeth-10mm.toml");
+    let settings = Settings {
+        certify_seconds: 1e9,
+        certify_cells: 50_000,
+        claims: Claims::BondAndDeepestTrap,
+        completeness: unsought(),
+        far_starts: 1,
+        ..Settings::default()
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let escape = analysis.escape(1).unwrap();
+    assert_eq!((escape.from, escape.to), (Place::State(1), Place::State(0)));
+    let to_free = |b: &&Barrier| (b.from, b.to) == (Place::State(1), Place::Free);
+    let to_free = analysis.inventory.barriers.iter().find(to_free).unwrap();
+    let upper = escape.bounds.upper.unwrap();
+    assert!(
+        upper < to_free.bounds.lower.unwrap(),
+        "{escape:?} {to_free:?}"
+    );
+    assert!(escape.saddle_energy <= upper);
 }
 
 /// Pointed teeth of which two meet point to point: on a slope, though no step that was tried there

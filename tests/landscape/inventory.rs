@@ -1,6 +1,6 @@
 //! Names of states, and the lowest ways out of them.
 
-use tilebind::landscape::{Barrier, Inventory, Place, State, StateKind};
+use tilebind::landscape::{Barrier, Inventory, Place, Proportion, State, StateKind};
 use tilebind::potential::DipolePotential;
 use tilebind::{Configuration, ConfigurationSpace, Problem};
 
@@ -85,4 +85,32 @@ fn an_escape_is_the_lowest_known_way_down() {
     inventory.barriers = vec![barrier(None, f64::INFINITY)];
     inventory.barriers[0].bounds.caged = true;
     assert!(inventory.escape(&problem, 0).unwrap().bounds.caged);
+}
+
+#[test]
+fn what_one_start_only_ended_in_tells_how_much_is_unseen() {
+    let caught = |id: usize, class: usize, count: usize| State {
+        id,
+        class,
+        capture: Some(Proportion::new(count, 200)),
+        ..state(StateKind::Trap, -1.0)
+    };
+    let unseen = |states: Vec<State>| {
+        let inventory = Inventory {
+            states,
+            ..Inventory::default()
+        };
+        inventory.unseen()
+    };
+    // Copies count together: two starts in two copies of one kind are no single ones.
+    let few = unseen(vec![
+        caught(0, 0, 1),
+        caught(1, 0, 1),
+        caught(2, 2, 1),
+        caught(3, 3, 0),
+    ]);
+    assert_eq!((few.count, few.of), (1, 200));
+    let none = unseen(vec![caught(0, 0, 150), caught(1, 1, 50)]);
+    assert_eq!((none.count, none.of), (0, 200));
+    assert!(none.high > 0.0 && none.high < 0.05);
 }

@@ -12,6 +12,7 @@ mod inventory;
 mod minimum;
 mod neighbours;
 mod pathways;
+mod queries;
 mod ranking;
 mod roadmap;
 mod seam;

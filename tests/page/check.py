@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the pages of analyse, compare and sweep in headless Chromium and uses them.
+"""Opens the pages of analyse, compare, sweep, words and dock in headless Chromium and uses them.
 
     check.py PROGRAM [--pictures FOLDER]
 
@@ -19,6 +19,7 @@ from browser import Browser
 from landscapes import check_docking, check_page
 from looking import Check
 from tables import SHAPES, check_comparison, check_sweep
+from words import check_words
 
 
 def chromium():
@@ -53,11 +54,14 @@ def main():
                 print(f"tests/page: {name}")
                 out = pathlib.Path(folder, name)
                 subprocess.run([arguments.program, "analyse", SHAPES / f"{name}.toml", "--out", out, "--quiet",
-                                "--certify-seconds", "2", "--milestones", "3000"], check=True)
+                                "--certify-seconds", "2", "--complete-seconds", "10",
+                                "--milestones", "3000"], check=True)
                 check_page(check, name, out / "report.html")
             print("tests/page: compare, sweep")
             check_comparison(check, arguments.program, pathlib.Path(folder))
             check_sweep(check, arguments.program, pathlib.Path(folder))
+            print("tests/page: words, crosstalk")
+            check_words(check, arguments.program, pathlib.Path(folder))
             print("tests/page: docking")
             out = pathlib.Path(folder, "docking")
             subprocess.run([arguments.program, "dock", SHAPES / "paper-tile.toml", "--engine", "--runs", "200",

@@ -49,7 +49,7 @@ def check_comparison(check, program, folder):
 
 
 def check_sweep(check, program, folder):
-    quick = ["--quiet", "--milestones", "500", "--far-starts", "20", "--certify-cells", "1000"]
+    quick = ["--quiet", "--milestones", "500", "--far-starts", "20", "--certify-cells", "1000", "--complete-cells", "0"]
     depth = "fixed.faces.east.profile.depth="
     design = SHAPES / "tab-20mm.toml"
 
@@ -125,9 +125,9 @@ def check_sweep(check, program, folder):
     def maps(browser):
         before = picture(browser)
         text, row = hover(browser, 1, 0.25, 0.8)
-        check.that("depth = 0, width = 0.05" in text and row == 0, f"the map's lowest left cell ({text}, {row})")
+        check.that("depth = 0 mm, width = 50 mm" in text and row == 0, f"the map's lowest left cell ({text}, {row})")
         text, row = hover(browser, 1, 0.85, 0.8)
-        check.that("depth = 0.04, width = 0.05: a magnet of face east sticks out" in text, f"an impossible point's reason ({text})")
+        check.that("depth = 40 mm, width = 50 mm: a magnet of face east sticks out" in text, f"an impossible point's reason ({text})")
         check.that(picture(browser) != before, "the cell under the pointer is marked")
 
     check_table_page(check, "sweep-maps", out / "report.html", maps)

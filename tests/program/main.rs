@@ -4,6 +4,7 @@ mod cli;
 mod compare;
 #[path = "../shared/designs.rs"]
 mod designs;
+mod faults;
 #[path = "../shared/folder.rs"]
 mod folder;
 mod pictures;

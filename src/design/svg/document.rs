@@ -220,7 +220,10 @@ impl Reader<'_> {
         let message = if !farthest.is_finite() {
             "the shape's coordinates are not finite".to_owned()
         } else if farthest > FARTHEST {
-            let far = quantity::four_digits(farthest);
+            let far = match quantity::four_digits(farthest) {
+                far if far < 1e7 => format!("{far}"),
+                far => format!("{far:e}"),
+            };
             format!("the shape reaches {far} m from the drawing's origin, more than {FARTHEST}")
         } else {
             return Ok(());

@@ -39,6 +39,8 @@ pub(super) use outline::OUTLINE_KEYS;
 pub(super) use outline::read_outline;
 pub(super) use scale::UNITS;
 
+use std::collections::HashMap;
+
 use super::drawings;
 use super::reader::{Entry, Result, Section, nearest_help};
 use super::source::Source;
@@ -48,7 +50,7 @@ use document::{Shape, Skipped};
 /// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
 const SAME_POINT: f64 = 1e-6;
 
-/// Most things by name of what is not read.
+/// Most kinds of what is not read that are told by name.
 const MOST_TOLD: usize = 8;
 
 /// Gives the drawing that `entry` names to `use_it`.
@@ -82,13 +84,26 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
         return;
     };
     let line = |at: usize| source.text[..at].matches('\n').count() + 1;
-    let mut told: Vec<String> = skipped
+    // By their first places, each kind once.
+    let mut kinds: Vec<(&str, usize, usize)> = Vec::new();
+    let mut numbers = HashMap::new();
+    for (span, what) in skipped {
+        let number = *numbers.entry(what.as_str()).or_insert(kinds.len());
+        match kinds.get_mut(number) {
+            Some(kind) => kind.2 += 1,
+            None => kinds.push((what, span.start, 0)),
+        }
+    }
+    let mut told: Vec<String> = kinds
         .iter()
         .take(MOST_TOLD)
-        .map(|(span, what)| format!("{what} in line {}", line(span.start)))
+        .map(|&(what, at, more)| match more {
+            0 => format!("{what} in line {}", line(at)),
+            _ => format!("{what} in line {} and {more} more of it", line(at)),
+        })
         .collect();
-    if skipped.len() > MOST_TOLD {
-        told.push(format!("and {} more", skipped.len() - MOST_TOLD));
+    if kinds.len() > MOST_TOLD {
+        told.push(format!("and {} more kinds", kinds.len() - MOST_TOLD));
     }
     source.drawings.note(source.error(
         first,

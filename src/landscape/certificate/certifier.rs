@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::landscape::Landscape;
 use super::lower::Assessment;
-use super::query::Query;
+use super::query::{Goal, Query};
 use super::store::{Key, Store};
 use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::configuration::{Configuration, ConfigurationSpace};
@@ -82,7 +82,25 @@ impl<'a> Certifier<'a> {
         if let Some(to) = to.configuration() {
             self.landscape.check(to)?;
         }
-        Ok(Query::new(self, *from, *to, effort, known).run(watch))
+        Ok(Query::new(self, *from, (*to).into(), effort, known).run(watch))
+    }
+
+    /// Brackets the minimax energy from `from` to the first of the `goals` or to tiles far apart.
+    /// `known` is a pathway to one of them, its end included, if one is known.
+    ///
+    /// # Errors
+    /// Where the start or a goal is not free or not on the table.
+    pub fn escape(
+        &mut self,
+        from: &Configuration,
+        goals: &[Configuration],
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        for end in std::iter::once(from).chain(goals) {
+            self.landscape.check(end)?;
+        }
+        Ok(Query::new(self, *from, Goal::Any(goals), effort, known).run(&mut |_| true))
     }
 
     /// Cells assessed so far, over all queries.

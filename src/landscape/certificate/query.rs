@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::certifier::Certifier;
 use super::flood::{Seeds, least_level, watershed};
+use super::landscape::Landscape;
 use super::store::Leaf;
 use super::upper::ProvedPath;
 use super::{Bracket, Effort, End, Progress};
@@ -26,10 +27,27 @@ const SHARPNESS: f64 = 0.05;
 const WORTHWHILE: f64 = 0.25;
 const GAIN: f64 = 0.1;
 
+/// Where a path may end.
+pub(super) enum Goal<'g> {
+    At(Configuration),
+    Free,
+    /// At any of these, or with the tiles far apart.
+    Any(&'g [Configuration]),
+}
+
+impl From<End> for Goal<'_> {
+    fn from(end: End) -> Self {
+        match end {
+            End::At(q) => Self::At(q),
+            End::Free => Self::Free,
+        }
+    }
+}
+
 pub(super) struct Query<'q, 'a> {
     certifier: &'q mut Certifier<'a>,
     from: Configuration,
-    to: End,
+    to: Goal<'q>,
     effort: Effort,
     started: Instant,
     assessed_before: usize,
@@ -45,16 +63,15 @@ impl<'q, 'a> Query<'q, 'a> {
     pub fn new(
         certifier: &'q mut Certifier<'a>,
         from: Configuration,
-        to: End,
+        to: Goal<'q>,
         effort: &Effort,
         known: &[Configuration],
     ) -> Self {
         let proof = certifier.landscape.proof();
-        let floor = [Some(&from), to.configuration()]
-            .into_iter()
-            .flatten()
-            .map(|q| proof.value(q).0)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let mut floor = proof.value(&from).0;
+        if let Goal::At(to) = &to {
+            floor = floor.max(proof.value(to).0);
+        }
         let mut query = Self {
             from,
             to,
@@ -180,9 +197,14 @@ impl<'q, 'a> Query<'q, 'a> {
         if chain.len() > 1 {
             path.pop();
         }
+        let landscape = &self.certifier.landscape;
         let end = match self.to {
-            End::At(to) => Some(to),
-            End::Free => self.certifier.landscape.far_end(&cell(last)),
+            Goal::At(to) => Some(to),
+            Goal::Free => landscape.far_end(&cell(last)),
+            Goal::Any(goals) => {
+                let inside = goals.iter().find(|q| cell(last).contains(q)).copied();
+                inside.or_else(|| landscape.far_end(&cell(last)))
+            }
         };
         path.extend(end.map(|end| (end, last)));
         path.into_iter().unzip()
@@ -194,11 +216,22 @@ impl<'q, 'a> Query<'q, 'a> {
         let mut path = vec![self.from];
         path.extend(known.iter().filter(|q| **q != self.from));
         match self.to {
-            End::At(to) if to != *last => path.push(to),
-            End::Free if !self.certifier.landscape.space.is_far(last) => return None,
+            Goal::At(to) if to != *last => path.push(to),
+            _ if !self.is_end(last) => return None,
             _ => {}
         }
         Some(path)
+    }
+
+    /// Whether a pathway may end here.
+    fn is_end(&self, q: &Configuration) -> bool {
+        let landscape = &self.certifier.landscape;
+        let is_far = landscape.space.is_far(q);
+        match self.to {
+            Goal::At(to) => *q == to,
+            Goal::Free => is_far,
+            Goal::Any(goals) => is_far || goals.contains(q),
+        }
     }
 
     /// The leaves that hold either end.
@@ -216,13 +249,13 @@ impl<'q, 'a> Query<'q, 'a> {
         Seeds {
             from: holding(&|_, cell| at(&self.from, cell)),
             to: match &self.to {
-                End::At(to) => holding(&|_, cell| at(to, cell)),
-                End::Free => holding(&|leaf, cell| {
-                    if landscape.space.is_far(&cell.centre) {
-                        return Some(leaf.known.estimate);
-                    }
-                    let end = landscape.far_end(cell)?;
-                    Some(landscape.proof().value(&end).1)
+                Goal::At(to) => holding(&|_, cell| at(to, cell)),
+                Goal::Free => holding(&|leaf, cell| energy_far_off(landscape, leaf, cell)),
+                Goal::Any(goals) => holding(&|leaf, cell| {
+                    goals
+                        .iter()
+                        .find_map(|goal| at(goal, cell))
+                        .or_else(|| energy_far_off(landscape, leaf, cell))
                 }),
             },
         }
@@ -248,4 +281,13 @@ impl<'q, 'a> Query<'q, 'a> {
             rounds,
         }
     }
+}
+
+/// An energy (J) with the tiles far apart in a leaf that holds such configurations.
+fn energy_far_off(landscape: &Landscape, leaf: &Leaf, cell: &Cell) -> Option<f64> {
+    if landscape.space.is_far(&cell.centre) {
+        return Some(leaf.known.estimate);
+    }
+    let end = landscape.far_end(cell)?;
+    Some(landscape.proof().value(&end).1)
 }

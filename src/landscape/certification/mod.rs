@@ -1,8 +1,10 @@
 //! Certified bounds for the barriers of an inventory.
 
+mod escapes;
 mod joined;
 mod schedule;
 
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::certificate::{Bracket, Certifier, Effort, End};
@@ -61,7 +63,7 @@ impl Claims {
 )]
 pub enum Uncertified {
     /// None was asked for.
-    #[error("no time was given to the certificate")]
+    #[error("no time was given to the proof")]
     NoTime,
     /// None can be.
     #[error(transparent)]
@@ -94,10 +96,10 @@ pub fn certify(
     let mut certifier = Certifier::new(bounds, problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
     let mut left: Vec<usize> = vec![settings.cells; inventory.barriers.len()];
-    let rounds = schedule::rounds(inventory, settings, depth);
-    let count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
+    let mut rounds = VecDeque::from(schedule::rounds(inventory, settings, depth));
+    let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
     let mut done = 0;
-    for (width, numbers) in rounds {
+    while let Some((width, numbers)) = rounds.pop_front() {
         for number in numbers {
             observer.part("certificate", done, count);
             done += 1;
@@ -112,38 +114,83 @@ pub fn certify(
                 cells: left[number],
                 time: Some(time),
             };
-            let Some(bracket) = bracket(&mut certifier, inventory, barrier, &effort) else {
-                continue;
-            };
-            let barrier = &mut inventory.barriers[number];
-            take_over(problem, barrier, &bracket, BEND * depth);
+            let (cells, beside) = narrow(problem, &mut certifier, inventory, number, &effort);
             left[number] = schedule::cells_left(
-                left[number].saturating_sub(bracket.cells),
-                barrier.bounds.width() <= effort.tolerance,
+                left[number].saturating_sub(cells),
+                inventory.barriers[number].bounds.width() <= effort.tolerance,
                 settings,
             );
+            if beside.is_some_and(|way| inventory.add_way(way)) {
+                // The new one is narrowed further where this one is.
+                for (_, later) in rounds
+                    .iter_mut()
+                    .filter(|(_, later)| later.contains(&number))
+                {
+                    later.push(left.len());
+                    count += 1;
+                }
+                left.push(left[number]);
+            }
         }
         joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
     }
+    // What was found beside a barrier stands beside it.
+    inventory.barriers.sort_by_key(|barrier| barrier.from);
     Ok(certifier.assessed())
 }
 
-fn bracket(
+/// Narrows the bounds of a barrier, those of an escape over all ways out; returns the cells that
+/// took and the barrier to another place that was found to be lower, if any.
+fn narrow(
+    problem: &Problem,
     certifier: &mut Certifier,
-    inventory: &Inventory,
-    barrier: &Barrier,
+    inventory: &mut Inventory,
+    number: usize,
     effort: &Effort,
-) -> Option<Bracket> {
+) -> (usize, Option<Barrier>) {
+    let bend = BEND * problem.depth();
+    let barrier = &inventory.barriers[number];
     let Place::State(from) = barrier.from else {
-        return None;
+        return (0, None);
     };
     let start = inventory.states[from].configuration;
     let to = match barrier.to {
         Place::State(to) => End::At(inventory.states[to].configuration),
         Place::Free => End::Free,
     };
-    let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
-    certifier.bracket(&start, &to, &known, effort).ok()
+    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    if let End::At(to) = to
+        && known.last().is_some_and(|last| *last != to)
+    {
+        known.push(to);
+    }
+    let escape = escapes::bracket(problem, certifier, inventory, (barrier, &known), effort);
+    let barrier = &mut inventory.barriers[number];
+    let mut cells = 0;
+    let mut beside = None;
+    if let Some((escape, found)) = escape {
+        cells = escape.cells;
+        match found {
+            None => {
+                barrier.bounds.tighten(escape.bounds);
+                return (cells, None);
+            }
+            Some(way) if way.to == barrier.to => {
+                take_over(problem, barrier, &escape, bend);
+                return (cells, None);
+            }
+            Some(way) if !barrier.has_way() && inventory.bound_state != Some(from) => {
+                *barrier = way;
+                return (cells, None);
+            }
+            way => beside = way,
+        }
+    }
+    if let Ok(bracket) = certifier.bracket(&start, &to, &known, effort) {
+        cells += bracket.cells;
+        take_over(problem, barrier, &bracket, bend);
+    }
+    (cells, beside)
 }
 
 fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {

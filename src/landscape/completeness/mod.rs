@@ -99,13 +99,16 @@ impl Completeness {
     pub fn is_complete(&self) -> bool {
         self.open.is_empty()
     }
+
+    /// What the list may lack lies above this (J), whether it is complete or not.
+    pub fn lowest(&self) -> f64 {
+        let open = self.open.iter().map(|region| region.lowest);
+        open.fold(self.below, f64::min)
+    }
 }
 
 /// Cells assessed between two looks at the clock.
 const BATCH: usize = 4096;
-/// Cells smaller than this (m, half a side) wait until the others are done: there are few of them
-/// around minima, and no end of them where a tile has no play.
-const SMALL: f64 = 1e-5;
 
 /// A search for states that may be missing.
 pub struct Search<'a> {
@@ -117,8 +120,9 @@ pub struct Search<'a> {
     cells: usize,
 }
 
-/// Cells to be looked at: large ones before small ones, the lowest first.
-type Queue = BinaryHeap<Reverse<(bool, OrderedFloat<f64>, usize)>>;
+/// Cells to be looked at: those halved least before the others, as there is no end of small ones
+/// where a tile has no play; of each size the lowest first.
+type Queue = BinaryHeap<Reverse<(i32, OrderedFloat<f64>, usize)>>;
 
 /// The cells that wait, each with the least energy (J) that it may hold.
 #[derive(Default)]
@@ -129,10 +133,10 @@ struct Waiting {
 
 impl Waiting {
     fn push(&mut self, cell: Cell, lowest: f64) {
-        let is_small = cell.half[0].max(cell.half[1]) < SMALL;
+        let halvings = -cell.half[0].max(cell.half[1]).log2().floor() as i32;
         let number = self.cells.len();
         self.queue
-            .push(Reverse((is_small, OrderedFloat(lowest), number)));
+            .push(Reverse((halvings, OrderedFloat(lowest), number)));
         self.cells.push((cell, lowest));
     }
 
@@ -282,7 +286,8 @@ impl<'a> Search<'a> {
         }
         let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
         Completeness {
-            share: volume / self.volume,
+            // A sum of nothing is minus zero.
+            share: volume / self.volume + 0.0,
             below: self.below,
             escape: self.exits.rise,
             open,

@@ -99,7 +99,7 @@ impl Inventory {
         }
         let image = |symmetry: &&Symmetry| {
             let image = symmetry.apply(&self.states[class].configuration);
-            self.nearest_state(problem, &image) == Some(id)
+            self.state_at(problem, &image) == Some(id)
         };
         let symmetry = problem.symmetries.iter().find(image)?;
         Some(self.image(problem, escape, id, symmetry))
@@ -140,7 +140,7 @@ impl Inventory {
         let to = match barrier.to {
             Place::Free => Place::Free,
             Place::State(id) => self
-                .nearest_state(problem, &symmetry.apply(&self.states[id].configuration))
+                .state_at(problem, &symmetry.apply(&self.states[id].configuration))
                 .map_or(barrier.to, Place::State),
         };
         let image = |point: &PathwayPoint| PathwayPoint {
@@ -210,7 +210,7 @@ impl Inventory {
         let mut counts = vec![0; self.states.len()];
         let [mut at_rest, mut gone] = [0, 0];
         for end in ends {
-            let state = end.and_then(|q| self.nearest_state(problem, &q));
+            let state = end.and_then(|q| self.state_at(problem, &q));
             match (state, end) {
                 (Some(id), _) => counts[id] += 1,
                 (None, Some(_)) => at_rest += 1,
@@ -226,13 +226,40 @@ impl Inventory {
         }
     }
 
+    /// Estimate of the share of far starts that would end in a kind of state that none has ended in
+    /// yet: n1 / n, n1 the number of kinds in which just one of n starts ended (Turing's formula, Good
+    /// 1953, doi:10.1093/biomet/40.3-4.237), with the interval of a proportion. It says nothing of
+    /// states that hardly catch anything. Needs [`count_captures`](Self::count_captures).
+    pub fn unseen(&self) -> Proportion {
+        let captured: Vec<Proportion> = self.kinds().map(|kind| kind.captured()).collect();
+        let single = captured.iter().filter(|share| share.count == 1).count();
+        Proportion::new(single, captured.first().map_or(0, |share| share.of))
+    }
+
     /// Whether a configuration, or one of its images, is that of a state.
     pub fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
         let mut images = problem.symmetries.iter().map(|s| s.apply(q));
-        images.any(|image| self.nearest_state(problem, &image).is_some())
+        images.any(|image| self.state_at(problem, &image).is_some())
     }
 
-    fn nearest_state(&self, problem: &Problem, q: &Configuration) -> Option<usize> {
+    /// Adds a barrier, or what it knows of one that is there; returns whether it was added.
+    pub(super) fn add_way(&mut self, way: Barrier) -> bool {
+        let is_there = |b: &&mut Barrier| (b.from, b.to) == (way.from, way.to);
+        match self.barriers.iter_mut().find(is_there) {
+            Some(known) => {
+                known.bounds.tighten(way.bounds);
+                known.lead_lower(way.pathway);
+                false
+            }
+            None => {
+                self.barriers.push(way);
+                true
+            }
+        }
+    }
+
+    /// The state at a configuration.
+    pub(super) fn state_at(&self, problem: &Problem, q: &Configuration) -> Option<usize> {
         self.states
             .iter()
             .map(|s| (problem.space.distance(&s.configuration, q), s.id))

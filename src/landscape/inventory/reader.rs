@@ -175,7 +175,7 @@ impl Reader<'_> {
 
     /// The barrier from a state to the nearest of some nodes.
     fn barrier_to(&self, found: usize, goals: &HashSet<usize>, order: &[usize]) -> Option<Barrier> {
-        let node = self.survey.states[found].node;
+        let node = self.node(found);
         let depth = self.energy(found).abs();
         let reported: HashSet<usize> = goals
             .iter()
@@ -203,8 +203,8 @@ impl Reader<'_> {
         Some(barrier)
     }
 
-    /// From the first state of each class: its escape, the way to the bound state, and to `free`;
-    /// and the bond's to `free` where none is known.
+    /// From the first state of each class: its escape, the way to the bound state, and to `free`,
+    /// also where none is known for the bond, or no way out at all.
     fn barriers(
         &self,
         classes: &[Class],
@@ -225,19 +225,20 @@ impl Reader<'_> {
                     found.extend(self.barrier_to(first, &HashSet::from([goal]), order));
                 }
             }
+            let is_bond = bound_state.is_some() && bound.is_none();
+            let is_way_out = |barrier: &Barrier| !is_bond || barrier.to == Place::Free;
+            if !found.iter().any(is_way_out) {
+                let from = (self.place(self.node(first), order), self.energy(first));
+                let start = self.configuration(first);
+                found.push(Barrier::without_a_way(from, start, (Place::Free, 0.0)));
+            }
             barriers.extend(found);
         }
-        barriers.extend(bound.and_then(|bound| self.missing_way_out(bound, &barriers)));
         barriers
     }
 
-    /// The barrier from the bond to `free`, where no way over it was found.
-    fn missing_way_out(&self, bound: usize, barriers: &[Barrier]) -> Option<Barrier> {
-        let ends = (Place::State(0), Place::Free);
-        let is_known = barriers.iter().any(|known| (known.from, known.to) == ends);
-        let start = self.configuration(bound);
-        let from = (ends.0, self.energy(bound));
-        (!is_known).then(|| Barrier::without_a_way(from, start, (Place::Free, 0.0)))
+    fn node(&self, found: usize) -> usize {
+        self.survey.states[found].node
     }
 
     /// The least-work and the most probable pathways between the bound state, the deepest trap and

@@ -91,6 +91,11 @@ impl Survey {
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap);
+        // Every configuration is as low as every other: none is a state.
+        if problem.is_inert() {
+            survey.network.span();
+            return survey;
+        }
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
         survey.find_siblings(problem, settings);
@@ -194,10 +199,11 @@ impl Survey {
     fn find_siblings(&mut self, problem: &Problem, settings: &SurveySettings) {
         let mut known = 0;
         while known < self.states.len() {
-            let fresh = self.states[known..]
-                .iter()
-                .map(|state| state.minimum.point.q);
-            let fresh: Vec<Configuration> = fresh.collect();
+            let fresh = self.states[known..].iter().map(|state| {
+                let Point { q, energy, .. } = state.minimum.point;
+                (q, energy)
+            });
+            let fresh: Vec<(Configuration, f64)> = fresh.collect();
             known = self.states.len();
             let places: Vec<Configuration> = siblings::siblings(problem, &fresh)
                 .into_iter()

@@ -12,6 +12,9 @@ use crate::tile::{Face, face_to_face};
 const SAME: f64 = 1e-3;
 /// Faces turned away from each other by more than this (rad) do not meet.
 const TURNED: f64 = 0.8;
+/// A place where the energy is less than this share of the minimum's is none: faces without the
+/// magnets that hold there have no such meeting, and of a polygon's pairs of faces most may be bare.
+const HELD: f64 = 0.1;
 
 /// How the moving tile's face stands to the fixed one's: its middle's place along that face and
 /// out of it (m), and by how much it is turned against lying flush (rad).
@@ -20,15 +23,18 @@ struct Meeting {
     slide: f64,
     gap: f64,
     tilt: f64,
+    /// Of the minimum (J).
+    energy: f64,
 }
 
 impl Meeting {
-    fn of(q: &Configuration, fixed: &Face, moving: &Face) -> Self {
+    fn of(q: &Configuration, energy: f64, fixed: &Face, moving: &Face) -> Self {
         let way = q.transform(moving.middle()) - fixed.middle();
         Self {
             slide: way.dot(&fixed.tangent()),
             gap: way.dot(&fixed.normal()),
             tilt: wrap_angle(q.theta - face_to_face(fixed, moving, 0.0, 0.0).theta),
+            energy,
         }
     }
 
@@ -59,8 +65,9 @@ impl Meeting {
     }
 }
 
-/// Where siblings of some minima may be expected, themselves not left out.
-pub(super) fn siblings(problem: &Problem, minima: &[Configuration]) -> Vec<Configuration> {
+/// Where siblings of some minima, given with their energies (J), may be expected, themselves not left
+/// out.
+pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Vec<Configuration> {
     let [of_fixed, of_moving] = problem.faces();
     let size = problem.space.rho;
     let pairs = || {
@@ -69,9 +76,9 @@ pub(super) fn siblings(problem: &Problem, minima: &[Configuration]) -> Vec<Confi
             .flat_map(|fixed| of_moving.iter().map(move |moving| (fixed, moving)))
     };
     let mut meetings: Vec<Meeting> = Vec::new();
-    for q in minima {
+    for (q, energy) in minima {
         let closest = pairs()
-            .map(|(fixed, moving)| Meeting::of(q, fixed, moving))
+            .map(|(fixed, moving)| Meeting::of(q, *energy, fixed, moving))
             .filter(|meeting| meeting.tilt.abs() < TURNED)
             .min_by_key(|meeting| OrderedFloat(meeting.gap.abs() + size * meeting.tilt.abs()));
         for meeting in closest
@@ -87,9 +94,10 @@ pub(super) fn siblings(problem: &Problem, minima: &[Configuration]) -> Vec<Confi
         }
     }
     let places = pairs().flat_map(|(fixed, moving)| {
-        meetings
-            .iter()
-            .map(|meeting| meeting.place(problem, fixed, moving))
+        let place = |meeting: &Meeting| (meeting.place(problem, fixed, moving), meeting.energy);
+        meetings.iter().map(place).collect::<Vec<_>>()
     });
-    places.filter(|q| problem.is_free(q)).collect()
+    let held = places.filter(|(q, energy)| problem.energy(q) < HELD * energy);
+    let free = held.filter(|(q, _)| problem.is_free(q));
+    free.map(|(q, _)| q).collect()
 }

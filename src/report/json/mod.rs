@@ -162,7 +162,7 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
 /// regions (their `share` is that of the space). `unproved` says why nothing is, and is null
 /// otherwise.
 fn inventory(analysis: &Analysis) -> Value {
-    match &analysis.completeness {
+    let mut entry = match &analysis.completeness {
         Ok(known) => json!({
             "below_J": known.below,
             "escape_J": known.escape,
@@ -185,7 +185,10 @@ fn inventory(analysis: &Analysis) -> Value {
             "cells": 0,
             "unproved": why.to_string(),
         }),
-    }
+    };
+    // Estimated share of far starts that would end in a kind of state that none has ended in yet.
+    entry["unseen"] = proportion(analysis.inventory.unseen());
+    entry
 }
 
 /// A pathway by another cost than the highest energy: the work against the energy on the way, or

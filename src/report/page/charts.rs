@@ -21,6 +21,8 @@ pub struct Charts {
     /// The tiles of points; none where there are many points.
     tiles: Vec<Thumbnail>,
     points: Vec<ChartPoint>,
+    /// The point that all are set against at first.
+    baseline: Option<usize>,
     panels: Vec<ChartPanel>,
     curves: Vec<ChartCurves>,
     maps: Vec<ChartMap>,
@@ -109,6 +111,7 @@ impl Charts {
                 })
                 .collect(),
             tiles,
+            baseline: sweep.baseline(),
             panels: panels.map(|(place, shown)| panel(place, &shown)).collect(),
             curves: Vec::new(),
             maps: Vec::new(),

@@ -217,6 +217,7 @@ async function showLandscape() {
 
 showPage();
 if (charts) showCharts();
+if (meetings) showMeetings();
 const ready = world ? showLandscape() : Promise.resolve();
 ready.then(
   () => { document.documentElement.dataset.ready = "yes"; },

@@ -7,14 +7,17 @@
 
 mod charts;
 mod comparison;
+mod crosstalk;
 mod docking;
 mod html;
 pub(super) mod landscape;
+pub(super) mod meetings;
 mod packed;
 mod pathways;
 mod tables;
 mod thumbnail;
 mod tree;
+mod word_charts;
 mod words;
 
 use serde::Serialize;
@@ -24,6 +27,7 @@ use html::{CITATION, escaped, filled, hash};
 
 pub use charts::Charts;
 pub use landscape::Landscape;
+pub use meetings::Meetings;
 
 use super::plots::Scene;
 use crate::design::Design;
@@ -33,7 +37,7 @@ use crate::pipeline::Analysis;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -44,6 +48,7 @@ const SCRIPTS: [&str; 11] = [
     include_str!("charts.js"),
     include_str!("chart_maps.js"),
     include_str!("sweep.js"),
+    include_str!("meetings.js"),
     include_str!("main.js"),
 ];
 
@@ -60,6 +65,8 @@ pub struct Page {
     pub landscape: Option<Landscape>,
     /// Curves and maps of a sweep; `None` elsewhere.
     pub charts: Option<Charts>,
+    /// All faces of a set of words against all; `None` elsewhere.
+    pub meetings: Option<Meetings>,
     /// Pictures, in order.
     pub pictures: Vec<Illustration>,
     /// Tables, in order.
@@ -196,6 +203,7 @@ impl Page {
             facts: Vec::new(),
             landscape: None,
             charts: None,
+            meetings: None,
             pictures: Vec::new(),
             tables: Vec::new(),
             origin: String::new(),

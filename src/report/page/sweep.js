@@ -133,6 +133,8 @@ function showCharts() {
   controls.id = "controls";
   const names = charts.points.map(({ name }) => name);
   const [against, baselines] = chooser("baseline", "set against", ["nothing", ...names]);
+  baseline = charts.baseline;
+  baselines.value = baseline === null ? 0 : baseline + 1;
   baselines.addEventListener("change", () => {
     baseline = Number(baselines.value) ? Number(baselines.value) - 1 : null;
     drawAll();

@@ -10,6 +10,7 @@ use crate::design::Design;
 use crate::landscape::{Kind, Place};
 use crate::pipeline::Analysis;
 use crate::report::columns::{self, Cell, Output, StateRow};
+use crate::report::figures::percent;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
 use crate::units::{si, si_range};
@@ -99,7 +100,41 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
             facts.push(fact("barrier out of that trap", height, note));
         }
     }
+    facts.push(completeness(analysis));
     facts
+}
+
+/// Whether states may be missing from the list.
+fn completeness(analysis: &Analysis) -> Fact {
+    let (value, note) = match &analysis.completeness {
+        Err(why) => (
+            "sampled",
+            format!(
+                "it may lack some: {why}; of more far starts {} would end in kinds not seen yet",
+                percent(&analysis.inventory.unseen())
+            ),
+        ),
+        Ok(known) => {
+            let [below, escape, lowest] =
+                [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
+            let claim = format!("no other below {below} takes more than {escape} to leave");
+            match known.open.len() {
+                0 => ("complete, proved", claim),
+                count => (
+                    "proved in part",
+                    format!(
+                        "{claim}, but for {count} {} down to {lowest}",
+                        if count == 1 { "region" } else { "regions" }
+                    ),
+                ),
+            }
+        }
+    };
+    Fact {
+        name: "list of states".to_owned(),
+        value: value.to_owned(),
+        note,
+    }
 }
 
 /// The classes of states.

@@ -24,7 +24,7 @@ function buildTree(choose) {
   const y = (energy) => 24 + (height - 100) * (high - place(energy)) / span;
   const x = (leaf) => 78 + (width - 90) * leaf / count;
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Disconnectivity graph" });
-  if (count > 9) picture.style.minWidth = `${0.75 * width}px`;
+  picture.style.minWidth = `${0.75 * width}px`;
   const add = (name, attributes, text) => picture.append(svg(name, attributes, text));
 
   const kept = [];
@@ -87,8 +87,10 @@ function buildTree(choose) {
     const at = draw(root);
     limb(at, y(root.energy), at, 6);
     if (!apart) continue;
-    add("text", { x: at + 6, y: 14, class: "soft" }, apart);
-    taken.push([at + 4, 0, at + 8 + 7 * apart.length, 18]);
+    // To the left of its line where there is no room to the right.
+    const long = 7.6 * apart.length, turned = at + 8 + long > width;
+    add("text", { x: turned ? at - 6 : at + 6, y: 14, class: "soft", "text-anchor": turned ? "end" : "start" }, apart);
+    taken.push(turned ? [at - 8 - long, 0, at - 4, 18] : [at + 4, 0, at + 8 + long, 18]);
   }
   for (const [mx, my, text] of merges) {
     const wide = 7.2 * text.length;
@@ -97,7 +99,10 @@ function buildTree(choose) {
     const free = ([left, base]) => left > 74 && left + wide < width && base > 12
       && taken.every(([a, b, c, d]) => left + wide <= a || c <= left || base + 3 <= b || d <= base - 11);
     const away = ([left, base]) => Math.hypot(left + (left < mx ? wide : 0) - mx, base - my);
-    const [left, base] = spots.filter(free).sort((a, b) => away(a) - away(b))[0] ?? [mx + 9, my - 6];
+    // Where there is no room the table has the figure.
+    const spot = spots.filter(free).sort((a, b) => away(a) - away(b))[0];
+    if (!spot) continue;
+    const [left, base] = spot;
     taken.push([left, base - 11, left + wide, base + 3]);
     labels.push(svg("text", { x: left, y: base, class: "soft merge" }, text));
   }

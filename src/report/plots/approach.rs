@@ -120,15 +120,17 @@ pub fn data(slices: &ApproachSlices) -> String {
 
 /// Tilt (rad), slide (m) and mark of the states that touch the target face with the target face.
 fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> {
-    scene
-        .states()
-        .iter()
-        .filter(|state| state.faces.contains(&scene.pair.target))
+    let states = scene.states().iter();
+    let touching = states.filter(|state| state.faces.contains(&scene.pair.target));
+    let mut marks: Vec<(f64, f64, Mark)> = touching
         .map(|state| {
             let (tilt, slide) = approach.tilt_and_slide(&state.configuration);
             (tilt, slide, state.kind.into())
         })
-        .collect()
+        .collect();
+    // The bond on top.
+    marks.sort_by_key(|(.., mark)| *mark == Mark::Bond);
+    marks
 }
 
 impl ApproachPanel<'_> {

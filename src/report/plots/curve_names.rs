@@ -2,7 +2,7 @@
 
 use super::curve_data::variables;
 use crate::report::csv::number;
-use crate::report::sweep::{Sweep, short};
+use crate::report::sweep::Sweep;
 use crate::sweep::{Point, Value};
 
 /// Keys of the design that are lengths: their axes are in mm.
@@ -32,7 +32,7 @@ pub fn common(sweep: &Sweep, point: &Point, fixed: &[usize]) -> Common {
         common.push(("design".to_owned(), name));
     }
     common.extend(fixed.iter().map(|&axis| {
-        let key = short(&sweep.plan.axes[axis].key).to_owned();
+        let key = sweep.plan.axes[axis].name().to_owned();
         let value = said(&key, &point.values[axis]);
         (key, value)
     }));
@@ -40,7 +40,7 @@ pub fn common(sweep: &Sweep, point: &Point, fixed: &[usize]) -> Common {
 }
 
 /// A value with its unit, where it has one: `3 mm`.
-fn said(key: &str, value: &Value) -> String {
+pub fn said(key: &str, value: &Value) -> String {
     match value.number().filter(|_| LENGTHS.contains(&key)) {
         Some(metres) => format!("{} mm", number(1e3 * metres)),
         None => value.to_string(),
@@ -57,7 +57,10 @@ pub fn titled(sweep: &Sweep, common: &Common) -> String {
         parts.insert(0, design.name.clone());
     }
     let keys = variables(sweep);
-    let keys: Vec<&str> = keys.iter().map(|number| short(&number.key)).collect();
+    let keys: Vec<&str> = keys
+        .iter()
+        .map(|number| sweep.plan.axes[number.axis].name())
+        .collect();
     let over = format!("over {}", keys.join(" and "));
     if parts.is_empty() {
         over

@@ -240,12 +240,17 @@ fn graph(
         polyline(root, &[at(x, top), end], INK, 1.8)?;
         drawing.labels.keep_off_line(&[at(x, top), end]);
         if let Some(why) = why_apart(scene, tree) {
-            let beside = (end.0 + 6.0, end.1 + 8.0);
             let font = Text::new(SMALL).colour(SOFT);
+            let wide = font.width(why);
+            // To the left of its line where there is no room to the right.
+            let beside = match end.0 + 6.0 + wide <= right.0 {
+                true => (end.0 + 6.0, end.1 + 8.0),
+                false => (end.0 - 6.0 - wide, end.1 + 8.0),
+            };
             font.write(root, why, beside, (HPos::Left, VPos::Center))?;
             drawing
                 .labels
-                .keep_off_line(&[beside, (beside.0 + font.width(why), beside.1)]);
+                .keep_off_line(&[beside, (beside.0 + wide, beside.1)]);
         }
     }
     drawing.finish()

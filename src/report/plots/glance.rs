@@ -7,13 +7,16 @@ use super::marks::{View, tile};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::minus;
 use super::sheet::Sheet;
-use super::style::{FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION};
+use super::style::{
+    BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION,
+};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection::Inspection;
 use crate::potential::MagnetModel;
-use crate::report::inspection::{force, wrong};
-use crate::tile::Tile;
+use crate::report::inspection::{force, pole, wrong};
+use crate::tile::barcode::Pole;
+use crate::tile::{Face, Magnet, Tile};
 use crate::units::si;
 
 const SIZE: (u32, u32) = (1000, 640);
@@ -23,6 +26,8 @@ const FOOT: f64 = 190.0;
 const MARGIN: f64 = 40.0;
 /// Height of a line of text (pixels).
 const LINE: f64 = 22.0;
+/// What the letters at the magnets are.
+const KEY: &str = "letters: the pole that each magnet turns outwards";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
@@ -30,13 +35,21 @@ const TOLD: usize = 3;
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn draw(design: &Design, inspection: &Inspection) -> Result<Picture, PictureError> {
-    Picture::draw(&Sheet::SCREEN, &design.name, SIZE, |root, _| {
+pub fn draw(
+    design: &Design,
+    inspection: &Inspection,
+    sheet: &Sheet,
+) -> Result<Picture, PictureError> {
+    Picture::draw(sheet, &design.name, SIZE, |root, _| {
         let middle = (HPos::Center, VPos::Center);
         let place = (f64::from(SIZE.0) / 2.0, HEAD / 2.0);
         Text::new(TITLE)
             .bold()
             .write(root, &design.name, place, middle)?;
+        let place = (place.0, HEAD + 4.0);
+        Text::new(SMALL)
+            .colour(SOFT)
+            .write(root, KEY, place, middle)?;
         let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
         let tiles = [&design.pair.fixed, &design.pair.moving];
         let view = view(tiles, poses);
@@ -78,17 +91,56 @@ fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
     }
 }
 
-/// Names of the faces, inside of their magnets.
+/// Names of the faces, inside of their magnets with the letters of their codes.
 fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(), PictureError> {
+    let middle = (HPos::Center, VPos::Center);
     for (number, face) in tile.faces.iter().enumerate() {
-        let magnets = tile.magnets.iter().filter(|magnet| magnet.face == number);
-        let depths = magnets.map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
-        let depth = depths.fold(0.0, f64::max) + 16.0 / view.scale;
-        let at = view.pixel(q.transform(face.middle() - face.normal() * depth));
+        let magnets: Vec<&Magnet> = tile.magnets.iter().filter(|m| m.face == number).collect();
+        let letters: Vec<(f64, &Magnet, &str)> = sorted(face, &magnets)
+            .map(|(s, magnet)| match pole(tile, magnet) {
+                Pole::North => (s, magnet, "N"),
+                Pole::South => (s, magnet, "S"),
+            })
+            .collect();
+        let depths = magnets
+            .iter()
+            .map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
+        let depth = depths.fold(0.0, f64::max) * view.scale;
+        let apart = letters
+            .windows(2)
+            .map(|two| (two[1].0 - two[0].0) * view.scale);
+        let has_room = apart.fold(f64::INFINITY, f64::min) >= SMALL;
+        let (name, depth) = match letters.is_empty() {
+            true => (face.name.clone(), depth + 16.0),
+            false if has_room => (face.name.clone(), depth + 30.0),
+            false => {
+                let code: String = letters.iter().map(|(_, _, letter)| *letter).collect();
+                (format!("{}: {code}", face.name), depth + 22.0)
+            }
+        };
+        let inwards = |p: Vector2<f64>, pixels: f64| {
+            view.pixel(q.transform(p - face.normal() * (pixels / view.scale)))
+        };
+        for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
+            let colour = if *letter == "N" { VERMILLION } else { BLUE };
+            let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
+            Text::new(SMALL)
+                .bold()
+                .colour(colour)
+                .write(root, letter, at, middle)?;
+        }
         let text = Text::new(SMALL).colour(INK);
-        text.write(root, &face.name, at, (HPos::Center, VPos::Center))?;
+        text.write(root, &name, inwards(face.middle(), depth), middle)?;
     }
     Ok(())
+}
+
+/// Magnets of a face with their places along it (m), counter-clockwise.
+fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64, &'a Magnet)> {
+    let place = |m: &&'a Magnet| ((m.position - face.middle()).dot(&face.tangent()), *m);
+    let mut placed: Vec<_> = magnets.iter().map(place).collect();
+    placed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    placed.into_iter()
 }
 
 /// What holds the tiles, a line for each model.

@@ -6,11 +6,13 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::composition::{Composition, Panel, part};
 use super::marks::{Box4, Pixel, polyline};
 use super::picture::{Area, PictureError};
+use super::scale::minus;
 use super::scene::Scene;
 use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel};
 use super::{energy, length};
+use crate::landscape::StateKind;
 use crate::landscape::approach::Approach;
-use crate::potential::{Interaction, MagnetModel};
+use crate::potential::{Interaction, MagnetModel, Potential};
 use crate::report::csv::table;
 use crate::units::{prefix_of, si};
 
@@ -31,6 +33,8 @@ pub struct Curves {
     gaps: Vec<f64>,
     dipoles: Vec<f64>,
     blocks: Vec<f64>,
+    /// Of dipoles and of blocks in the bond, which need not lie on the way of the curves.
+    bond: Option<[f64; 2]>,
 }
 
 impl Curves {
@@ -54,18 +58,24 @@ impl Curves {
         let gaps: Vec<f64> = (0..SAMPLES)
             .map(|k| FARTHEST * size * k as f64 / (SAMPLES - 1) as f64)
             .collect();
-        let energies = |model| {
+        let [dipoles, blocks] = [MagnetModel::Dipole, MagnetModel::Cuboid].map(|model| {
             let interaction = Interaction {
                 model,
                 ..scene.interaction.clone()
             };
-            let potential = interaction.between(&pair.fixed, &pair.moving).potential;
+            interaction.between(&pair.fixed, &pair.moving).potential
+        });
+        let energies = |potential: &dyn Potential| {
             let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
             gaps.iter().map(at).collect::<Vec<_>>()
         };
+        let bond = scene.inventory.first(StateKind::Bond);
         let curves = Self {
-            dipoles: energies(MagnetModel::Dipole),
-            blocks: energies(MagnetModel::Cuboid),
+            dipoles: energies(&*dipoles),
+            blocks: energies(&*blocks),
+            bond: bond.map(|bond| {
+                [&dipoles, &blocks].map(|potential| potential.energy(&bond.configuration))
+            }),
             gaps,
         };
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
@@ -90,10 +100,15 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
     let error = Panel::new("error", LEAST, height, |root, _, place| {
         errors(root, place, curves)
     });
+    let note = curves.bond.map(|[dipoles, blocks]| {
+        let off = 100.0 * (dipoles - blocks).abs() / blocks.abs();
+        let [dipoles, blocks] = [dipoles, blocks].map(|u| minus(&si(u, "J", 4)));
+        format!("in the bond: dipoles {dipoles}, blocks {blocks}, {off:.1} % off")
+    });
     Composition {
         name: "models".to_owned(),
         title: format!("{}: magnets as point dipoles and as blocks", scene.name),
-        note: None,
+        note,
         width: WIDTH,
         panels: vec![energy, error],
         key: None,

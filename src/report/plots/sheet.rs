@@ -22,8 +22,8 @@ pub struct Sheet {
 /// A layout for print.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Print {
-    /// Width of the layout (pixels).
-    width: f64,
+    /// Width of the layout (pixels); each picture's own, with its title, where none was asked for.
+    width: Option<f64>,
     /// Millimetres a pixel of the layout.
     pixel: f64,
 }
@@ -34,6 +34,17 @@ impl Sheet {
         print: None,
         separate: false,
     };
+
+    /// Pictures as on a screen, a pixel being so many millimetres, as PDF too.
+    pub const fn of_pixels(millimetres: f64) -> Self {
+        Self {
+            print: Some(Print {
+                width: None,
+                pixel: millimetres,
+            }),
+            separate: false,
+        }
+    }
 
     /// Pictures `width` mm wide whose text is `font` points high, without titles (captions say
     /// what a figure shows), as PDF too.
@@ -50,7 +61,7 @@ impl Sheet {
         let pixels = (width / pixel).round();
         Ok(Self {
             print: Some(Print {
-                width: pixels,
+                width: Some(pixels),
                 pixel: width / pixels,
             }),
             separate: false,
@@ -68,12 +79,12 @@ impl Sheet {
 
     /// The width of a picture (pixels) that has `width` on a screen.
     pub(super) fn width(&self, width: f64) -> f64 {
-        self.print.map_or(width, |print| print.width)
+        self.print.and_then(|print| print.width).unwrap_or(width)
     }
 
     /// Whether titles are drawn.
     pub(super) fn is_titled(&self) -> bool {
-        self.print.is_none()
+        self.print.is_none_or(|print| print.width.is_none())
     }
 
     /// Millimetres a pixel of the layout; `None` on a screen.
@@ -99,6 +110,8 @@ mod tests {
         assert!((SMALL * pixel / POINT - 7.0).abs() < 0.01);
         assert!((sheet.width(1000.0) * pixel - 85.0).abs() < 1e-9);
         assert_eq!(Sheet::SCREEN.width(1000.0), 1000.0);
+        let page = Sheet::of_pixels(0.18);
+        assert!(page.width(1000.0) == 1000.0 && page.is_titled());
     }
 
     #[test]

@@ -6,11 +6,15 @@
 //! strongest attraction of all pairs from one grid of poses, `certified` bounds it from one
 //! subdivision.
 //!
+//! Around the bond of a word and its own mate everything lies on the bond's slope; what is wrong of
+//! these two are their `traps`: other places that hold.
+//!
 //! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So of
 //! two words and their mates two pairs are worked out, and the others follow.
 
 mod certified;
 mod sampled;
+mod traps;
 
 use nalgebra::Vector2;
 use rayon::prelude::*;
@@ -42,6 +46,9 @@ pub struct Crosstalk {
     pub strongest: Vec<Vec<f64>>,
     /// Where: of the tile with the second word, in the frame of that with the first.
     pub poses: Vec<Vec<Configuration>>,
+    /// Of each word and its own mate the deepest meeting found that holds beside the bond: energy
+    /// (J) and pose; `None` where none was found.
+    pub traps: Vec<Option<(f64, Configuration)>>,
     /// What no energy falls below (J).
     pub lower: Option<Vec<Vec<f64>>>,
     /// Whether all lower bounds are as close as asked for.
@@ -114,6 +121,7 @@ impl Stage {
         let mut crosstalk = Crosstalk {
             words: words.to_vec(),
             strongest: vec![vec![0.0; 2 * m]; 2 * m],
+            traps: self.traps(words),
             poses: vec![vec![Configuration::new(0.0, 0.0, 0.0); 2 * m]; 2 * m],
             lower: bounds.as_ref().map(|_| vec![vec![0.0; 2 * m]; 2 * m]),
             settled: bounds.as_ref().is_none_or(|bounds| bounds.settled),
@@ -165,6 +173,41 @@ impl Stage {
             free_distance: pair.free_distance(),
         };
         Problem::new(space, pair.into(), &self.interaction)
+    }
+}
+
+impl Crosstalk {
+    /// The word with the weakest bond, and its energy (J).
+    pub fn weakest_bond(&self) -> Option<(usize, f64)> {
+        let m = self.words.len();
+        let bonds = (0..m).map(|i| (i, self.strongest[i][m + i]));
+        bonds.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The strongest wrong attraction: rows and columns of two faces that are no word and its own
+    /// mate, or of a trap; its energy (J) and pose.
+    pub fn strongest_wrong(&self) -> Option<([usize; 2], f64, Configuration)> {
+        let (m, n) = (self.words.len(), self.strongest.len());
+        let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        let others = pairs
+            .filter(|(i, j)| i.abs_diff(*j) != m)
+            .map(|(i, j)| ([i, j], self.strongest[i][j], self.poses[i][j]));
+        let traps = self.traps.iter().enumerate();
+        let traps = traps.filter_map(|(i, trap)| trap.map(|(energy, q)| ([i, m + i], energy, q)));
+        others.chain(traps).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The pose of a word and its mate as it is where the word's tile is the first, or else the
+    /// mate's.
+    pub fn seen_from(&self, pose: &Configuration, word_first: bool) -> Configuration {
+        if word_first { *pose } else { exchanged(pose) }
+    }
+
+    /// 1 less the strongest wrong attraction found over the weakest bond.
+    pub fn gap(&self) -> Option<f64> {
+        let bond = self.weakest_bond()?.1;
+        let wrong = self.strongest_wrong().map_or(0.0, |wrong| wrong.1.min(0.0));
+        (bond < 0.0).then(|| 1.0 - wrong / bond)
     }
 }
 

@@ -24,7 +24,7 @@ const POLISHED: usize = 4;
 const FINEST: f64 = 1e-6;
 
 /// Tilt (rad), slide (m), and how far drawn back (m).
-type Setting = [f64; 3];
+pub(super) type Setting = [f64; 3];
 
 impl Stage {
     /// The lowest energy (J) found of each couple, and its pose.
@@ -71,11 +71,8 @@ impl Stage {
             .collect();
         let second_signs: Vec<Vec<f64>> =
             seconds.iter().map(|word| signs(*word).collect()).collect();
-        let face = self.pair.target_face().length();
-        let step = face / n as f64 / SLIDES_A_PLACE;
-        let count = (face / step).round() as i64;
-        for number in -count..=count {
-            let setting = [tilt, number as f64 * step, 0.0];
+        for slide in self.slides() {
+            let setting = [tilt, slide, 0.0];
             let Some(q) = self.placed(setting) else {
                 continue;
             };
@@ -95,8 +92,18 @@ impl Stage {
         best
     }
 
+    /// Slides (m) of the grid, all along the face either way.
+    pub(super) fn slides(&self) -> Vec<f64> {
+        let face = self.pair.target_face().length();
+        let step = face / self.places as f64 / SLIDES_A_PLACE;
+        let count = (face / step).round() as i64;
+        (-count..=count)
+            .map(|number| number as f64 * step)
+            .collect()
+    }
+
     /// The pose of a setting; `None` where the tile passes by.
-    fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
+    pub(super) fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
         let pair = &self.pair;
         let moving = &pair.moving.faces[pair.target.1];
         let flush = face_to_face(pair.target_face(), moving, slide, tilt);
@@ -107,7 +114,11 @@ impl Stage {
     }
 
     /// Compass search from a setting on.
-    fn polished(&self, problem: &Problem, start: Setting) -> Option<(f64, Configuration)> {
+    pub(super) fn polished(
+        &self,
+        problem: &Problem,
+        start: Setting,
+    ) -> Option<(f64, Configuration)> {
         let value = |setting: Setting| {
             let q = self.placed(setting)?;
             Some((problem.energy(&q), q))
@@ -140,7 +151,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Tilts from the fine to the coarse, either way.
-fn tilts() -> Vec<f64> {
+pub(super) fn tilts() -> Vec<f64> {
     let steps = |(step, end): (f64, f64)| {
         let count = (end / step).round() as i32;
         (1..=count).map(move |k| f64::from(k) * step)

@@ -132,6 +132,8 @@ fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
         let drawing = drawn(content);
         let error = at_once(move || outlined(&drawing, ""));
         assert!(error.message.contains(expected), "{content}: {error}");
+        // A hundred zeros are no number to read.
+        assert!(error.message.len() < 90, "{error}");
         assert_eq!(error.place.unwrap().line, 2, "{content}");
     }
     for head in [
@@ -244,10 +246,52 @@ fn lines_that_stay_too_long_are_refused() {
     }
 }
 
+/// Points of a line of teeth of 1 mm, from end to end of a face 0.3 m long.
+fn many_points(count: usize) -> String {
+    let point = |k: usize| {
+        let s = 0.3 * (k as f64 / count as f64 - 0.5);
+        format!("[{s:.7}, {}]", if k % 2 == 1 { 0.001 } else { 0.0 })
+    };
+    let points: Vec<String> = (0..=count).map(point).collect();
+    format!(
+        "profile = {{ shape = \"points\", points = [{}] }}",
+        points.join(", ")
+    )
+}
+
+#[test]
+fn lines_of_thousands_of_points_are_split_soon() {
+    let text = design(
+        "side = 0.4",
+        &format!("0 = {{ {} }}", many_points(3990)),
+        "side = 0.4",
+        (0, 2),
+    );
+    let mate = "[moving.faces]\n2 = { mates = \"0\" }\n[target]";
+    let text = text.replace("[target]", mate);
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || sender.send(Design::parse(&text, "design.toml").map(|_| ())));
+    // A second of a core; without halving the outlines, eighty.
+    let read = receiver.recv_timeout(Duration::from_secs(60));
+    assert_eq!(read.expect("an answer at once"), Ok(()));
+}
+
+#[test]
+fn outlines_of_too_many_points_are_refused_before_they_are_split() {
+    let text = design(
+        "sides = 8\nside = 0.4",
+        &format!("all = {{ {} }}", many_points(3000)),
+        "side = 0.4",
+        (0, 0),
+    );
+    let error = at_once(move || Design::parse(&text, "design.toml"));
+    assert!(error.message.contains("points, more than 10000"), "{error}");
+}
+
 #[test]
 fn what_is_not_read_is_told_in_one_line() {
     let many = format!(
-        "{}<rect width=\"100\" height=\"100\"/>",
+        "<image/>\n{}<rect width=\"100\" height=\"100\"/>",
         "<text/>\n".repeat(20_000)
     );
     let design = outlined(&drawn(&many), "").unwrap();
@@ -259,7 +303,7 @@ fn what_is_not_read_is_told_in_one_line() {
     assert_eq!(doubts.len(), 1);
     let message = &doubts[0].message;
     assert!(
-        message.ends_with("<text> in line 9, and 19992 more"),
+        message.ends_with("<image> in line 2, <text> in line 3 and 19999 more of it"),
         "{message}"
     );
 }

@@ -1,5 +1,6 @@
 //! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
 
+mod cases;
 mod drawing_faults;
 mod drawings;
 mod excess;

@@ -47,7 +47,8 @@ fn table(folder: &Path) -> PathBuf {
         let mut arguments = vec!["energy".to_owned(), design.display().to_string()];
         for i in 0..count {
             let t = f64::from(i);
-            let (distance, direction, theta) = (0.115 + 0.0005 * t, 1.3 * t, 2.1 * t);
+            let (distance, direction) = (0.115 + 0.0005 * t, 1.3 * t);
+            let theta = (2.1 * t) % std::f64::consts::TAU;
             let (x, y) = (distance * direction.cos(), distance * direction.sin());
             arguments.push(format!("--pose={x},{y},{theta}"));
         }

@@ -7,6 +7,7 @@ mod completions;
 mod consistency;
 mod dynamics;
 mod energy;
+mod excess;
 mod first_hour;
 mod kept;
 mod mistakes;

@@ -58,6 +58,53 @@ fn nonsense_is_refused_with_the_mend() {
         &["words", "--length", "8", "--faces", "some"],
         &["words", "--length", "8", "--seconds", "0"],
         &["words", "missing.toml", "--length", "8"],
+        &["words", "--magnets", "4", "--gap", "0.5"],
+        &[
+            "words",
+            "--length",
+            "8",
+            "--gap",
+            "0.5",
+            "--tolerate",
+            "missing=2",
+        ],
+        &[
+            "words",
+            "--length",
+            "8",
+            "--contacts",
+            "4",
+            "--tolerate",
+            "missing=1",
+        ],
+        &["words", "--length", "8", "--contacts", "8"],
+        &["words", "--length", "8", "--min-mismatch", "2,2"],
+        &["words", "--length", "8", "--consecutive", "3:1"],
+        &["words", "--length", "8", "--word-word", "0:-1"],
+        &["words", "--continuous", "--magnets", "4"],
+        &["words", "--continuous", "--magnets", "4", "--count", "30"],
+        &["words", "--continuous", "--magnets", "20", "--count", "1"],
+        &[
+            "words",
+            "--continuous",
+            "--magnets",
+            "4",
+            "--count",
+            "2",
+            "--slots",
+            "9",
+        ],
+        &[
+            "words",
+            "--continuous",
+            "--magnets",
+            "4",
+            "--count",
+            "2",
+            "--pitch",
+            "0.005",
+        ],
+        &["words", "--length", "4", "--face", "0.3", "--count", "2"],
         &["crosstalk", "missing.toml"],
         &["match", "missing.toml"],
     ] {
@@ -146,6 +193,11 @@ fn judged(set: &Path) {
         assert!(strongest[i][mate] < -0.06, "{}", strongest[i][mate]);
     }
     assert_eq!(found["poses"].as_array().unwrap().len(), 2 * m);
+    // A trap holds less than the bond.
+    for (trap, bond) in found["traps_J"].as_array().unwrap().iter().zip(&strongest) {
+        let deepest = bond.iter().copied().fold(0.0, f64::min);
+        assert!(trap.is_null() || trap.as_f64().unwrap() > deepest, "{trap}");
+    }
 }
 
 #[test]
@@ -167,6 +219,27 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
         ("words = [\"NNX\"]", "no pole"),
         ("words = [\"NNS\", \"NNS\"]", "twice"),
         ("words = [\"NNS\"]\nside = 3", "side"),
+        (
+            "words = [\"NNS\"]\n[tile]\nside = 0.05",
+            "need a face of 0.0900 m",
+        ),
+        (
+            "[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }] }",
+            "how long its faces are",
+        ),
+        (
+            "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.05, pole = \"N\" }] }",
+            "reaches beyond",
+        ),
+        (
+            "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }, \
+             { at = 0.005, pole = \"S\" }] }",
+            "overlap",
+        ),
+        (
+            "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.0, pole = \"X\" }] }",
+            "a pole is",
+        ),
         ("words = [\"NNS\"]\n[tile]\nside = -1.0", "above zero"),
         ("words = ", "kit.toml:1"),
     ] {
@@ -179,6 +252,67 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
             stderr(&output)
         );
     }
+}
+
+#[test]
+fn faults_cost_words_and_are_told() {
+    let of = |more: &[&str]| {
+        let arguments = ["words", "--length", "8", "--gap", "0.2", "--json"];
+        json(&[&arguments[..], more].concat())
+    };
+    let (none, missing) = (of(&[]), of(&["--tolerate", "missing=1"]));
+    let count = |found: &Value| found["count"].as_u64().unwrap();
+    assert!(0 < count(&missing) && count(&missing) < count(&none));
+    assert_eq!(missing["settings"]["tolerate"], "missing=1");
+    assert!(missing["gap"].as_f64().unwrap() >= 0.2);
+    // Two of eight magnets may be gone.
+    assert!(missing["bond_J"].as_f64().unwrap() < 0.77 * none["bond_J"].as_f64().unwrap());
+    assert_eq!(missing["worst"]["faulty"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("spaced");
+    let run = |threads: &str| {
+        json(&[
+            "words",
+            "--continuous",
+            "--magnets",
+            "3",
+            "--pitch",
+            "0.02",
+            "--count",
+            "2",
+            "--seconds",
+            "0.3",
+            "--threads",
+            threads,
+            "--out",
+            out.to_str().unwrap(),
+            "--json",
+        ])
+    };
+    let (one, two) = (run("1"), run("2"));
+    assert_eq!(one, two, "the same on any number of threads");
+    assert_eq!((&one["count"], &one["proved"]), (&2.into(), &false.into()));
+    assert!(one["upper_bound"].is_null());
+    for positions in one["positions_m"].as_array().unwrap() {
+        let positions = numbers(positions);
+        assert!(
+            positions
+                .windows(2)
+                .all(|two| two[1] - two[0] >= 0.02 - 2e-6),
+            "{positions:?}"
+        );
+    }
+    // The file of the set is judged as the set was.
+    let set = out.join("words.toml");
+    let judged = json(&["crosstalk", set.to_str().unwrap(), "--json"]);
+    assert_eq!(judged["gap"], one["gap"]);
+    assert_eq!(judged["bond_J"], one["bond_J"]);
+    let text = std::fs::read_to_string(&set).unwrap();
+    assert!(text.contains("magnets = [{ at = "), "{text}");
 }
 
 #[test]

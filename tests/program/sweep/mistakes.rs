@@ -7,7 +7,7 @@ use crate::program::stderr;
 fn wrong_axes_designs_and_parts_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("new");
-    let wrong: [(&[&str], &str); 11] = [
+    let wrong: [(&[&str], &str); 14] = [
         (
             &[
                 DESIGN,
@@ -47,6 +47,24 @@ fn wrong_axes_designs_and_parts_are_refused() {
                 "mass=0:1:2000",
             ],
             "more than",
+        ),
+        (
+            &[DESIGN, "--vary", "depth=0:0.01:3"],
+            "such as `fixed.faces.east.profile.depth`",
+        ),
+        (
+            &[
+                DESIGN,
+                "--vary",
+                "magnet.pitch=0.03,0.04",
+                "--baseline",
+                "pitch=5",
+            ],
+            "such as `pitch=0.03`",
+        ),
+        (
+            &[DESIGN, "--vary", "magnet.pitch=0.03,0.04", "--refine", "2"],
+            "three values or more",
         ),
         (&["tests/designs/bad/no-size.toml"], "no-size.toml"),
         (&["--vary", "magnet.pitch=1"], "DESIGNS"),

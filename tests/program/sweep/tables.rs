@@ -89,3 +89,38 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
         );
     }
 }
+
+/// All points are set against one that is named, and points are added where the figures bend; the
+/// same sweep again has nothing to do and ends in the same bytes.
+#[test]
+fn points_are_set_against_one_and_added_where_figures_bend() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let depth = format!("{DEPTH}=0:0.04:3");
+    let what = [
+        DESIGN,
+        "--vary",
+        &depth,
+        "--baseline",
+        "depth=0 mm",
+        "--refine",
+        "2",
+    ];
+    let arguments = [&what[..], &QUICK, &["--out", text(&out)]].concat();
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let told = crate::program::stdout(&output);
+    assert!(told.contains("x depth = 0 mm"), "{told}");
+    let first = contents(&out);
+    let json: Value = serde_json::from_slice(&first["sweep.json"]).unwrap();
+    assert_eq!(json["baseline"], 0);
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points.len(), 5, "{told}");
+    let depths: Vec<f64> = points
+        .iter()
+        .map(|point| point["values"][DEPTH].as_f64().unwrap())
+        .collect();
+    assert!(depths.is_sorted() && depths.contains(&0.02), "{depths:?}");
+    assert_eq!(run(&arguments).status.code(), Some(0));
+    assert!(first == contents(&out));
+}

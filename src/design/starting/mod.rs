@@ -1,11 +1,17 @@
 //! Designs to start from, written to measure: sound as they are.
 
+mod code;
+mod shape;
+
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 use super::quantity::{four_digits, rounded_down};
 use super::{Design, DesignError};
 use crate::tile::barcode::Barcode;
+
+use code::code;
+pub use shape::Shape;
 
 /// Magnets that are sold (m): along the axis, along the face, through the thickness.
 const BLOCKS: [[f64; 3]; 5] = [
@@ -17,8 +23,16 @@ const BLOCKS: [[f64; 3]; 5] = [
 ];
 /// Widest spacing of magnets (m), that of the paper's tile.
 const WIDEST: f64 = 0.040;
-/// Least spacing, in widths of a magnet: closer ones hardly tell one code from another.
+/// Least spacing, in widths of a magnet, and that of the smallest magnets: closer ones hardly tell
+/// one code from another.
+const CLOSE: f64 = 2.0;
 const CLOSEST: f64 = 1.6;
+/// Length of a code over that of its side, as on the paper's tile, where the magnets' sizes leave
+/// the choice: from farther apart, single magnets catch what comes from elsewhere (a square with
+/// four magnets over three quarters of its side captures 24 % of far starts, over a quarter 44 %).
+const COMPACT: f64 = 0.28;
+/// A code of fewer gaps than this is shorter.
+const GAPS: usize = 3;
 /// Least way from a tile's middle to its faces, in magnets: what lies on one face is not to act
 /// through the tile on others.
 const ACROSS: f64 = 8.0;
@@ -32,63 +46,6 @@ const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
 const MOST_SIDES: u32 = 24;
 /// Most magnets: the codes for more are not searched here.
 const MOST_MAGNETS: usize = 16;
-
-/// The line that the target faces follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Straight.
-    Flat,
-    /// A trapezoid with leaning sides.
-    Tab,
-    /// A segment of a circle.
-    Arc,
-    /// A sine wave.
-    Sine,
-    /// A triangle wave.
-    Triangle,
-}
-
-impl Shape {
-    /// The shapes by name.
-    pub const NAMES: [(&str, Self); 5] = [
-        ("flat", Self::Flat),
-        ("tab", Self::Tab),
-        ("arc", Self::Arc),
-        ("sine", Self::Sine),
-        ("triangle", Self::Triangle),
-    ];
-
-    /// The profile on a face of the given length (m), as a design file has it, with what it is
-    /// called.
-    fn profile(self, side: f64) -> Option<(String, &'static str)> {
-        let part = |share: f64| rounded_down(side * share);
-        let teeth = |form: &str| {
-            let depth = part(0.03);
-            format!("{{ shape = \"teeth\", form = \"{form}\", count = 2, depth = {depth} }}")
-        };
-        match self {
-            Self::Flat => None,
-            Self::Tab => Some((
-                format!(
-                    "{{ shape = \"tab\", width = {}, depth = {}, draft = 0.3 }}",
-                    part(0.47),
-                    part(0.047)
-                ),
-                "a tab in its slot",
-            )),
-            Self::Arc => Some((
-                format!(
-                    "{{ shape = \"arc\", width = {}, depth = {} }}",
-                    part(0.6),
-                    part(0.047)
-                ),
-                "an arc in its hollow",
-            )),
-            Self::Sine => Some((teeth("sine"), "two waves in theirs")),
-            Self::Triangle => Some((teeth("triangle"), "two teeth in theirs")),
-        }
-    }
-}
 
 /// What a design to start from is to be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,26 +87,15 @@ fn wrong(wrong: impl Into<String>, mend: impl Into<String>) -> StartError {
 }
 
 impl Start {
-    /// The text of a design file called `name`: magnets as large and as far apart as there is room
-    /// for, with the code that slides least into wrong places, on the target faces alone.
+    /// The text of a design file called `name`: magnets spaced and sized about as on the paper's
+    /// tile, with the code that slides least into wrong places, on the target faces alone.
     ///
     /// # Errors
     /// Where there is no such tile or no room for the magnets.
     pub fn design(&self, name: &str) -> Result<String, StartError> {
         self.check()?;
-        let inner = self.radius() * (PI / f64::from(self.sides)).cos();
-        let largest = (inner / ACROSS).max(BLOCKS[BLOCKS.len() - 1][0]);
-        let roomy = BLOCKS.iter().filter(|block| block[0] <= largest);
-        let roomy = roomy.flat_map(|block| {
-            let room = (USED * self.side - block[1]) / (self.magnets.max(2) - 1) as f64;
-            // Closer ones keep clear of flanks.
-            let pitches = [1.0, 0.9, 0.8, 0.7].map(|share| tenths(share * room.min(WIDEST)));
-            let pitches = pitches.into_iter();
-            let enough = pitches.filter(|pitch| *pitch >= CLOSEST * block[1]);
-            enough.map(|pitch| (*block, pitch))
-        });
         let mut last = None;
-        for (block, pitch) in roomy {
+        for (block, pitch) in self.rows() {
             // As far behind the surface as curved lines need, and no farther.
             for inset in (0..=8).map(|k| tenths(block[0] * f64::from(k) / 10.0)) {
                 let text = self.text(name, block, pitch, inset);
@@ -161,6 +107,27 @@ impl Start {
             }
         }
         Err(self.no_room(last))
+    }
+
+    /// Magnets with their spacings (m), the best first.
+    fn rows(&self) -> Vec<([f64; 3], f64)> {
+        let inner = self.radius() * (PI / f64::from(self.sides)).cos();
+        let smallest = BLOCKS[BLOCKS.len() - 1];
+        let gaps = self.magnets.max(2) - 1;
+        let wanted = (COMPACT * self.side / gaps.max(GAPS) as f64).min(WIDEST);
+        let fits = |block: &[f64; 3]| block[0] <= inner / ACROSS && CLOSE * block[1] <= wanted;
+        let blocks = BLOCKS.into_iter().filter(|b| fits(b) || *b == smallest);
+        let rows = blocks.flat_map(|block| {
+            let room = (USED * self.side - block[1]) / gaps as f64;
+            let least = CLOSEST * block[1];
+            // Closer ones keep clear of flanks, and so may wider ones.
+            let pitches = [1.0, 0.9, 0.8, 0.7, 1.2, 1.5];
+            let pitches = pitches.map(|share| tenths(share * wanted.max(least)));
+            let pitches = pitches.into_iter();
+            let allowed = pitches.filter(move |pitch| (least..=room).contains(pitch));
+            allowed.map(move |pitch| (block, pitch))
+        });
+        rows.collect()
     }
 
     fn check(&self) -> Result<(), StartError> {
@@ -287,43 +254,4 @@ moving = \"{to}\"
 /// Down to tenths of a millimetre.
 fn tenths(length: f64) -> f64 {
     four_digits((length * 1e4 + 1e-6).floor() / 1e4)
-}
-
-/// The code whose strongest wrong match with its own mate is weakest: slid by k places, the places
-/// that attract less those that repel. Of several the first, `N` before `S`.
-fn code(magnets: usize) -> String {
-    let worst = |bits: u32| {
-        let slid = (1..magnets).map(|k| {
-            let differ = (bits ^ (bits >> k)) & ((1 << (magnets - k)) - 1);
-            (magnets - k) as i32 - 2 * differ.count_ones() as i32
-        });
-        slid.max().unwrap_or(0)
-    };
-    let best =
-        (0..1_u32 << (magnets - 1)).min_by_key(|&bits| (worst(bits), bits.count_ones(), bits));
-    let best = best.unwrap_or(0);
-    let letter = |k: usize| match best >> (magnets - 1 - k) & 1 {
-        0 => 'N',
-        _ => 'S',
-    };
-    (0..magnets).map(letter).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn codes_are_those_that_slide_least() {
-        assert_eq!((code(1), code(4)), ("N".to_owned(), "NNNS".to_owned()));
-        // Barker's: no slide leaves more than one magnet's worth of attraction.
-        for magnets in [2, 3, 4, 5, 7, 11, 13] {
-            let code: Vec<i32> = code(magnets)
-                .bytes()
-                .map(|b| if b == b'N' { 1 } else { -1 })
-                .collect();
-            let slid = |k: usize| code.iter().zip(&code[k..]).map(|(a, b)| a * b).sum::<i32>();
-            assert!((1..magnets).all(|k| slid(k) <= 1), "{code:?}");
-        }
-    }
 }

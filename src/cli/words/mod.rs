@@ -1,19 +1,23 @@
 //! `tilebind words`.
 
+mod asked;
+mod continuous;
+mod values;
+
 use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::design::MagnetModel;
+use tilebind::report::files::Files;
 use tilebind::report::words::{self as report, Request};
 use tilebind::report::writer;
 use tilebind::words::budget::Budget;
 use tilebind::words::search::Effort;
-use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{Bar, Constraints, Faces, Lags, Question, Rules, Shape, Task, answer};
+use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use super::options::{PrintOptions, WorkOptions};
-use super::word::Word;
 use super::{Failure, input, interrupt, tell};
+use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
@@ -33,6 +37,7 @@ Examples:
   tilebind words --length 8                                # gap against number of words
   tilebind words --length 12 --gap 0.8 --shape polar
   tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
+  tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
   tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2"
 )]
 pub struct Words {
@@ -41,7 +46,7 @@ pub struct Words {
     design: Option<PathBuf>,
 
     /// Magnets of a word
-    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present = "slots")]
+    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present_any = ["slots", "magnets"])]
     length: Option<usize>,
 
     /// Least gap, from 0 to 1
@@ -76,11 +81,27 @@ pub struct Words {
     #[arg(long, value_name = "N", value_parser = input::count)]
     slots: Option<usize>,
 
-    /// Magnets of a word with --slots [default: --length]
-    #[arg(long, value_name = "K", value_parser = input::count, requires = "slots")]
+    /// Magnets of a word with --slots or --continuous [default: --length]
+    #[arg(long, value_name = "K", value_parser = input::count)]
     magnets: Option<usize>,
 
-    /// From place to place (m) [default: the design's, or 0.04]
+    /// Magnets may lie anywhere along the face: positions and poles are found together, with wrong
+    /// meetings judged over all poses, tilted ones too. Takes --gap or --count
+    #[arg(long, conflicts_with_all = ["slots", "contacts", "shape", "min_mismatch", "consecutive",
+          "min_bond", "tolerate", "word_word", "word_mate", "mate_mate"])]
+    continuous: bool,
+
+    /// Length of the face (m) with --continuous [default: the design's, or 0.43]
+    #[arg(long, value_name = "M", value_parser = input::length, requires = "continuous")]
+    face: Option<f64>,
+
+    /// The gap holds though one magnet of every face is missing (missing=1) or the wrong way round
+    /// (flipped=1): bonds and wrong meetings are those of the worst such faults
+    #[arg(long, value_name = "FAULT", value_parser = fault(), conflicts_with = "contacts",
+          hide_possible_values = true)]
+    tolerate: Option<Fault>,
+
+    /// From place to place (m), the least spacing with --continuous [default: the design's, or 0.04]
     #[arg(long, value_name = "M", value_parser = input::positive)]
     pitch: Option<f64>,
 
@@ -142,16 +163,20 @@ impl Words {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let (places, magnets) = self.places()?;
-        let (bar, design) = self.bar()?;
+        let (bar, face, design) = self.bar()?;
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
         }
         self.work.use_threads()?;
+        if self.continuous {
+            return self.run_continuous(magnets, bar, self.face.unwrap_or(face));
+        }
         let energies = Lags::new(&bar, places);
         let rules = Rules {
             faces: self.faces,
             shape: self.shape,
             flip: self.flip,
+            fault: self.tolerate,
         };
         let (question, lags) = match (self.contacts, self.gap, self.count) {
             (Some(most), _, _) => {
@@ -188,171 +213,33 @@ impl Words {
             tell("note: the clock ended the search; the same command may find other words");
         }
         let json = report::json(&request, &answer);
+        self.finish(
+            &json,
+            || report::files(&request, &answer),
+            || report::summary(&request, &answer),
+        )
+    }
+
+    /// Writes the files, if a folder is given, and prints.
+    fn finish(
+        &self,
+        json: &str,
+        files: impl FnOnce() -> Files,
+        summary: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
         if let Some(folder) = &self.out {
-            let files = report::files(&request, &answer);
+            let files = files();
             let kept = interrupt::without(|| writer::write(folder, &files))?;
             for path in kept {
                 tell(format!("note: kept what was there as {}", path.display()));
             }
         }
-        self.print.results(&json, || {
-            let mut text = report::summary(&request, &answer);
+        self.print.results(json, || {
+            let mut text = summary();
             if let Some(folder) = &self.out {
                 text += &format!("results in {}: {}\n", folder.display(), report::FILES);
             }
             text
         })
     }
-
-    /// Places and magnets of a word.
-    fn places(&self) -> Result<(usize, usize), Failure> {
-        let wrong = |message: String| Err(Failure::Usage(message));
-        let (places, magnets) = match (self.slots, self.length) {
-            (Some(slots), length) => match (self.magnets, length) {
-                (Some(magnets), Some(length)) if length != magnets && length != slots => {
-                    return wrong(format!(
-                        "--length {length} is neither --magnets {magnets} nor --slots {slots}: \
-                         leave it out"
-                    ));
-                }
-                (Some(magnets), _) => (slots, magnets),
-                (None, Some(length)) => (slots, length),
-                (None, None) => {
-                    return wrong("say how many of the slots hold magnets: --magnets 4".to_owned());
-                }
-            },
-            (None, Some(length)) => (length, length),
-            (None, None) => return wrong("say how long words are: --length 8".to_owned()),
-        };
-        if places > MOST_PLACES {
-            return wrong(format!(
-                "a word of {places} places is too long: give at most {MOST_PLACES}"
-            ));
-        }
-        if magnets > places {
-            return wrong(format!(
-                "{magnets} magnets do not fit into {places} slots: give --slots {magnets} or more"
-            ));
-        }
-        if let Some(most) = self.contacts.filter(|most| *most >= magnets) {
-            return wrong(format!(
-                "--contacts {most} forbids nothing: words of {magnets} magnets have at most \
-                 {magnets}; give fewer"
-            ));
-        }
-        Ok((places, magnets))
-    }
-
-    /// The magnets, and the name of the design that they are of.
-    fn bar(&self) -> Result<(Bar, Option<String>), Failure> {
-        let Some(path) = &self.design else {
-            let paper = Bar::paper();
-            return Ok((
-                Bar {
-                    pitch: self.pitch.unwrap_or(paper.pitch),
-                    model: self.model.unwrap_or(paper.model),
-                    ..paper
-                },
-                None,
-            ));
-        };
-        let design = input::load_as(path, self.model)?;
-        let usage = |message: String| Failure::Usage(format!("{}: {message}", path.display()));
-        let pitch = self
-            .pitch
-            .or(design.pitch)
-            .ok_or_else(|| usage("it gives no pitch; say it: --pitch 0.04".to_owned()))?;
-        let pair = &design.pair;
-        let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch).map_err(
-            |error| {
-                usage(format!(
-                    "{error}; words need equal magnets behind a flat face, as in \
-                     shapes/paper-tile.toml"
-                ))
-            },
-        )?;
-        Ok((bar, Some(design.name)))
-    }
-
-    fn constraints(
-        &self,
-        bar: &Bar,
-        places: usize,
-        magnets: usize,
-    ) -> Result<Constraints, Failure> {
-        let width = bar.size[1];
-        let least_spacing = (width / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
-        if (magnets - 1) * least_spacing >= places {
-            return Err(Failure::Usage(format!(
-                "magnets {} mm wide do not fit side by side {} mm apart: give --pitch {width} or \
-                 more, or more --slots",
-                1e3 * width,
-                1e3 * bar.pitch
-            )));
-        }
-        let [mismatches, complement_mismatches, slide_mismatches] =
-            self.min_mismatch.unwrap_or_default();
-        let range = |range: Option<[f64; 2]>| range.map(|[low, high]| low..=high);
-        Ok(Constraints {
-            balanced: self.balanced,
-            longest_run: self.max_run,
-            least_spacing,
-            mismatches,
-            complement_mismatches,
-            slide_mismatches,
-            consecutive: self.consecutive.map(|[low, high]| low..=high),
-            least_bond: self.min_bond,
-            ranges: [self.word_word, self.word_mate, self.mate_mate].map(range),
-        })
-    }
-}
-
-/// A gap.
-fn gap(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|gap: &f64| (0.0..=1.0).contains(gap))
-        .ok_or_else(|| "a gap lies between 0 (wrong as strong as right) and 1".to_owned())
-}
-
-fn faces() -> Word<Faces> {
-    let names = [("all", Faces::All), ("mates", Faces::Mates)];
-    Word::new(&names, "faces are all or mates".to_owned())
-}
-
-fn shape() -> Word<Shape> {
-    let names = [
-        ("none", Shape::None),
-        ("shared", Shape::Shared),
-        ("polar", Shape::Polar),
-    ];
-    Word::new(&names, "a shape is none, shared or polar".to_owned())
-}
-
-fn mismatches(text: &str) -> Result<[usize; 3], String> {
-    let parts: Option<Vec<usize>> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect();
-    parts
-        .and_then(|parts| parts.try_into().ok())
-        .ok_or_else(|| "three whole numbers are needed, such as 2,2,0".to_owned())
-}
-
-fn whole_range(text: &str) -> Result<[usize; 2], String> {
-    let wrong = || "a range is A:B in whole numbers, such as 0:3".to_owned();
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let [low, high] = [low, high].map(|part| part.trim().parse().ok());
-    let range = low.zip(high).filter(|(low, high)| low <= high);
-    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
-}
-
-fn range(text: &str) -> Result<[f64; 2], String> {
-    let wrong = || "a range is E:E in J, from the lower to the higher, such as -0.02:0".to_owned();
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| !x.is_nan());
-    let range = number(low)
-        .zip(number(high))
-        .filter(|(low, high)| low <= high);
-    range.map(|(low, high)| [low, high]).ok_or_else(wrong)
 }

@@ -6,17 +6,17 @@
 //! one, of words that the least B admits and limits that the largest one allows; where its largest
 //! clique has the gap asked for the range is settled, and else it is halved.
 
+mod many;
+mod symmetric;
+
 use std::ops::RangeInclusive;
 
-use rand::SeedableRng;
-use rand::seq::index::sample;
-use rand_chacha::ChaCha8Rng;
+use symmetric::symmetric;
 
 use super::budget::Budget;
 use super::candidates::Candidates;
 use super::clique::{self, Clique};
 use super::graph::Graph;
-use super::rules::bond;
 use super::word::Word;
 use super::{Task, local};
 
@@ -64,20 +64,20 @@ const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
 /// Weakest bonds tried where nothing is proved of the whole range.
 const LADDER: usize = 8;
-/// Where the words are too many for a graph to be held: so many of them are looked at first, at so
-/// many weakest bonds, each with this share of the work left.
-const SAMPLED: usize = 8000;
-const SAMPLED_BONDS: usize = 2;
-const FOR_A_SAMPLE: f64 = 0.35;
 
 /// The largest set of words with at least this gap; one of `enough` words will do.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
     let limit = |bond: f64| (1.0 - gap) * bond * (1.0 + SAME);
-    let first = Candidates::new(task, limit(task.deepest_bond()), effort.seed);
+    let first = Candidates::new(
+        task,
+        limit(task.deepest_bond()),
+        effort.seed,
+        effort.budget.left(),
+    );
     let mut words: Vec<(f64, Word)> = first
         .words
         .iter()
-        .map(|word| (bond(&task.lags, *word), *word))
+        .map(|word| (task.rules.bond(&task.lags, *word), *word))
         .filter(|(bond, _)| *bond > 0.0)
         .collect();
     // The deepest bond that there is allows less than the deepest one thinkable.
@@ -168,7 +168,7 @@ impl<'a> Search<'a> {
             return graph.len();
         }
         if !graph.is_held() {
-            self.sampled(first, last);
+            self.among_many(first, last);
             return graph.len();
         }
         let mut found = self.clique(&graph);
@@ -287,66 +287,4 @@ impl<'a> Search<'a> {
             self.accept(&graph, &members);
         }
     }
-
-    /// Searches where the words are too many for a graph to be held: among some of them, at a few
-    /// weakest bonds; then the best set grows and is exchanged among all.
-    fn sampled(&mut self, first: usize, last: usize) {
-        let mut rng = ChaCha8Rng::seed_from_u64(self.effort.seed);
-        let mut best: Option<(Vec<Word>, Graph<'a>)> = None;
-        for step in (1..=SAMPLED_BONDS).rev() {
-            let at = first + (last - first) * step / SAMPLED_BONDS;
-            let graph = self.graph(at..=at);
-            let most = graph.len().min(SAMPLED);
-            let mut chosen = sample(&mut rng, graph.len(), most).into_vec();
-            chosen.sort_unstable();
-            let words = chosen.iter().map(|v| graph.words[*v]).collect();
-            let part_graph = graph.among(words);
-            let mut part = self.effort.budget.share(FOR_A_SAMPLE);
-            part.spend(part_graph.work());
-            let (enough, seed) = (self.enough, self.effort.seed);
-            let members = local::search(&part_graph, Vec::new(), enough, seed, &mut part);
-            self.effort.budget.give_back(&part);
-            let set: Vec<Word> = members.iter().map(|v| part_graph.words[*v]).collect();
-            if best
-                .as_ref()
-                .is_none_or(|(words, _)| set.len() > words.len())
-            {
-                best = Some((set, graph));
-            }
-        }
-        let Some((set, graph)) = best else {
-            return;
-        };
-        let known = set
-            .iter()
-            .filter_map(|word| graph.words.binary_search(word).ok());
-        let known: Vec<usize> = known.collect();
-        let (enough, seed) = (self.enough, self.effort.seed);
-        let members = local::search(&graph, known, enough, seed, &mut self.effort.budget);
-        self.accept(&graph, &members);
-    }
-}
-
-/// A large clique of those that keep a symmetry of the graph, from a known one on.
-fn symmetric(
-    graph: &Graph,
-    mut best: Vec<usize>,
-    enough: usize,
-    seed: u64,
-    budget: &mut Budget,
-) -> Vec<usize> {
-    let symmetries = graph.symmetries();
-    for (number, image) in symmetries.iter().enumerate() {
-        let mut part = budget.share(1.0 / (symmetries.len() - number) as f64);
-        let (folded, pairs) = graph.folded(image);
-        let found = local::search(&folded, Vec::new(), enough.div_ceil(2), seed, &mut part);
-        let mut members: Vec<usize> = found.iter().flat_map(|k| pairs[*k]).collect();
-        members.sort_unstable();
-        members.dedup();
-        if members.len() > best.len() {
-            best = members;
-        }
-        budget.give_back(&part);
-    }
-    best
 }

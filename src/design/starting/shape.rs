@@ -1,0 +1,60 @@
+//! Lines that target faces follow.
+
+use crate::design::quantity::rounded_down;
+
+/// The line that the target faces follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Straight.
+    Flat,
+    /// A trapezoid with leaning sides.
+    Tab,
+    /// A segment of a circle.
+    Arc,
+    /// A sine wave.
+    Sine,
+    /// A triangle wave.
+    Triangle,
+}
+
+impl Shape {
+    /// The shapes by name.
+    pub const NAMES: [(&str, Self); 5] = [
+        ("flat", Self::Flat),
+        ("tab", Self::Tab),
+        ("arc", Self::Arc),
+        ("sine", Self::Sine),
+        ("triangle", Self::Triangle),
+    ];
+
+    /// The profile on a face of the given length (m), as a design file has it, with what it is
+    /// called.
+    pub(super) fn profile(self, side: f64) -> Option<(String, &'static str)> {
+        let part = |share: f64| rounded_down(side * share);
+        let teeth = |form: &str| {
+            let depth = part(0.03);
+            format!("{{ shape = \"teeth\", form = \"{form}\", count = 2, depth = {depth} }}")
+        };
+        match self {
+            Self::Flat => None,
+            Self::Tab => Some((
+                format!(
+                    "{{ shape = \"tab\", width = {}, depth = {}, draft = 0.3 }}",
+                    part(0.47),
+                    part(0.047)
+                ),
+                "a tab in its slot",
+            )),
+            Self::Arc => Some((
+                format!(
+                    "{{ shape = \"arc\", width = {}, depth = {} }}",
+                    part(0.6),
+                    part(0.047)
+                ),
+                "an arc in its hollow",
+            )),
+            Self::Sine => Some((teeth("sine"), "two waves in theirs")),
+            Self::Triangle => Some((teeth("triangle"), "two teeth in theirs")),
+        }
+    }
+}

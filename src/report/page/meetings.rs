@@ -1,0 +1,189 @@
+//! Meetings of a set of words: all faces against all.
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use super::{finite, fixed};
+use crate::configuration::Configuration;
+use crate::tile::Magnet;
+use crate::words::Word;
+
+/// A map of all faces, words and then their mates, against all: the strongest wrong meeting of each
+/// two, which a click shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Meetings {
+    /// The heading.
+    pub title: String,
+    /// What a cell is.
+    pub note: String,
+    /// Of the faces.
+    pub names: Vec<String>,
+    /// What they carry.
+    pub codes: Vec<String>,
+    /// Energies (J), null of faces that do not meet.
+    #[serde(rename = "energies_J")]
+    energies: Vec<Vec<Option<f64>>>,
+    /// Proved lower bounds (J); empty where nothing is proved.
+    #[serde(rename = "lower_J")]
+    lower: Vec<Vec<Option<f64>>>,
+    /// Of the tile with the second face in the frame of that with the first.
+    poses: Vec<Vec<Option<[f64; 3]>>>,
+    /// Whether the second tile is turned over; empty where none ever is.
+    over: Vec<Vec<bool>>,
+    /// Depth of the weakest bond (J).
+    #[serde(rename = "bond_J")]
+    bond: f64,
+    /// The meeting that is shown first.
+    worst: [usize; 2],
+    /// The outline of both tiles.
+    outline: Vec<[f64; 2]>,
+    /// The magnets of each face where its tile is the first, and where it is the second.
+    first: Vec<Vec<Block>>,
+    /// See there.
+    second: Vec<Vec<Block>>,
+}
+
+/// A magnet.
+#[derive(Clone, Debug, Serialize)]
+struct Block {
+    position: [f64; 2],
+    angle: f64,
+    size: [f64; 2],
+}
+
+/// One meeting of two faces.
+#[derive(Clone, Copy, Debug)]
+pub struct Met {
+    /// J.
+    pub energy: f64,
+    /// Proved lower bound (J).
+    pub lower: Option<f64>,
+    /// Of the second tile.
+    pub pose: Configuration,
+    /// Whether the second tile is turned over.
+    pub over: bool,
+}
+
+/// The square tiles that carry the words.
+#[derive(Clone, Debug)]
+pub struct Carrier {
+    /// Side of the tiles (m).
+    pub side: f64,
+    /// Where the places lie along a face (m).
+    pub places: Vec<f64>,
+    /// Along a magnet's axis and along the face (m).
+    pub size: [f64; 2],
+    /// From the face to a magnet's outer end (m).
+    pub inset: f64,
+}
+
+impl Carrier {
+    /// The magnets of a word on the east face of the first tile or the west face of the second.
+    fn blocks(&self, word: Word, east: bool) -> Vec<Block> {
+        let depth = self.side / 2.0 - self.inset - self.size[0] / 2.0;
+        let sign = if east { 1.0 } else { -1.0 };
+        let magnets = self.places.iter().enumerate();
+        magnets
+            .filter(|(k, _)| word.at(*k) != 0)
+            .map(|(k, at)| Block {
+                position: [fixed(sign * depth, 6), fixed(sign * at, 6)],
+                // A north pole outwards.
+                angle: match (word.at(k) > 0) == east {
+                    true => 0.0,
+                    false => std::f64::consts::PI,
+                },
+                size: self.size,
+            })
+            .collect()
+    }
+
+    /// Of two tiles that lie along each other: the second one `slide` (m) along the first one's face.
+    pub fn flush(&self, slide: f64) -> Configuration {
+        Configuration::new(self.side, slide, 0.0)
+    }
+
+    /// Of a tile made elsewhere: where its places' magnets lie and how large they are.
+    pub fn of_magnets(
+        side: f64,
+        normal: Vector2<f64>,
+        magnets: &[Magnet],
+        places: Vec<f64>,
+    ) -> Self {
+        let first = magnets.first();
+        let size = first.map_or([0.0; 2], |magnet| [magnet.size[0], magnet.size[1]]);
+        let out = first.map_or(0.0, |magnet| magnet.position.dot(&normal));
+        Self {
+            side,
+            places,
+            inset: side / 2.0 - out - size[0] / 2.0,
+            size,
+        }
+    }
+}
+
+impl Meetings {
+    /// Of faces with their names and words, `met` telling of every two of them (rows, columns).
+    pub fn new(
+        carrier: &Carrier,
+        faces: &[(String, String, Word)],
+        bond: f64,
+        met: impl Fn(usize, usize) -> Option<Met>,
+    ) -> Self {
+        let n = faces.len();
+        let all: Vec<Vec<Option<Met>>> = (0..n)
+            .map(|i| (0..n).map(|j| met(i, j)).collect())
+            .collect();
+        fn table<T>(all: &[Vec<Option<Met>>], pick: impl Fn(&Option<Met>) -> T) -> Vec<Vec<T>> {
+            all.iter()
+                .map(|row| row.iter().map(&pick).collect())
+                .collect()
+        }
+        let energy = |&(i, j): &(usize, usize)| all[i][j].map_or(f64::INFINITY, |met| met.energy);
+        let pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let worst = pairs
+            .min_by(|a, b| energy(a).total_cmp(&energy(b)))
+            .unwrap_or((0, 0));
+        let any = |has: fn(&Met) -> bool| all.iter().flatten().flatten().any(has);
+        let or_none = |some: bool, table: Vec<Vec<bool>>| if some { table } else { Vec::new() };
+        let half = carrier.side / 2.0;
+        Self {
+            title: String::new(),
+            note: String::new(),
+            names: faces.iter().map(|face| face.0.clone()).collect(),
+            codes: faces.iter().map(|face| face.1.clone()).collect(),
+            energies: table(&all, |met| met.and_then(|met| finite(met.energy, 5))),
+            lower: match any(|met| met.lower.is_some()) {
+                true => table(&all, |met| met.and_then(|met| finite(met.lower?, 5))),
+                false => Vec::new(),
+            },
+            poses: table(&all, |met| {
+                met.map(|met| met.pose.to_array().map(|x| fixed(x, 6)))
+            }),
+            over: or_none(
+                any(|met| met.over),
+                table(&all, |met| met.is_some_and(|met| met.over)),
+            ),
+            bond,
+            worst: [worst.0, worst.1],
+            outline: vec![[half, -half], [half, half], [-half, half], [-half, -half]],
+            first: faces
+                .iter()
+                .map(|face| carrier.blocks(face.2, true))
+                .collect(),
+            second: faces
+                .iter()
+                .map(|face| carrier.blocks(face.2, false))
+                .collect(),
+        }
+    }
+
+    /// With a heading and what a cell is.
+    #[must_use]
+    pub fn titled(self, title: &str, note: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            note: note.to_owned(),
+            ..self
+        }
+    }
+}

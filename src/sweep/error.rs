@@ -1,0 +1,41 @@
+//! Why there is no such sweep.
+
+use super::plan::MOST_POINTS;
+use crate::design::DesignError;
+
+/// Why there is no such sweep.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A point is no design that can be built.
+    #[error(transparent)]
+    Design(#[from] Box<DesignError>),
+    /// A key is varied by two axes.
+    #[error("`{0}` is varied twice")]
+    Twice(String),
+    /// There are more points than can be handled.
+    #[error("the sweep has {0} points, more than {MOST_POINTS}")]
+    TooMany(u128),
+    /// Two designs have one name.
+    #[error("two designs are called `{0}`: give them different names")]
+    SameName(String),
+    /// No point is called so.
+    #[error("no point is `{0}`: name a design, or values that are varied, such as `{1}`")]
+    NoBaseline(String, String),
+    /// A key cannot be varied.
+    #[error("`{path}` cannot be varied: {reason}")]
+    Unknown {
+        /// Its path in the design.
+        path: String,
+        /// Why not.
+        reason: String,
+    },
+    /// No point is a design that can be built.
+    #[error("none of the {0} points is possible; the first: {1}")]
+    NonePossible(usize, String),
+    /// What was read is no manifest.
+    #[error("this is no manifest of a sweep: {0}")]
+    Malformed(String),
+    /// The manifest was written by another version.
+    #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
+    Version(String),
+}

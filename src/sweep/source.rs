@@ -1,0 +1,120 @@
+//! The designs that a sweep varies.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use toml::Table;
+
+use super::vary::{Axis, Value};
+use super::{document, drawings};
+use crate::checksum::sha256;
+use crate::design::{Design, DesignError, file};
+
+/// A design that is varied.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// Its name.
+    pub name: String,
+    /// Its file as it was named.
+    pub file: String,
+    /// SHA-256 of the file's bytes.
+    pub sha256: String,
+    /// The text of the file.
+    pub text: String,
+    /// The text of each drawing that it refers to, by its name in the design.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub drawings: BTreeMap<String, String>,
+}
+
+impl Source {
+    /// A design file with its drawings.
+    ///
+    /// # Errors
+    /// Where it cannot be read or is no sound design.
+    pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
+        let design = Design::load(path)?;
+        // What has just been read is there.
+        let text = file::read_text(path).unwrap_or_default();
+        Ok((Self::new(text, path.display().to_string(), &design), design))
+    }
+
+    /// The text of a design, whose drawings lie beside `file`.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
+        let design = Design::parse(text, file)?;
+        Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
+    }
+
+    fn new(text: String, file: String, design: &Design) -> Self {
+        let mut source = Self {
+            name: design.name.clone(),
+            file,
+            sha256: design.sha256.clone(),
+            text,
+            drawings: BTreeMap::new(),
+        };
+        source.hold_drawings(&[]);
+        source
+    }
+
+    /// Keeps the drawings that the design names, as it stands or with varied keys set, and that can
+    /// be read; those that are held already stay as they are.
+    pub(super) fn hold_drawings(&mut self, axes: &[Axis]) {
+        let mut found = drawings::held(&self.file, &self.document(), axes);
+        found.append(&mut self.drawings);
+        self.drawings = found;
+    }
+
+    /// The design itself, with the drawings that are held.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn design(&self) -> Result<Design, DesignError> {
+        self.parse(&self.text)
+    }
+
+    /// The same design with the key at a dotted path set to a value; tables on the way that are
+    /// missing are made.
+    ///
+    /// # Errors
+    /// Where the path leads through something that is neither a table nor an array long enough.
+    pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
+        let mut document = self.document();
+        document::set(&mut document, path, value)?;
+        let text = document.to_string();
+        let mut with = Self {
+            sha256: sha256(&text),
+            text,
+            ..self.clone()
+        };
+        with.hold_drawings(&[]);
+        Ok(with)
+    }
+
+    /// A design made of this one, with the drawings that are held.
+    pub(super) fn parse(&self, text: &str) -> Result<Design, DesignError> {
+        Design::parse_with(text, &self.file, &self.drawings)
+    }
+
+    /// The design as a document, always with its name.
+    pub(super) fn document(&self) -> Table {
+        let mut document: Table = self.text.parse().unwrap_or_default();
+        document
+            .entry("name")
+            .or_insert_with(|| self.name.clone().into());
+        document
+    }
+
+    /// What is wrong with the design where only this key is set.
+    pub(super) fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
+        let mut document = document.clone();
+        if let Err(reason) = document::set(&mut document, key, value.toml()) {
+            return Some(reason);
+        }
+        let error = self.parse(&document.to_string()).err()?;
+        Some(format!("{}; {}", error.message, error.help))
+    }
+}

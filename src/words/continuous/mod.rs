@@ -1,0 +1,102 @@
+//! Spacing as code without slots: positions and poles together, against all poses of two flat faces.
+//!
+//! A word is a number of magnets anywhere along a face, a least spacing apart. Simulated annealing
+//! moves magnets, exchanges poles and redraws words; what it makes small is the strongest wrong
+//! attraction over the weakest bond. Wrong meetings are judged over poses in contact (`pose`):
+//! tilted, and slid so that two attracting magnets face each other, the strongest then polished. A
+//! word and its own mate meet wrongly where they are slid by half the least spacing or more: nearer,
+//! everything lies on the bond's own slope.
+//!
+//! It finds sets, and proves nothing of larger ones or wider gaps. Annealing sees point dipoles; what
+//! a set is worth is told by [`crosstalk`](super::crosstalk) over all poses, in the model asked for.
+
+mod anneal;
+mod pose;
+
+pub use anneal::{Annealed, search};
+
+use super::Bar;
+
+/// A word whose magnets lie anywhere along the face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpacedWord {
+    /// Where along the face (m, counter-clockwise from its middle), ascending, and 1 for a north
+    /// pole out, -1 for a south pole.
+    pub magnets: Vec<(f64, i32)>,
+}
+
+impl SpacedWord {
+    /// The word that binds this one.
+    pub fn mate(&self) -> Self {
+        self.mirrored(-1)
+    }
+
+    /// What a face turned over carries.
+    pub fn turned_over(&self) -> Self {
+        self.mirrored(1)
+    }
+
+    /// Its poles in order, as a code.
+    pub fn code(&self) -> String {
+        let letter = |(_, pole): &(f64, i32)| if *pole > 0 { 'N' } else { 'S' };
+        self.magnets.iter().map(letter).collect()
+    }
+
+    /// Where its magnets lie (m).
+    pub fn positions(&self) -> Vec<f64> {
+        self.magnets.iter().map(|(at, _)| *at).collect()
+    }
+
+    fn mirrored(&self, sign: i32) -> Self {
+        let magnets = self.magnets.iter().rev();
+        Self {
+            magnets: magnets.map(|(at, pole)| (-at, sign * pole)).collect(),
+        }
+    }
+}
+
+/// What words are wanted.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// Magnets of a word.
+    pub magnets: usize,
+    /// Their size and strength; `pitch` is the least distance of two in a face.
+    pub bar: Bar,
+    /// Length of a face (m), of which magnets reach no end.
+    pub face: f64,
+    /// Whether words meet words, or mates only.
+    pub words_meet: bool,
+    /// Whether tiles may lie upside down.
+    pub flip: bool,
+    /// As many north as south poles, or one more.
+    pub balanced: bool,
+    /// Longest run of equal poles.
+    pub longest_run: Option<usize>,
+}
+
+impl Wanted {
+    /// What of a face magnets' middles may take, beside the least spacings (m).
+    pub fn room(&self) -> f64 {
+        self.face - self.bar.size[1] - (self.magnets as f64 - 1.0) * self.bar.pitch
+    }
+
+    /// Whether a word keeps to the face, the spacing and what is asked of poles.
+    fn allows(&self, word: &SpacedWord) -> bool {
+        let end = (self.face - self.bar.size[1]) / 2.0 * (1.0 + 1e-12);
+        let magnets = &word.magnets;
+        let spaced = magnets.windows(2);
+        let excess: i32 = magnets.iter().map(|(_, pole)| pole).sum();
+        let runs = magnets.chunk_by(|a, b| a.1 == b.1).map(<[_]>::len);
+        magnets.iter().all(|(at, _)| at.abs() <= end)
+            && spaced
+                .into_iter()
+                .all(|two| two[1].0 - two[0].0 >= self.bar.pitch * (1.0 - 1e-12))
+            && (!self.balanced || excess.unsigned_abs() as usize <= self.magnets % 2)
+            && self
+                .longest_run
+                .is_none_or(|most| runs.max().unwrap_or(0) <= most)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,80 @@
+//! Where a word and its own mate hold beside their bond.
+//!
+//! Local minima of a grid over tilt and slide in contact, each polished; those that end in the bond
+//! are its slope.
+
+use ordered_float::OrderedFloat;
+
+use super::sampled::{Setting, tilts};
+use super::{Couple, Stage, energies, in_parallel};
+use crate::configuration::Configuration;
+use crate::words::Word;
+
+/// Minima of the grid that are polished, of a word.
+const POLISHED: usize = 8;
+/// Poses closer to the bond than this (m, rad) are the bond.
+const SAME: f64 = 2e-3;
+
+impl Stage {
+    /// Of each word and its mate the deepest trap found: energy (J) and pose.
+    pub(super) fn traps(&self, words: &[Word]) -> Vec<Option<(f64, Configuration)>> {
+        let couples: Vec<Couple> = words
+            .iter()
+            .map(|word| Couple {
+                first: *word,
+                second: word.mate(),
+            })
+            .collect();
+        let mut tilts = tilts();
+        tilts.sort_by(f64::total_cmp);
+        let slides = self.slides();
+        let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
+            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
+            slides.iter().map(at).collect()
+        });
+        let numbers: Vec<usize> = (0..words.len()).collect();
+        in_parallel(&numbers, |&number| {
+            let level = |i: usize, j: usize| rows[i][j][number];
+            let mut minima: Vec<(f64, Setting)> = Vec::new();
+            for i in 0..tilts.len() {
+                for j in 0..slides.len() {
+                    let beside =
+                        (i.saturating_sub(1)..=(i + 1).min(tilts.len() - 1)).flat_map(|i| {
+                            let last = (j + 1).min(slides.len() - 1);
+                            (j.saturating_sub(1)..=last).map(move |j| (i, j))
+                        });
+                    let here = level(i, j);
+                    if here < 0.0 && beside.into_iter().all(|(i, j)| level(i, j) >= here) {
+                        minima.push((here, [tilts[i], slides[j], 0.0]));
+                    }
+                }
+            }
+            minima.sort_by_key(|(energy, _)| OrderedFloat(*energy));
+            let problem = self.problem(&couples[number]);
+            let bond = self.pair.bound;
+            let polished = minima
+                .into_iter()
+                .take(POLISHED)
+                .filter_map(|(_, setting)| self.polished(&problem, setting))
+                .filter(|(_, q)| bond.step_to(q).iter().any(|x| x.abs() > SAME));
+            polished.min_by_key(|(energy, _)| OrderedFloat(*energy))
+        })
+    }
+
+    /// The energies (J) of couples at a setting; infinite where the tiles pass by each other.
+    fn all_at(&self, setting: Setting, couples: &[Couple]) -> Vec<f64> {
+        let Some(q) = self.placed(setting) else {
+            return vec![f64::INFINITY; couples.len()];
+        };
+        let by_magnets = energies(&self.magnets, &q);
+        let energy = |couple: &Couple| {
+            let pairs = by_magnets.iter().enumerate();
+            pairs
+                .map(|(number, energy)| {
+                    energy * couple.sign(number / self.places, number % self.places)
+                })
+                .sum()
+        };
+        couples.iter().map(energy).collect()
+    }
+}

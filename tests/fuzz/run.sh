@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Fuzzes the readers of designs and of drawings, and the energies' bounds over cells, for the given
+# seconds each [20], from the shipped files, the tests' and what was found before (cases/). A finding
+# is left in target/fuzz/found; it belongs into cases/, which ordinary tests replay. With names of
+# targets after the seconds, only these. Skips where the fuzzer cannot be built.
+set -euo pipefail
+cd "$(dirname "$0")"
+seconds="${1:-20}"
+targets=("${@:2}")
+((${#targets[@]})) || targets=(design drawing bounds)
+root=../..
+export CARGO_TARGET_DIR="$PWD/$root/target/fuzz"
+
+skip() {
+    echo "fuzz: skipped ($1)"
+    exit 0
+}
+[[ "$(uname -sm)" == "Linux x86_64" ]] || skip "needs Linux on x86-64"
+grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo || skip "needs AVX2 and FMA"
+command -v g++ >/dev/null || skip "needs g++"
+cargo fetch --quiet 2>/dev/null || skip "libfuzzer-sys and inari cannot be fetched"
+cargo build --release --quiet
+
+declare -A seeds=(
+    [design]="$root/shapes $root/tests/designs/good $root/tests/designs/bad"
+    [drawing]="$root/shapes $root/tests/designs/drawings"
+    [bounds]=""
+)
+for target in "${targets[@]}"; do
+    grown="$CARGO_TARGET_DIR/corpus/$target" found="$CARGO_TARGET_DIR/found/$target"
+    mkdir -p "$grown" "$found"
+    options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=32768
+        -artifact_prefix="$found/" -print_final_stats=1)
+    [[ -f "$target.dict" ]] && options+=(-dict="$target.dict")
+    cases=()
+    [[ -d "cases/$target" ]] && cases=("cases/$target")
+    # shellcheck disable=SC2086 # folders without spaces
+    if ! "$CARGO_TARGET_DIR/x86_64-unknown-linux-gnu/release/$target" "${options[@]}" \
+        "$grown" "${cases[@]}" ${seeds[$target]} 2>"$found/log"; then
+        tail -n 40 "$found/log"
+        echo "fuzz: a finding in $target: see $found"
+        exit 1
+    fi
+    executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$found/log")
+    echo "fuzz: $target: $executed inputs in $seconds s, no finding"
+done

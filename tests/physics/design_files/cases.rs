@@ -1,0 +1,44 @@
+//! What the fuzzer starts from and what it found, once more: see `tests/fuzz`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use tilebind::Design;
+
+#[path = "../../fuzz/src/lib.rs"]
+mod answers;
+
+/// The texts of a folder of cases.
+fn cases(kind: &str) -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/cases");
+    let entries = std::fs::read_dir(folder.join(kind)).expect("a folder");
+    let texts = entries.map(|entry| std::fs::read(entry.unwrap().path()).unwrap());
+    // As the fuzzer's targets do with other bytes.
+    texts
+        .filter_map(|bytes| String::from_utf8(bytes).ok())
+        .collect()
+}
+
+#[test]
+fn every_design_of_the_fuzzer_has_an_answer() {
+    let all = cases("design");
+    assert!(!all.is_empty());
+    for text in all {
+        answers::check(Design::parse_with(&text, "fuzz.toml", &BTreeMap::new()));
+    }
+}
+
+#[test]
+fn every_drawing_of_the_fuzzer_has_an_answer() {
+    let all = cases("drawing");
+    assert!(!all.is_empty());
+    for text in all {
+        let drawings = BTreeMap::from([("a.svg".to_owned(), text)]);
+        for design in [
+            include_str!("../../fuzz/src/outline.toml"),
+            include_str!("../../fuzz/src/line.toml"),
+        ] {
+            answers::check(Design::parse_with(design, "fuzz.toml", &drawings));
+        }
+    }
+}

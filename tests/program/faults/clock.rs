@@ -1,0 +1,30 @@
+//! A clock that jumps. Skipped where there is no `faketime`.
+
+use std::process::Command;
+
+use super::{COMMANDS, arguments, assert_whole, undisturbed};
+use crate::program::{command, stderr};
+
+#[test]
+fn a_clock_that_jumps_changes_neither_status_nor_files() {
+    if Command::new("faketime").arg("--version").output().is_err() {
+        return;
+    }
+    // Long ago; and three seconds on, or back, with every look at the clock.
+    for clock in ["1990-01-01 00:00:00", "+0 i3.0", "+0 i-3.0"] {
+        for (name, more) in COMMANDS {
+            let expected = undisturbed(name, more);
+            let folder = tempfile::tempdir().unwrap();
+            let program = command(&[]);
+            let output = Command::new("faketime")
+                .args(["-f", clock])
+                .arg(program.get_program())
+                .args(arguments(name, more, folder.path()))
+                .current_dir(env!("CARGO_MANIFEST_DIR"))
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
+            assert_eq!(assert_whole(folder.path(), &expected), expected.len());
+        }
+    }
+}

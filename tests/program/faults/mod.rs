@@ -1,0 +1,90 @@
+//! What the machine does to a command: writes that fail at some byte, memory that runs out, a
+//! worker that is killed, a clock that jumps. The exit status tells, and every file is there as a
+//! whole or not at all.
+
+#![cfg(unix)]
+
+mod clock;
+mod killed;
+mod limits;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::folder::contents;
+use crate::program::command;
+
+const DESIGN: &str = "shapes/tab-20mm.toml";
+
+/// The commands that write folders, each with as little work as it can have.
+const COMMANDS: [(&str, &[&str]); 4] = [
+    (
+        "analyse",
+        &["--certify-seconds", "0", "--complete-seconds", "0"],
+    ),
+    ("compare", &["shapes/one-face.toml", NO_BOUNDS, NO_SEARCH]),
+    (
+        "sweep",
+        &[
+            "--vary",
+            "fixed.faces.east.profile.depth=0.01,0.02",
+            NO_BOUNDS,
+            NO_SEARCH,
+        ],
+    ),
+    ("dock", &["--runs", "8", "--duration", "1"]),
+];
+
+const NO_BOUNDS: &str = "--certify-cells=0";
+const NO_SEARCH: &str = "--complete-cells=0";
+
+/// What makes a survey short; docking has none.
+const SHORT: [&str; 4] = ["--milestones", "200", "--far-starts", "10"];
+
+/// A command's arguments, with its results going to a folder.
+fn arguments<'a>(name: &'a str, more: &[&'a str], out: &'a Path) -> Vec<&'a str> {
+    let out = out.to_str().expect("a plain path");
+    let survey = if name == "dock" { &[] } else { &SHORT[..] };
+    let threads = ["--threads", "1", "--quiet", "--out", out];
+    [&[name, DESIGN], more, survey, &threads[..]].concat()
+}
+
+/// The command under a shell that first does something to itself.
+fn after(preparation: &str, arguments: &[&str]) -> Output {
+    let program = command(&[]);
+    Command::new("sh")
+        .args(["-c", &format!("{preparation}; exec \"$0\" \"$@\"")])
+        .arg(program.get_program())
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("a shell")
+}
+
+/// The files of a command that nothing befalls.
+fn undisturbed(name: &str, more: &[&str]) -> BTreeMap<String, Vec<u8>> {
+    let folder = tempfile::tempdir().unwrap();
+    let output = command(&arguments(name, more, folder.path()))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{name}: {output:?}");
+    contents(folder.path())
+}
+
+/// That every file of a folder is one of those that were to come, and ends as it does: times differ
+/// from run to run, endings do not. Returns how many there are.
+fn assert_whole(folder: &Path, expected: &BTreeMap<String, Vec<u8>>) -> usize {
+    let found = match folder.exists() {
+        true => contents(folder),
+        false => BTreeMap::new(),
+    };
+    let ending = |content: &[u8]| content[content.len().saturating_sub(6)..].to_vec();
+    for (name, content) in &found {
+        let whole = expected
+            .get(name)
+            .unwrap_or_else(|| panic!("{name} is not a result"));
+        assert_eq!(ending(content), ending(whole), "{name} is not whole");
+    }
+    found.len()
+}
