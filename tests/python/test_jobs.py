@@ -125,7 +125,7 @@ def test_a_barrier_between_bounds(design):
 
 
 def test_designs_side_by_side(design, tab):
-    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0}
+    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0, "complete_cells": 0}
     found = tilebind.compare([design, tab], by="bond_depth", progress=False, **few)
     table = pandas.DataFrame(found.table)
     assert len(found) == len(table) == 2 and set(table.name) == {"paper-tile", tab.name}
@@ -140,7 +140,7 @@ def test_designs_side_by_side(design, tab):
 
 def test_sweeps_are_those_of_the_program(tab, program, root, tmp_path):
     key = "fixed.faces.east.profile.depth"
-    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0}
+    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0, "complete_cells": 0}
     found = tilebind.sweep(tab, {key: [0.01, 0.02, 5.0]}, progress=False, **few)
     table = pandas.DataFrame(found.table)
     assert table.status.tolist() == ["done", "done", "impossible"] and table.reason[2]

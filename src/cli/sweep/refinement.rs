@@ -27,7 +27,12 @@ impl Sweep {
     }
 
     /// Works on points where the figures bend, in rounds that each look at what is known by then.
-    pub(super) fn refine(&self, mut plan: Plan, folder: &Path, file: &Path) -> Result<Plan, Failure> {
+    pub(super) fn refine(
+        &self,
+        mut plan: Plan,
+        folder: &Path,
+        file: &Path,
+    ) -> Result<Plan, Failure> {
         let store = Store::new(folder);
         let asked = self.refine.unwrap_or(0);
         let mut left = asked;

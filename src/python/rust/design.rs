@@ -11,7 +11,7 @@ use pyo3::types::{PyBytes, PyDict, PyMapping, PyTuple};
 use tilebind::design::{Design as Whole, MagnetModel};
 use tilebind::inspection::Inspection;
 use tilebind::problem::Problem;
-use tilebind::report::plots::glance;
+use tilebind::report::plots::{Sheet, glance};
 use tilebind::report::{inspection, json};
 use tilebind::sweep::Source;
 use tilebind::tile::Tile;
@@ -602,7 +602,7 @@ impl Design {
     /// str
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         let design = &self.content.design;
-        let picture = py.detach(|| glance::draw(design, &Inspection::new(design)));
+        let picture = py.detach(|| glance::draw(design, &Inspection::new(design), &Sheet::SCREEN));
         picture.map(|picture| picture.svg).map_err(fault::run)
     }
 

@@ -31,6 +31,7 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<(AssessmentSettings, 
         far_starts: given.or("far_starts", default.far_starts)?,
         tolerance: given.get("tolerance")?,
         certify_cells: given.or("certify_cells", default.certify_cells)?,
+        complete_cells: given.or("complete_cells", default.complete_cells)?,
         dynamics_runs: given.or("dynamics_runs", default.dynamics_runs)?,
     };
     let seed = given.or("seed", 1)?;
@@ -58,7 +59,8 @@ fn quantity(key: &str) -> PyResult<&'static Quantity> {
 /// designs : sequence of Design
 /// by : str, optional
 ///     What to rank by, "selectivity" by default; largest first.
-/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, dynamics_runs, seed
+/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
+/// dynamics_runs, seed
 ///     As for :meth:`Design.analyse`, but for `certify_cells`: cells spent on the bounds of a
 ///     barrier at most; 0 for no bounds.
 /// progress : bool, optional
@@ -232,7 +234,8 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
 /// vary : Mapping
 ///     Dotted path of a key to its values, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``; several
 ///     keys make a grid, of which the first varies slowest.
-/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, dynamics_runs, seed
+/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
+/// dynamics_runs, seed
 ///     As for :func:`compare`.
 /// progress : bool, optional
 ///

@@ -8,7 +8,7 @@ use tilebind::words::budget::Budget;
 use tilebind::words::crosstalk::Stage;
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{Bar, Constraints, Faces, Lags, Question, Rules, Shape, Task, answer};
+use tilebind::words::{Bar, Constraints, Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use crate::design::Design;
 use crate::{convert, fault, job};
@@ -32,6 +32,8 @@ use crate::{convert, fault, job};
 ///     Complementary shapes.
 /// flip : bool, optional
 ///     Tiles may lie upside down.
+/// tolerate : {"missing", "flipped"}, optional
+///     The words hold though one magnet of every face is missing, or lies the wrong way round.
 /// pitch : float, optional
 ///     From place to place (m).
 /// balanced : bool, optional
@@ -48,7 +50,7 @@ use crate::{convert, fault, job};
 ///     `worst`.
 #[pyfunction]
 #[pyo3(signature = (length, *, gap = None, count = None, design = None, faces = "all",
-                    shape = "none", flip = false, pitch = None, balanced = false, seconds = 20.0,
+                    shape = "none", flip = false, tolerate = None, pitch = None, balanced = false, seconds = 20.0,
                     seed = 1, progress = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn words<'py>(
@@ -60,6 +62,7 @@ pub fn words<'py>(
     faces: &str,
     shape: &str,
     flip: bool,
+    tolerate: Option<&str>,
     pitch: Option<f64>,
     balanced: bool,
     seconds: f64,
@@ -93,6 +96,12 @@ pub fn words<'py>(
             _ => return Err(fault::value("a shape is \"none\", \"shared\" or \"polar\"")),
         },
         flip,
+        fault: match tolerate {
+            None => None,
+            Some("missing") => Some(Fault::Missing),
+            Some("flipped") => Some(Fault::Flipped),
+            Some(_) => return Err(fault::value("tolerated are \"missing\" or \"flipped\"")),
+        },
     };
     let bar = bar(design.as_ref(), pitch)?;
     let least_spacing = (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
@@ -190,8 +199,10 @@ pub fn crosstalk<'py>(
     };
     let set = WordSet::parse(&table.to_string(), "words.toml", None);
     let set = set.map_err(|error| fault::design(py, &error))?;
-    let stage = set.stage;
-    let stage = Stage::new(stage.pair.as_ref().clone(), stage.interaction.clone());
+    let stage = Stage::new(
+        set.stage.pair.as_ref().clone(),
+        set.stage.interaction.clone(),
+    );
     let usual = || SHARE * stage.contact_energy();
     let tolerance = match certify.filter(|certify| !certify.is_none()) {
         None => None,
@@ -205,5 +216,5 @@ pub fn crosstalk<'py>(
         told.tell(0.0, "crosstalk".to_owned());
         stage.crosstalk(&set.words, tolerance.map(|tolerance| (tolerance, cells)))
     })?;
-    convert::json(py, &crosstalk_report::json(&found))
+    convert::json(py, &crosstalk_report::json(&set, &found))
 }
