@@ -33,10 +33,11 @@ impl Source {
     /// # Errors
     /// Where it cannot be read or is no sound design.
     pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
-        let design = Design::load(path)?;
-        // What has just been read is there.
-        let text = file::read_text(path).unwrap_or_default();
-        Ok((Self::new(text, path.display().to_string(), &design), design))
+        match file::read_text(path) {
+            Ok(text) => Self::of_text(&text, &path.display().to_string()),
+            // Loading tells what is wrong; if it no longer is, the file is read again.
+            Err(_) => Design::load(path).and_then(|_| Self::read(path)),
+        }
     }
 
     /// The text of a design, whose drawings lie beside `file`.

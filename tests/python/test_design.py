@@ -15,7 +15,7 @@ def test_a_design_says_what_it_is(design):
     assert design.table == (2.0, 2.0)
     assert len(design.magnets("fixed")) == 16 and design.outline("moving").shape == (4, 2)
     assert design.magnets("fixed")["moment_A_m2"][0] == pytest.approx(0.2865, rel=1e-3)
-    assert "bond" in design.summary() and design.svg().startswith("<svg")
+    assert "bind" in design.summary() and design.svg().startswith("<svg")
     assert isinstance(design.show(), dict)
 
 

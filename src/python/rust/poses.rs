@@ -12,6 +12,8 @@ use crate::{fault, job};
 /// theta (rad).
 pub type Poses<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
+/// Numbers of a pose beyond this (m, rad), whose powers would be infinite, are as good as infinite.
+const FARTHEST: f64 = 1e30;
 /// So few poses are worth neither threads nor the interpreter's lock.
 const FEW: usize = 64;
 /// So many are worth threads.
@@ -114,14 +116,14 @@ fn evaluate<T: Copy + Send + Sync>(
 /// Leaves `out` as it is where a pose is not finite.
 fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configuration], &mut [T])) {
     for (rows, out) in rows.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
-        let is_finite = |row: &[f64; 3]| row.iter().all(|number| number.is_finite());
-        if rows.iter().all(is_finite) {
+        let is_known = |row: &[f64; 3]| row.iter().all(|number| number.abs() <= FARTHEST);
+        if rows.iter().all(is_known) {
             let qs: Vec<_> = rows.iter().copied().map(Configuration::from).collect();
             kernel(&qs, out);
             continue;
         }
         for (row, out) in rows.iter().zip(out) {
-            if is_finite(row) {
+            if is_known(row) {
                 kernel(&[Configuration::from(*row)], std::slice::from_mut(out));
             }
         }
