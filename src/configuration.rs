@@ -7,7 +7,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 
 /// A configuration of the moving tile: its reference point (`x`, `y`, metres) in the fixed
 /// tile's frame and its orientation `theta` (radians, counter-clockwise).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Configuration {
     /// Of the reference point (m).
     pub x: f64,

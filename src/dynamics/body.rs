@@ -17,12 +17,29 @@ pub struct Body {
 }
 
 /// Where the moving tile is and how it moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(from = "[f64; 6]", into = "[f64; 6]")]
 pub struct Motion {
     /// Where it is.
     pub configuration: Configuration,
     /// Velocity of the centre of mass (m/s, m/s) and turning rate (rad/s).
     pub velocity: Vector3<f64>,
+}
+
+impl From<[f64; 6]> for Motion {
+    fn from([x, y, theta, vx, vy, spin]: [f64; 6]) -> Self {
+        Self {
+            configuration: Configuration::new(x, y, theta),
+            velocity: Vector3::new(vx, vy, spin),
+        }
+    }
+}
+
+impl From<Motion> for [f64; 6] {
+    fn from(motion: Motion) -> Self {
+        let ([x, y, theta], v) = (motion.configuration.to_array(), motion.velocity);
+        [x, y, theta, v.x, v.y, v.z]
+    }
 }
 
 /// The centre of mass (m), the orientation (rad, not wrapped) and their rates of change.

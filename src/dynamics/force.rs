@@ -10,7 +10,7 @@ use crate::potential::Potential;
 /// A fan beneath the table. It pushes the tile's centre of mass away with the potential energy
 /// `E(r, t) = E0 exp(-|r - r_f|^2 / (2 s^2)) (1 + a sin(2 pi f t))`, so with the force
 /// `E (r - r_f) / s^2`; a negative `E0` draws it in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fan {
     /// r_f (m).
     pub place: [f64; 2],

@@ -3,7 +3,7 @@
 use super::force::Fan;
 
 /// The air table and the numerics.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MotionSettings {
     /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the turning
     /// rate fall as e^(-c t). The default is the paper's coefficient 0.0005, read as kg/s, for its

@@ -11,7 +11,7 @@ use super::trajectory::Trajectory;
 use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Snapshot {
     /// Time since the start (s).
     pub time: f64,

@@ -96,6 +96,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             };
             let since = self.time;
             while stop.is_none() && self.time < until {
+                crate::interruption::check();
                 stop = if self.touching {
                     self.touch(until, watch)
                 } else {

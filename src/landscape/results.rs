@@ -9,7 +9,7 @@ use crate::configuration::Configuration;
 pub(super) const SAME_ENERGY: f64 = 1e-6;
 
 /// Whether a state is the wanted bond.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum StateKind {
     /// The two target faces coincide.
     Bond,
@@ -18,7 +18,7 @@ pub enum StateKind {
 }
 
 /// A proportion found by sampling, with its 95 % Wilson interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Proportion {
     /// How many were counted.
     pub count: usize,
@@ -67,7 +67,7 @@ impl Proportion {
 }
 
 /// Shares of the far starts that end in no reported state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Uncaptured {
     /// Those that come to rest, in something too shallow to be reported.
     pub at_rest: Proportion,
@@ -83,7 +83,7 @@ impl Uncaptured {
 }
 
 /// A local minimum of the energy over the free configurations.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct State {
     /// Its place in the list of states.
     pub id: usize,
@@ -117,7 +117,9 @@ impl State {
 }
 
 /// One end of a barrier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
 pub enum Place {
     /// A state by its id.
     State(usize),
@@ -126,7 +128,7 @@ pub enum Place {
 }
 
 /// A point of a pathway.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PathwayPoint {
     /// Length along the pathway in the metric of the configuration space (m).
     pub s: f64,
@@ -213,7 +215,7 @@ impl SaddleBounds {
 }
 
 /// The barrier between two places: the least possible highest energy of a free path.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Barrier {
     /// Where it starts.
     pub from: Place,
@@ -305,7 +307,7 @@ pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
 }
 
 /// A pathway by another cost than the highest energy.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Alternative {
     /// Where it starts.
     pub from: Place,
@@ -320,7 +322,7 @@ pub struct Alternative {
 }
 
 /// What a pathway is the cheapest by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum PathwayCost {
     /// Work against the energy (J).
     Work,

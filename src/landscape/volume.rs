@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::approach::Approach;
 use super::map::{evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
+use crate::interruption;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
 
@@ -35,6 +36,7 @@ impl Volume {
         let energies = (0..planes * rows)
             .into_par_iter()
             .flat_map_iter(|row| {
+                interruption::check();
                 let row: Vec<_> = (0..columns)
                     .map(|column| configuration([row / rows, row % rows, column]))
                     .collect();

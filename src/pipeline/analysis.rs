@@ -1,5 +1,6 @@
 //! What the main job finds out about a design, as plain values.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::Settings;
@@ -58,7 +59,7 @@ impl Analysis {
 }
 
 /// How much was done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Counts {
     /// Milestones of the roadmap.
     pub milestones: usize,
@@ -73,10 +74,10 @@ pub struct Counts {
 }
 
 /// A stage of the main job.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Stage {
     /// What the observer was told.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Wall time (s).
     pub wall_s: f64,
     /// Energies computed meanwhile.

@@ -45,7 +45,7 @@ impl<'a> Clock<'a> {
                 stage.energy_evaluations += energy_evaluations;
             }
             None => self.stages.push(Stage {
-                name,
+                name: name.into(),
                 wall_s,
                 energy_evaluations,
             }),

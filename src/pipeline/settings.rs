@@ -11,7 +11,7 @@ use crate::roadmap::{
 };
 
 /// All that decides the result, besides the design.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Settings {
     /// Seed of all random numbers.
     pub seed: u64,

@@ -62,7 +62,9 @@ pub struct Interaction {
 }
 
 /// Why an energy has no bounds over cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
 pub enum Unbounded {
     /// Blocks behind shields.
     #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]

@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::{Contact, TOUCH};
+use crate::interruption;
 use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
 use crate::tile::{Face, Pair, face_to_face};
 
@@ -177,6 +178,7 @@ impl Problem {
     }
 
     fn count(&self, n: u64) {
+        interruption::check();
         let thread = rayon::current_thread_index().map_or(0, |i| 1 + i);
         self.evaluations[thread % COUNTERS]
             .0
@@ -190,6 +192,7 @@ impl Problem {
 
     /// Whether the tiles do not overlap.
     pub fn is_clear(&self, q: &Configuration) -> bool {
+        interruption::check();
         self.contact
             .as_ref()
             .is_none_or(|contact| contact.is_free(q))
@@ -219,6 +222,7 @@ impl Problem {
     /// The same as [`Self::motion_is_free`], for ends whose clearances are known to be at least
     /// `clearances` (m).
     pub fn known_motion_is_free(&self, ends: [&Configuration; 2], clearances: [f64; 2]) -> bool {
+        interruption::check();
         self.contact
             .as_ref()
             .is_none_or(|contact| contact.known_motion_overlaps_at_most(ends, clearances, TOUCH))

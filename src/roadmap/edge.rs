@@ -34,7 +34,7 @@ pub struct Edge {
 }
 
 /// How edges are weighed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EdgeSettings {
     /// How closely the energy is followed along an edge.
     pub tolerance: ProfileTolerance,

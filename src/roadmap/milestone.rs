@@ -28,7 +28,7 @@ use crate::problem::Problem;
 use crate::tile::face_to_face;
 
 /// By which rule a proposed milestone is accepted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Acceptance {
     /// The linear rule: with probability 1 below `lowest` (J), 0 above `highest` (J), and
     /// `(highest - U) / (highest - lowest)` between. Source: Singh, Latombe and Brutlag, *A motion
@@ -59,7 +59,7 @@ impl Acceptance {
 }
 
 /// How milestones are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MilestoneSettings {
     /// How many are drawn.
     pub count: usize,

@@ -48,7 +48,7 @@ pub struct Roadmap {
 }
 
 /// All that decides a roadmap.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RoadmapSettings {
     /// How milestones are drawn.
     pub milestones: MilestoneSettings,

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::Milestone;
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::interruption;
 
 /// Neighbours per milestone that a roadmap of n milestones needs for its paths to tend to the best
 /// ones: `e (1 + 1/d) ln n` in d = 3 dimensions, rounded up (PRM* of Karaman and Frazzoli,
@@ -93,6 +94,7 @@ pub fn neighbour_pairs(
         .par_iter()
         .enumerate()
         .flat_map_iter(|(i, milestone)| {
+            interruption::check();
             let i = i as u32;
             search
                 .nearest(&milestone.configuration, k + 1)

@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::roadmap::Milestone;
 
 /// How closely a profile follows the energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ProfileTolerance {
     /// Allowed error of the highest energy, relative to itself.
     pub relative: f64,

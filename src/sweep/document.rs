@@ -2,17 +2,15 @@
 
 use toml::{Table, Value as Toml};
 
-use super::vary::Value;
-
 /// Sets the key at a dotted path; tables on the way that are missing are made.
 ///
 /// # Errors
 /// Where the path leads through something that is neither a table nor an array long enough.
-pub fn set(document: &mut Table, path: &str, value: &Value) -> Result<(), String> {
+pub fn set(document: &mut Table, path: &str, value: Toml) -> Result<(), String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     let (first, rest) = parts.split_first().ok_or("the path is empty")?;
     if rest.is_empty() {
-        document.insert((*first).to_owned(), toml(value));
+        document.insert((*first).to_owned(), value);
         return Ok(());
     }
     let mut here = document
@@ -41,7 +39,7 @@ pub fn set(document: &mut Table, path: &str, value: &Value) -> Result<(), String
             }
         };
         if last {
-            *next = toml(value);
+            *next = value;
             return Ok(());
         }
         here = next;
@@ -84,17 +82,9 @@ pub fn holds(document: &Table, path: &str) -> bool {
         .is_some()
 }
 
-fn toml(value: &Value) -> Toml {
-    match value {
-        Value::Truth(truth) => Toml::Boolean(*truth),
-        Value::Whole(whole) => Toml::Integer(*whole),
-        Value::Number(number) => Toml::Float(*number),
-        Value::Text(text) => Toml::String(text.clone()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::vary::Value;
     use super::*;
 
     fn document() -> Table {
@@ -113,7 +103,7 @@ mod tests {
             ("faces.east.profile.depth", Value::Number(0.01)),
         ] {
             assert_eq!(holds(&edited, path), !path.contains("east"), "{path}");
-            set(&mut edited, path, &value).unwrap();
+            set(&mut edited, path, value.toml()).unwrap();
             assert!(holds(&edited, path));
         }
         let expected: Table = "side = 2\nsize = [1.0, 0.5]\n[faces]\nall = { code = \"NS\" }\n\
@@ -127,7 +117,7 @@ mod tests {
     fn paths_that_lead_nowhere_are_refused() {
         for path in ["side.depth", "size.2", "size.x", "size.0.y"] {
             assert!(
-                set(&mut document(), path, &Value::Whole(1)).is_err(),
+                set(&mut document(), path, Toml::Integer(1)).is_err(),
                 "{path}"
             );
             assert!(!holds(&document(), path));

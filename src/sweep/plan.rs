@@ -56,7 +56,23 @@ impl Plan {
     ) -> Result<Self, PlanError> {
         let mut designs: Vec<Source> = Vec::new();
         for file in files {
-            designs.push(Source::read(file.as_ref(), &axes)?);
+            designs.push(Source::read(file.as_ref()).map_err(Box::new)?.0);
+        }
+        Self::of(designs, axes, settings, seed)
+    }
+
+    /// A sweep over designs that have been read.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of(
+        mut designs: Vec<Source>,
+        axes: Vec<Axis>,
+        settings: AssessmentSettings,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        for design in &mut designs {
+            design.hold_drawings(&axes);
         }
         let plan = Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
@@ -189,7 +205,7 @@ impl Plan {
         let mut document = documents[design].clone();
         let mut set = self.axes.iter().zip(&values);
         let text = set
-            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value))
+            .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value.toml()))
             .map(|()| document.to_string());
         let held = &self.designs[design].drawings;
         let drawings = drawings::named(&document).into_iter();

@@ -6,12 +6,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use rayon::ThreadPoolBuilder;
-
 use super::plan::Plan;
 use super::point::Point;
 use super::store::Outcome;
 use crate::comparison;
+use crate::interruption;
 use crate::observer::Silent;
 
 /// Works on points, `threads` of them at a time while there are that many; `finished` is told of
@@ -36,7 +35,11 @@ pub fn run<E: Send>(
             let Some(point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else {
                 return;
             };
-            if let Err(error) = finished(point, &outcome(plan, point)) {
+            let Some(outcome) = outcome(plan, point) else {
+                stopped.store(true, Ordering::Relaxed);
+                return;
+            };
+            if let Err(error) = finished(point, &outcome) {
                 stopped.store(true, Ordering::Relaxed);
                 let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
                 failure.get_or_insert(error);
@@ -45,11 +48,8 @@ pub fn run<E: Send>(
     };
     // A pool of its own for each worker: in a shared one, a worker that waits for part of its
     // point would begin another point meanwhile.
-    let pool = || {
-        ThreadPoolBuilder::new()
-            .num_threads((threads / workers).max(1))
-            .build()
-    };
+    let interruption = interruption::current();
+    let pool = || interruption::pool(threads / workers, interruption.clone());
     std::thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| match pool() {
@@ -59,11 +59,13 @@ pub fn run<E: Send>(
             });
         }
     });
+    interruption::check();
     let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
     failure.map_or(Ok(()), Err)
 }
 
-fn outcome(plan: &Plan, point: &Point) -> Outcome {
+/// What came of a point; `None` where the work was given up.
+fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
     let assessed = catch_unwind(AssertUnwindSafe(|| {
         let design = plan.design(point)?;
         Ok(comparison::assess(
@@ -73,15 +75,16 @@ fn outcome(plan: &Plan, point: &Point) -> Outcome {
             &Silent,
         ))
     }));
-    match assessed {
+    Some(match assessed {
         Ok(Ok(result)) => Outcome::Done {
             result: Box::new(result),
         },
         Ok(Err(reason)) => Outcome::Impossible { reason },
+        Err(fault) if interruption::is_interrupted(fault.as_ref()) => return None,
         Err(panic) => Outcome::Failed {
             reason: message(panic.as_ref()),
         },
-    }
+    })
 }
 
 /// What a panic says.

@@ -6,9 +6,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
-use super::error::PlanError;
 use super::vary::{Axis, Value};
 use super::{document, drawings};
+use crate::checksum::sha256;
 use crate::design::{Design, DesignError, file};
 
 /// A design that is varied.
@@ -20,7 +20,7 @@ pub struct Source {
     pub file: String,
     /// SHA-256 of the file's bytes.
     pub sha256: String,
-    /// The content of the file.
+    /// The text of the file.
     pub text: String,
     /// The text of each drawing that it refers to, by its name in the design.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -28,19 +28,71 @@ pub struct Source {
 }
 
 impl Source {
-    pub(super) fn read(path: &Path, axes: &[Axis]) -> Result<Self, PlanError> {
-        let design = Design::load(path).map_err(Box::new)?;
-        let text = file::read_text(path)
-            .map_err(|error| PlanError::Malformed(format!("{}: {error}", path.display())))?;
+    /// A design file with its drawings.
+    ///
+    /// # Errors
+    /// Where it cannot be read or is no sound design.
+    pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
+        match file::read_text(path) {
+            Ok(text) => Self::of_text(&text, &path.display().to_string()),
+            // Loading tells what is wrong; if it no longer is, the file is read again.
+            Err(_) => Design::load(path).and_then(|_| Self::read(path)),
+        }
+    }
+
+    /// The text of a design, whose drawings lie beside `file`.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
+        let design = Design::parse(text, file)?;
+        Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
+    }
+
+    fn new(text: String, file: String, design: &Design) -> Self {
         let mut source = Self {
-            name: design.name,
-            file: path.display().to_string(),
-            sha256: design.sha256,
+            name: design.name.clone(),
+            file,
+            sha256: design.sha256.clone(),
             text,
             drawings: BTreeMap::new(),
         };
-        source.drawings = drawings::held(&source.file, &source.document(), axes);
-        Ok(source)
+        source.hold_drawings(&[]);
+        source
+    }
+
+    /// Keeps the drawings that the design names, as it stands or with varied keys set, and that can
+    /// be read; those that are held already stay as they are.
+    pub(super) fn hold_drawings(&mut self, axes: &[Axis]) {
+        let mut found = drawings::held(&self.file, &self.document(), axes);
+        found.append(&mut self.drawings);
+        self.drawings = found;
+    }
+
+    /// The design itself, with the drawings that are held.
+    ///
+    /// # Errors
+    /// Where it is no sound design.
+    pub fn design(&self) -> Result<Design, DesignError> {
+        self.parse(&self.text)
+    }
+
+    /// The same design with the key at a dotted path set to a value; tables on the way that are
+    /// missing are made.
+    ///
+    /// # Errors
+    /// Where the path leads through something that is neither a table nor an array long enough.
+    pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
+        let mut document = self.document();
+        document::set(&mut document, path, value)?;
+        let text = document.to_string();
+        let mut with = Self {
+            sha256: sha256(&text),
+            text,
+            ..self.clone()
+        };
+        with.hold_drawings(&[]);
+        Ok(with)
     }
 
     /// A design made of this one, with the drawings that are held.
@@ -60,7 +112,7 @@ impl Source {
     /// What is wrong with the design where only this key is set.
     pub(super) fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
         let mut document = document.clone();
-        if let Err(reason) = document::set(&mut document, key, value) {
+        if let Err(reason) = document::set(&mut document, key, value.toml()) {
             return Some(reason);
         }
         let error = self.parse(&document.to_string()).err()?;

@@ -24,6 +24,16 @@ pub enum Value {
 }
 
 impl Value {
+    /// The value as it stands in a design file.
+    pub fn toml(&self) -> toml::Value {
+        match self {
+            Self::Truth(truth) => toml::Value::Boolean(*truth),
+            Self::Whole(whole) => toml::Value::Integer(*whole),
+            Self::Number(number) => toml::Value::Float(*number),
+            Self::Text(text) => toml::Value::String(text.clone()),
+        }
+    }
+
     /// The value as a number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {

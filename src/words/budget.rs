@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::interruption;
+
 /// Units of work that count as a second: operations on 64 vertices of a graph.
 const UNITS_A_SECOND: f64 = 2.5e8;
 
@@ -83,6 +85,7 @@ impl Budget {
         self.left -= units;
         self.unread -= units;
         if self.unread <= 0 {
+            interruption::check();
             self.unread = BETWEEN_LOOKS;
             self.late |= self.deadline.is_some_and(|end| Instant::now() >= end);
         }

@@ -71,7 +71,7 @@ impl Default for CheckSettings {
 }
 
 /// Trajectories with less total energy than a barrier.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Below {
     /// How many there were.
     pub runs: usize,
@@ -84,7 +84,7 @@ pub struct Below {
 }
 
 /// Where a trajectory from one side of a saddle ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Side {
     /// `None` for no reported state, and where the integration's error lifted the tile over the
     /// ceiling.
@@ -94,7 +94,7 @@ pub struct Side {
 }
 
 /// Whether that is where the pathway comes from, or leads to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SideVerdict {
     /// At the pathway's end on this side, or in a state that it passes on the way there.
     OnThePathway,
@@ -106,7 +106,7 @@ pub enum SideVerdict {
 }
 
 /// What moving tiles say of one barrier.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct BarrierCheck {
     /// The state that the pathway leaves.
     pub from: Place,

@@ -29,7 +29,7 @@ const CLEAR: f64 = 1e-6;
 const STEPS_BETWEEN_LOOKS: usize = 5;
 
 /// All that decides a docking experiment, besides the problem.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct DockingSettings {
     /// How many trajectories.
     pub runs: usize,
@@ -141,7 +141,7 @@ pub enum DockingError {
 }
 
 /// What became of one start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum End {
     /// Matched since this time (s), and still so at the end.
     Bound {
@@ -159,7 +159,7 @@ pub enum End {
 }
 
 /// One trajectory, in short.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct DockingRun {
     /// The number of the run, from 0; it chooses the random stream.
     pub index: usize,
@@ -184,7 +184,7 @@ impl DockingRun {
 
 /// The minimum below unmatched ends, symmetric copies counted as one. It may be the bond itself,
 /// where friction holds tiles short of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Trap {
     /// Of the minimum.
     pub configuration: Configuration,
@@ -195,7 +195,7 @@ pub struct Trap {
 }
 
 /// The outcome of a docking experiment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Docking {
     /// What the experiment was made with.
     pub settings: DockingSettings,

@@ -9,7 +9,7 @@ use crate::dynamics::Motion;
 use crate::tile::Pair;
 
 /// The distribution of starts; every range is drawn from uniformly.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Starts {
     /// Distance of the moving tile's reference point from the fixed tile's (m).
     pub distance: [f64; 2],
@@ -42,7 +42,7 @@ impl Default for Starts {
 }
 
 /// One start with the quantities it was drawn by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Start {
     /// Where the tile is and how it moves.
     pub motion: Motion,

@@ -9,6 +9,7 @@ use super::store::{Key, Store};
 use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
+use crate::interruption;
 use crate::potential::bounds::CellBounds;
 
 /// Halvings of a leaf, one after the other, in one round.
@@ -36,7 +37,10 @@ impl<'a> Certifier<'a> {
         let assessed = keys.len();
         let first: Vec<_> = keys
             .into_par_iter()
-            .filter_map(|key| Some((key, landscape.assess(&store.cell(&key))?)))
+            .filter_map(|key| {
+                interruption::check();
+                Some((key, landscape.assess(&store.cell(&key))?))
+            })
             .collect();
         store.fill(&first);
         Self {
@@ -110,6 +114,7 @@ impl<'a> Certifier<'a> {
         let divided: Vec<_> = ids
             .par_iter()
             .map(|&id| {
+                interruption::check();
                 let leaf = self.store.leaf(id);
                 self.parts(&leaf.key, &leaf.known, level)
             })

@@ -138,6 +138,7 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     fn spent(&self) -> bool {
+        crate::interruption::check();
         self.cells() >= self.effort.cells
             || self
                 .effort

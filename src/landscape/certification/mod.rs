@@ -37,7 +37,7 @@ pub struct CertificationSettings {
 
 /// The barriers of which more is claimed than the roadmap's estimate: they are certified, and
 /// checked by moving tiles where that is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Claims {
     /// All that are reported.
     All,
@@ -58,7 +58,9 @@ impl Claims {
 }
 
 /// Why barriers have no certified bounds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
 pub enum Uncertified {
     /// None was asked for.
     #[error("no time was given to the proof")]

@@ -56,6 +56,7 @@ use super::stationary::Stationary;
 use super::survey::Survey;
 use crate::cell::Cell;
 use crate::contact::cells::ContactCells;
+use crate::interruption;
 use crate::observer::Observer;
 use crate::problem::Problem;
 
@@ -65,7 +66,7 @@ pub use regions::OpenRegion;
 const SMALLEST: f64 = 1e-9;
 
 /// What is to be proved, and how much time it is worth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CompletenessSettings {
     /// Configurations deeper than this share of the depth are looked at.
     pub below: f64,
@@ -78,7 +79,7 @@ pub struct CompletenessSettings {
 }
 
 /// What is known of the states that a list may lack.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Completeness {
     /// Below this energy (J) ...
     pub below: f64,
@@ -226,7 +227,10 @@ impl<'a> Search<'a> {
     ) {
         let verdicts: Vec<Verdict> = batch
             .par_iter()
-            .map(|(cell, _)| proof.verdict(cell))
+            .map(|(cell, _)| {
+                interruption::check();
+                proof.verdict(cell)
+            })
             .collect();
         self.cells += batch.len();
         let mut opened = Vec::new();

@@ -10,7 +10,7 @@ use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 
 /// A part of the space of which nothing is proved.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct OpenRegion {
     /// Where the lowest energy may be.
     pub pose: Configuration,

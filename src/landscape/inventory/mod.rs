@@ -26,7 +26,7 @@ const SAME: f64 = 1e-4;
 pub(super) const LEAST_GAIN: f64 = 1e-6;
 
 /// States, barriers and pathways, in the order in which they are reported.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Inventory {
     /// The bond first, then by energy; the states of a kind next to each other.
     pub states: Vec<State>,

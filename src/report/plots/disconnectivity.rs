@@ -115,7 +115,11 @@ pub fn composed<'a>(
 /// The numbers of the picture: each line with its foot, and where it joins which other.
 pub fn data(scene: &Scene, sheet: &Sheet, scale: &EnergyScale) -> String {
     let kinds = scene.kinds();
-    let kinds = &kinds[..kinds.len().min(room(sheet))];
+    lines(scene, &kinds[..kinds.len().min(room(sheet))], scale)
+}
+
+/// The same of some kinds of states.
+pub fn lines(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> String {
     let mut rows = Vec::new();
     for tree in merge_tree(scene, kinds, scale) {
         branches(&tree, scene, kinds, &mut rows);

@@ -108,6 +108,26 @@ impl Figure {
 /// # Errors
 /// See [`PictureError`].
 pub fn draw_all(scene: &Scene, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+    draw(scene, sheet, |_| true)
+}
+
+/// Which states merge at which energy, all kinds of them, as CSV: each line of the graph with its
+/// foot, and where it joins which other.
+pub fn merge_lines(scene: &Scene) -> String {
+    let energies = scene.states().iter().map(|state| state.energy);
+    let scale = EnergyScale::holding(energies.chain([0.0])).linear_throughout();
+    disconnectivity::lines(scene, &scene.kinds(), &scale)
+}
+
+/// The pictures of an analysis that are wanted, by their names.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn draw(
+    scene: &Scene,
+    sheet: &Sheet,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<Figure>, PictureError> {
     let maps = energy_map::Maps::new(scene, sheet);
     let (approach, slices) = approach::slices(scene);
     let grids = [
@@ -151,7 +171,8 @@ pub fn draw_all(scene: &Scene, sheet: &Sheet) -> Result<Vec<Figure>, PictureErro
         graph(scale, "disconnectivity"),
         graph(scale.linear_throughout(), "disconnectivity-linear"),
     ];
-    let drawn: Vec<_> = drawn.into_iter().flatten().collect();
+    let mut drawn: Vec<_> = drawn.into_iter().flatten().collect();
+    drawn.retain(|(composition, _)| wanted(&composition.name));
     drawn
         .into_par_iter()
         .map(|(composition, data)| Figure::new(&composition, sheet, data))

@@ -15,6 +15,7 @@ use super::{Couple, Stage};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells};
+use crate::interruption;
 use crate::landscape::certificate::lower::{Assessment, assess_open};
 use crate::potential::bounds::Enclosure;
 use crate::tile::Magnet;
@@ -100,7 +101,10 @@ impl Stage {
             cells += batch.len();
             let halves: Vec<Vec<Open>> = batch
                 .par_iter()
-                .map(|open| self.look_at(open, couples, &wanted, &contact))
+                .map(|open| {
+                    interruption::check();
+                    self.look_at(open, couples, &wanted, &contact)
+                })
                 .collect();
             for mut open in halves.into_iter().flatten() {
                 open.number = made;

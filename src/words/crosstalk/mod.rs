@@ -238,7 +238,11 @@ fn energies(magnets: &[Energy], q: &Configuration) -> Vec<f64> {
 
 /// Work in order on all threads.
 fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    items.par_iter().map(work).collect()
+    let heeded = |item| {
+        crate::interruption::check();
+        work(item)
+    };
+    items.par_iter().map(heeded).collect()
 }
 
 /// The outward normal of the fixed tile's target face.

@@ -1,0 +1,323 @@
+//! Docking: what becomes of tiles that are sent towards each other.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use tilebind::dynamics::Fan;
+use tilebind::dynamics::docking::{self, Docking as Found, DockingMap, DockingSettings, Trap};
+use tilebind::landscape::Proportion;
+use tilebind::report::docking as report;
+use tilebind::report::plots::{Sheet, dock as picture};
+
+use crate::design::{Content, Design};
+use crate::keywords::Keywords;
+use crate::table::{self, Named, Values};
+use crate::{convert, fault, job, pickle};
+
+/// Cells of the map along the orientation and the speed.
+const CELLS: [usize; 2] = [12, 13];
+
+fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
+    let given = Keywords::new(given);
+    let mut settings = match given.or("engine", false)? {
+        true => DockingSettings::engine_comparison(),
+        false => DockingSettings::default(),
+    };
+    settings.runs = given.or("runs", settings.runs)?;
+    settings.seed = given.or("seed", settings.seed)?;
+    settings.duration = given.or("duration", settings.duration)?;
+    settings.threshold = given.get("threshold")?;
+    let motion = &mut settings.motion;
+    motion.drag = given.or("drag", motion.drag)?;
+    motion.friction = given.or("friction", motion.friction)?;
+    motion.restitution = given.or("restitution", motion.restitution)?;
+    motion.walls = given.or("walls", motion.walls)?;
+    motion.shaking = given.get("shaking")?;
+    for [x, y, energy, width] in given.or::<Vec<[f64; 4]>>("fans", Vec::new())? {
+        motion.fans.push(Fan::steady([x, y], energy, width));
+    }
+    let starts = &mut settings.starts;
+    starts.distance = given.or("distance", starts.distance)?;
+    starts.direction = given.or("direction", starts.direction)?;
+    starts.orientation = given.or("orientation", starts.orientation)?;
+    starts.speed = given.or("speed", starts.speed)?;
+    starts.aim = given.or("aim", starts.aim)?;
+    starts.spin = given.or("spin", starts.spin)?;
+    given.finish()?;
+    fault::count("runs", settings.runs)?;
+    fault::positive("duration", Some(settings.duration))?;
+    fault::positive("threshold", settings.threshold)?;
+    for (name, [low, high]) in [
+        ("distance", settings.starts.distance),
+        ("speed", settings.starts.speed),
+    ] {
+        if !(0.0 <= low && low <= high && high.is_finite()) {
+            return Err(fault::value(format!(
+                "{name} = ({low}, {high}): a range runs from the lower end to the higher, from 0 on"
+            )));
+        }
+    }
+    for (name, number) in [
+        ("direction", settings.starts.direction),
+        ("orientation", settings.starts.orientation),
+        ("aim", settings.starts.aim),
+        ("spin", settings.starts.spin),
+    ] {
+        fault::not_negative(name, number)?;
+        if number.is_infinite() {
+            return Err(fault::value(format!("{name} must be finite")));
+        }
+    }
+    Ok(settings)
+}
+
+/// Send the moving tile towards the fixed one many times and count how it ends.
+///
+/// Parameters
+/// ----------
+/// design : Design
+/// runs : int, optional
+///     Trajectories, 2000 by default.
+/// seed : int, optional
+/// duration : float, optional
+///     Of each, in s.
+/// engine : bool, optional
+///     The experiment made with the Open Dynamics Engine too: drag 0.5 per second, no rim.
+/// drag, friction, restitution : float, optional
+///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
+///     back.
+/// walls : bool, optional
+///     Whether the table has a rim.
+/// shaking : float, optional
+///     Effective energy kT (J) of a random force.
+/// fans : sequence, optional
+///     Of (x, y, energy, width) in m, m, J and m.
+/// threshold : float, optional
+///     Distance (m) within which magnets match.
+/// distance, speed : tuple of float, optional
+///     Lowest and highest at the start (m, m/s).
+/// direction, orientation, aim, spin : float, optional
+///     Widths of the starts (rad, rad, rad, rad/s).
+/// progress : bool, optional
+///
+/// Returns
+/// -------
+/// Docking
+#[pyfunction]
+#[pyo3(signature = (design, *, progress = None, **settings))]
+pub fn dock(
+    py: Python<'_>,
+    design: Py<Design>,
+    progress: Option<bool>,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Docking> {
+    docked(py, design, settings, progress)
+}
+
+/// The same of a design's method.
+pub fn docked(
+    py: Python<'_>,
+    design: Py<Design>,
+    given: Option<&Bound<'_, PyDict>>,
+    progress: Option<bool>,
+) -> PyResult<Docking> {
+    let settings = settings(given)?;
+    let content = design.get().content.clone();
+    let found = job::run(py, progress, |told| {
+        let ended = AtomicUsize::new(0);
+        let step = || {
+            let ended = 1 + ended.fetch_add(1, Ordering::Relaxed);
+            let text = format!("{ended} of {} trajectories", settings.runs);
+            told.tell(ended as f64 / settings.runs as f64, text);
+        };
+        docking::dock(content.problem(None), &settings, &step)
+    })?;
+    Ok(Docking {
+        found: found.map_err(fault::value)?,
+        content,
+    })
+}
+
+/// How tiles ended that were sent towards each other. It never changes.
+#[pyclass(frozen, module = "tilebind")]
+pub struct Docking {
+    content: Arc<Content>,
+    found: Found,
+}
+
+impl Docking {
+    fn map(&self) -> DockingMap {
+        DockingMap::new(&self.found, CELLS)
+    }
+}
+
+/// A share with its 95 % interval, as a named tuple.
+fn share<'py>(py: Python<'py>, proportion: &Proportion) -> PyResult<Bound<'py, PyAny>> {
+    let fields = PyDict::new(py);
+    fields.set_item("value", proportion.share())?;
+    fields.set_item("low", proportion.low)?;
+    fields.set_item("high", proportion.high)?;
+    fields.set_item("count", proportion.count)?;
+    fields.set_item("of", proportion.of)?;
+    convert::named(py, "Share", &fields)
+}
+
+#[pymethods]
+impl Docking {
+    /// Share : Of the runs that ended bound, with its 95 % interval.
+    #[getter]
+    fn bound<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        share(py, &self.found.bound)
+    }
+
+    /// Share : Of those that ended in a trap.
+    #[getter]
+    fn trapped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        share(py, &self.found.trapped)
+    }
+
+    /// Share : Of those that ended otherwise.
+    #[getter]
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        share(py, &self.found.free)
+    }
+
+    /// numpy.ndarray : One row a trajectory, structured: start, end ("bound", "misbound", "free"),
+    /// number of the trap, time to bind.
+    #[getter]
+    fn runs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table::structured(py, table::of_csv(&report::runs_csv(&self.found)))
+    }
+
+    /// numpy.ndarray : The traps, structured, the one with most trajectories first: pose,
+    /// `energy_J`, `share` with its 95 % interval.
+    #[getter]
+    fn traps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let traps = &self.found.traps;
+        let real = |name: &str, of: fn(&Trap) -> f64| -> Named {
+            (
+                name.to_owned(),
+                Values::Real(traps.iter().map(of).collect()),
+            )
+        };
+        let columns = vec![
+            real("x_m", |trap| trap.configuration.x),
+            real("y_m", |trap| trap.configuration.y),
+            real("theta_rad", |trap| trap.configuration.theta),
+            real("energy_J", |trap| trap.energy),
+            real("share", |trap| trap.caught.share()),
+            real("share_low", |trap| trap.caught.low),
+            real("share_high", |trap| trap.caught.high),
+        ];
+        table::structured(py, columns)
+    }
+
+    /// numpy.ndarray : The chance of a match over orientation and speed at the start, structured.
+    #[getter]
+    fn chances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table::structured(py, table::of_csv(&report::map_csv(&self.map())))
+    }
+
+    /// One trajectory, point by point.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : int
+    ///     Its number.
+    /// interval : float, optional
+    ///     Time (s) between two points of free flight, at most.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Structured: `time_s`, pose, velocities, `potential_J`, `kinetic_J`.
+    #[pyo3(signature = (index, *, interval = 0.02))]
+    fn trajectory<'py>(
+        &self,
+        py: Python<'py>,
+        index: usize,
+        interval: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let count = self.found.runs.len();
+        if index >= count {
+            return Err(pyo3::exceptions::PyIndexError::new_err(format!(
+                "the {count} trajectories are numbered from 0"
+            )));
+        }
+        fault::positive("interval", Some(interval))?;
+        let snapshots = job::quietly(py, || {
+            let problem = self.content.problem(None);
+            docking::trajectory(problem, &self.found.settings, index, interval)
+        })?;
+        let snapshots = snapshots.map_err(fault::value)?;
+        table::structured(py, table::of_csv(&report::trajectory_csv(&snapshots)))
+    }
+
+    /// dict : Everything, as ``dock.json`` has it.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let json = report::json(&self.content.design, &self.found, &self.map());
+        convert::json(py, &json)
+    }
+
+    /// What came of it, in a few lines.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn summary(&self) -> String {
+        let problem = self.content.problem(None);
+        report::summary(&self.content.design, problem, &self.found, &self.map())
+    }
+
+    /// The chances of a match over orientation and speed, an SVG document.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn svg(&self, py: Python<'_>) -> PyResult<String> {
+        let drawn = job::quietly(py, || {
+            let map = DockingMap::new(&self.found, picture::cells(self.found.runs.len()));
+            picture::chances(&self.content.design, &map, &Sheet::SCREEN)
+        })?;
+        Ok(drawn.map_err(fault::run)?.svg().to_owned())
+    }
+
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let html = py.import("tilebind._html")?;
+        html.call_method1("page", (self.summary(), vec![self.svg(py)?]))
+    }
+
+    fn __len__(&self) -> usize {
+        self.found.runs.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let (name, bound) = (&self.content.design.name, &self.found.bound);
+        format!(
+            "<tilebind.Docking {name:?}, {} of {} runs bound>",
+            bound.count, bound.of
+        )
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("_restore")?;
+        let Self { content, found } = slf.get();
+        let bytes = pickle::dump(slf.py(), &(&content.source, found))?;
+        Ok((restore, (bytes,)))
+    }
+
+    #[staticmethod]
+    fn _restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        let (source, found) = pickle::load(bytes)?;
+        let design = Design::of_source(py, source)?;
+        Ok(Self {
+            content: design.content.clone(),
+            found,
+        })
+    }
+}

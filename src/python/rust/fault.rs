@@ -1,0 +1,86 @@
+//! Exceptions: what is wrong and how to mend it.
+
+use std::fmt::Display;
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use tilebind::design;
+
+/// The exception `tilebind.DesignError` of a fault, with its place and its mend.
+pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
+    exception(py, fault).map_or_else(|error| error, PyErr::from_value)
+}
+
+/// A fault that has no place in a file.
+pub fn of_design(py: Python<'_>, file: &str, message: String, help: &str) -> PyErr {
+    let fault = design::DesignError {
+        file: file.to_owned(),
+        place: None,
+        message,
+        help: help.to_owned(),
+        also: Vec::new(),
+    };
+    design(py, &fault)
+}
+
+fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Bound<'py, PyAny>> {
+    let also = fault.also.iter().map(|one| exception(py, one));
+    let also = PyTuple::new(py, also.collect::<PyResult<Vec<_>>>()?)?;
+    let place = fault.place.as_ref();
+    let more = PyDict::new(py);
+    more.set_item("file", &fault.file)?;
+    more.set_item("line", place.map(|place| place.line))?;
+    more.set_item("column", place.map(|place| place.column))?;
+    more.set_item("message", &fault.message)?;
+    more.set_item("mend", &fault.help)?;
+    more.set_item("also", also)?;
+    let class = py.import("tilebind._errors")?.getattr("DesignError")?;
+    class.call((fault.to_string(),), Some(&more))
+}
+
+/// A `ValueError`.
+pub fn value(message: impl Display) -> PyErr {
+    PyValueError::new_err(message.to_string())
+}
+
+/// A `RuntimeError`: the work did not come to a result.
+pub fn run(message: impl Display) -> PyErr {
+    PyRuntimeError::new_err(message.to_string())
+}
+
+/// A `ValueError` unless a number is positive (and finite).
+pub fn positive(name: &str, number: Option<f64>) -> PyResult<()> {
+    match number {
+        Some(number) if !(number > 0.0 && number.is_finite()) => {
+            Err(value(format!("{name} must be above 0, not {number}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A `ValueError` where a number is negative or none.
+pub fn not_negative(name: &str, number: f64) -> PyResult<()> {
+    if number >= 0.0 {
+        return Ok(());
+    }
+    Err(value(format!("{name} must be 0 or more, not {number}")))
+}
+
+/// A `ValueError` unless a share is above 0 and below 1.
+pub fn fraction(name: &str, number: f64) -> PyResult<()> {
+    if number > 0.0 && number < 1.0 {
+        return Ok(());
+    }
+    Err(value(format!(
+        "{name} must be between 0 and 1, not {number}"
+    )))
+}
+
+/// A `ValueError` unless there is at least one.
+pub fn count(name: &str, number: usize) -> PyResult<()> {
+    if number > 0 {
+        return Ok(());
+    }
+    Err(value(format!("{name} must be at least 1")))
+}

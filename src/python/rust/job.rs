@@ -1,0 +1,159 @@
+//! Long work: done beside the interpreter, whose lock is released, on threads of its own; progress
+//! is shown, ctrl-C heeded.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use tilebind::interruption::{Interrupted, Interruption};
+use tilebind::observer::Observer;
+
+use crate::fault;
+
+/// Time between two looks at signals and progress.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What the work says it is doing.
+#[derive(Default)]
+pub struct Told(Mutex<(f64, String)>);
+
+impl Told {
+    /// A share (0 to 1) is done; what comes next has this name.
+    pub fn tell(&self, share: f64, text: String) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = (share, text);
+    }
+
+    fn last(&self) -> (f64, String) {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+}
+
+impl Observer for Told {
+    fn stage(&self, name: &'static str, share: f64) {
+        self.tell(share, name.to_owned());
+    }
+
+    fn part(&self, name: &'static str, done: usize, count: usize) {
+        let mut told = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        told.1 = format!("{name}, {done} of {count}");
+    }
+}
+
+/// Threads of a job: `RAYON_NUM_THREADS`, or else all cores. (No pool is shared: a forked process
+/// would wait for its threads for ever.)
+pub fn threads() -> usize {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok();
+    let asked = asked.and_then(|text| text.parse().ok()).filter(|n| *n > 0);
+    asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// Does long work, with a bar unless `progress` is false (or `None` where nobody would see it).
+pub fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<bool>,
+    work: impl FnOnce(&Told) -> T + Send,
+) -> PyResult<T> {
+    let bar = match progress {
+        Some(false) => None,
+        _ => {
+            let module = py.import("tilebind._progress")?;
+            let bar = module.call_method1("bar", (progress,))?;
+            (!bar.is_none()).then(|| bar.unbind())
+        }
+    };
+    let done = attend(py, bar.as_ref(), work);
+    if let Some(bar) = bar {
+        bar.call_method0(py, "close")?;
+    }
+    done
+}
+
+/// The same without a word.
+pub fn quietly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    attend(py, None, |_| work())
+}
+
+fn attend<T: Send>(
+    py: Python<'_>,
+    bar: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Told) -> T + Send,
+) -> PyResult<T> {
+    let (told, interruption) = (Told::default(), Interruption::default());
+    let (told, interruption) = (&told, &interruption);
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (finished, waits) = channel::<()>();
+            let worker = scope.spawn(move || {
+                let _finished = finished;
+                catch_unwind(AssertUnwindSafe(|| {
+                    interruption.run(threads(), || work(told))
+                }))
+            });
+            // The channel ends with the worker.
+            let mut stopped = None;
+            while waits.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                if stopped.is_none()
+                    && let Err(error) = Python::attach(|py| look(py, bar, told))
+                {
+                    interruption.ask();
+                    stopped = Some(error);
+                }
+            }
+            let done = worker.join().unwrap_or_else(Err);
+            match (stopped, done) {
+                (Some(error), _) => Err(error),
+                (None, Ok(Ok(result))) => Ok(result),
+                (None, Ok(Err(Interrupted))) => Err(fault::run(Interrupted)),
+                (None, Err(payload)) => Err(broken(payload.as_ref())),
+            }
+        })
+    })
+}
+
+/// Heeds signals and shows progress.
+fn look(py: Python<'_>, bar: Option<&Py<PyAny>>, told: &Told) -> PyResult<()> {
+    py.check_signals()?;
+    match bar {
+        Some(bar) => bar.call_method1(py, "show", told.last()).map(drop),
+        None => Ok(()),
+    }
+}
+
+fn broken(payload: &(dyn Any + Send)) -> PyErr {
+    let text = payload
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned());
+    let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+    let text = text.unwrap_or_else(|| "no message".to_owned());
+    fault::run(format!(
+        "a fault of tilebind, please report it with the design: {text}"
+    ))
+}
+
+/// Refuses a roadmap for which the machine has not the memory.
+pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()> {
+    const SUPPOSED: f64 = 8e9;
+    let needed = tilebind::roadmap::memory(milestones, neighbours);
+    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = told
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+    let free = kibibytes.map_or(SUPPOSED, |kibibytes| 1024.0 * kibibytes);
+    if needed <= free {
+        return Ok(());
+    }
+    Err(fault::value(format!(
+        "the roadmap takes about {:.3e} GB of memory, and {:.1} GB are free: ask for fewer \
+         milestones or neighbours",
+        needed / 1e9,
+        free / 1e9
+    )))
+}

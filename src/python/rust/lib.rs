@@ -1,0 +1,38 @@
+//! tilebind for Python: the classes and functions of the package, each a thin view of the library.
+//!
+//! - [`design`] - a pair of tiles; [`poses`] - energies of many configurations;
+//! - [`analysis`], [`barrier`], [`many`] (comparisons and sweeps), [`dock`], [`words`] - the jobs;
+//! - [`job`] - long work: progress, ctrl-C, faults;
+//! - [`table`] - structured arrays; [`convert`] - values of Python as values of a design file;
+//! - [`fault`] - exceptions; [`pickle`] - results as bytes.
+
+mod analysis;
+mod barrier;
+mod convert;
+mod design;
+mod dock;
+mod fault;
+mod job;
+mod keywords;
+mod many;
+mod pickle;
+mod poses;
+mod table;
+mod words;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<design::Design>()?;
+    module.add_class::<analysis::Analysis>()?;
+    module.add_class::<many::Comparison>()?;
+    module.add_class::<many::Sweep>()?;
+    module.add_class::<dock::Docking>()?;
+    module.add_function(wrap_pyfunction!(many::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(many::sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(dock::dock, module)?)?;
+    module.add_function(wrap_pyfunction!(words::words, module)?)?;
+    module.add_function(wrap_pyfunction!(words::crosstalk, module)?)
+}

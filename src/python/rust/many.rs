@@ -1,0 +1,417 @@
+//! Many designs: side by side, and made from one by varying its keys.
+
+use std::convert::Infallible;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyMapping};
+use tilebind::comparison::quantity::QUANTITIES;
+use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity};
+use tilebind::observer::Observer;
+use tilebind::report::comparison::Comparison as Compared;
+use tilebind::report::page::Page;
+use tilebind::report::plots::{Sheet, curve_data, ranking};
+use tilebind::report::sweep::Sweep as Swept;
+use tilebind::sweep::{Axis, Outcome, Plan, Value, run as work_on};
+
+use crate::design::Design;
+use crate::job::Told;
+use crate::keywords::Keywords;
+use crate::table;
+use crate::{convert, fault, job, pickle};
+
+/// How designs are assessed, and the seed.
+fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<(AssessmentSettings, u64)> {
+    let given = Keywords::new(given);
+    let default = AssessmentSettings::default();
+    let settings = AssessmentSettings {
+        milestones: given.or("milestones", default.milestones)?,
+        neighbours: given.get("neighbours")?,
+        settled: given.or("settled", default.settled)?,
+        far_starts: given.or("far_starts", default.far_starts)?,
+        tolerance: given.get("tolerance")?,
+        certify_cells: given.or("certify_cells", default.certify_cells)?,
+        complete_cells: given.or("complete_cells", default.complete_cells)?,
+        dynamics_runs: given.or("dynamics_runs", default.dynamics_runs)?,
+    };
+    let seed = given.or("seed", 1)?;
+    given.finish()?;
+    fault::count("milestones", settings.milestones)?;
+    fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
+    fault::fraction("settled", settings.settled)?;
+    fault::positive("tolerance", settings.tolerance)?;
+    job::check_memory(settings.milestones, settings.neighbours)?;
+    Ok((settings, seed))
+}
+
+fn quantity(key: &str) -> PyResult<&'static Quantity> {
+    let known = || QUANTITIES.iter().map(|one| one.key).collect::<Vec<_>>();
+    QUANTITIES
+        .iter()
+        .find(|one| one.key == key)
+        .ok_or_else(|| fault::value(format!("by = {key:?}: known are {}", known().join(", "))))
+}
+
+/// Set designs side by side: bond, traps, barriers with bounds, capture range.
+///
+/// Parameters
+/// ----------
+/// designs : sequence of Design
+/// by : str, optional
+///     What to rank by, "selectivity" by default; largest first.
+/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
+/// dynamics_runs, seed
+///     As for :meth:`Design.analyse`, but for `certify_cells`: cells spent on the bounds of a
+///     barrier at most; 0 for no bounds.
+/// progress : bool, optional
+///
+/// Returns
+/// -------
+/// Comparison
+#[pyfunction]
+#[pyo3(signature = (designs, *, by = "selectivity", progress = None, **settings))]
+pub fn compare(
+    py: Python<'_>,
+    designs: Vec<Py<Design>>,
+    by: &str,
+    progress: Option<bool>,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Comparison> {
+    let by = quantity(by)?;
+    let (settings, seed) = self::settings(settings)?;
+    if designs.is_empty() {
+        return Err(fault::value("there is no design to compare"));
+    }
+    let contents: Vec<_> = designs
+        .iter()
+        .map(|one| one.get().content.clone())
+        .collect();
+    let count = contents.len();
+    let assessments = job::run(py, progress, |told| {
+        let parts = contents.iter().enumerate();
+        let assessed = parts.map(|(done, content)| {
+            let part = Part { told, done, count };
+            comparison::assess(&content.design, &settings, seed, &part)
+        });
+        assessed.collect::<Vec<_>>()
+    })?;
+    Ok(Comparison(Compared::new(&assessments, by, settings)))
+}
+
+/// The progress of one design among several.
+struct Part<'a> {
+    told: &'a Told,
+    done: usize,
+    count: usize,
+}
+
+impl Observer for Part<'_> {
+    fn stage(&self, name: &'static str, share: f64) {
+        let share = (self.done as f64 + share) / self.count as f64;
+        let text = format!("design {} of {}: {name}", self.done + 1, self.count);
+        self.told.tell(share, text);
+    }
+}
+
+/// Designs side by side, best first. It never changes.
+#[pyclass(frozen, module = "tilebind")]
+pub struct Comparison(Compared);
+
+#[pymethods]
+impl Comparison {
+    /// numpy.ndarray : One row a design, best first, structured, for ``pandas.DataFrame``: every
+    /// figure with its bounds, units in the names.
+    #[getter]
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table::structured(py, table::of_csv(&self.0.csv()))
+    }
+
+    /// dict : Everything, with what reproduces it, as ``compare.json`` has it.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        convert::json(py, &self.0.json())
+    }
+
+    /// The tables and the proved orders as text.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn summary(&self) -> String {
+        self.0.summary(Some(100))
+    }
+
+    /// The same as Markdown.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn markdown(&self) -> String {
+        self.0.markdown()
+    }
+
+    /// The picture of the ranking, an SVG document.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn svg(&self) -> PyResult<String> {
+        let drawn = ranking::draw(&self.0, &Sheet::SCREEN).map_err(fault::run)?;
+        Ok(drawn.svg().to_owned())
+    }
+
+    /// The page of the comparison.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn report_html(&self) -> PyResult<String> {
+        Ok(Page::of_comparison(&self.0, self.svg()?).to_html())
+    }
+
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let html = py.import("tilebind._html")?;
+        html.call_method1("page", (self.summary(), vec![self.svg()?]))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.designs.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let (count, by) = (self.0.designs.len(), self.0.by.label);
+        format!("<tilebind.Comparison of {count} designs by {by}>")
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("_restore")?;
+        let Compared {
+            designs,
+            by,
+            settings,
+        } = &slf.get().0;
+        Ok((
+            restore,
+            (pickle::dump(slf.py(), &(designs, by.key, settings))?,),
+        ))
+    }
+
+    #[staticmethod]
+    fn _restore(bytes: &[u8]) -> PyResult<Self> {
+        let (designs, by, settings): (Vec<Assessment>, String, _) = pickle::load(bytes)?;
+        Ok(Self(Compared {
+            designs,
+            by: quantity(&by)?,
+            settings,
+        }))
+    }
+}
+
+/// A key's values.
+fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
+    let key: String = key.extract()?;
+    let one = |value: Bound<'_, PyAny>| match convert::toml(&value)? {
+        toml::Value::Boolean(truth) => Ok(Value::Truth(truth)),
+        toml::Value::Integer(whole) => Ok(Value::Whole(whole)),
+        toml::Value::Float(number) => Ok(Value::Number(number)),
+        toml::Value::String(text) => Ok(Value::Text(text)),
+        other => Err(fault::value(format!(
+            "{key}: a value is a number, a text or a truth, not {other}"
+        ))),
+    };
+    let values = values.try_iter()?.map(|value| one(value?));
+    let values = values.collect::<PyResult<Vec<_>>>()?;
+    Ok(Axis { key, values })
+}
+
+/// Vary keys of a design and assess every design that comes of it.
+///
+/// Parameters
+/// ----------
+/// design : Design
+/// vary : Mapping
+///     Dotted path of a key to its values, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``; several
+///     keys make a grid, of which the first varies slowest.
+/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
+/// dynamics_runs, seed
+///     As for :func:`compare`.
+/// progress : bool, optional
+///
+/// Returns
+/// -------
+/// Sweep
+///     The results of a point are those of ``tilebind sweep``: they depend neither on the other
+///     points nor on the number of threads.
+#[pyfunction]
+#[pyo3(signature = (design, vary, *, progress = None, **settings))]
+pub fn sweep(
+    py: Python<'_>,
+    design: &Bound<'_, Design>,
+    vary: &Bound<'_, PyMapping>,
+    progress: Option<bool>,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Sweep> {
+    let (settings, seed) = self::settings(settings)?;
+    let items = vary.items()?;
+    let axes = items.iter().map(|item| axis(item.extract()?));
+    let axes = axes.collect::<PyResult<Vec<_>>>()?;
+    let source = design.get().content.source.clone();
+    let plan = Plan::of(vec![source], axes, settings, seed).map_err(fault::value)?;
+    let outcomes = job::run(py, progress, |told| worked(&plan, told))?;
+    Ok(Sweep { plan, outcomes })
+}
+
+/// What comes of each point.
+fn worked(plan: &Plan, told: &Told) -> Vec<Outcome> {
+    let points = plan.points();
+    let found = std::sync::Mutex::new(std::collections::HashMap::new());
+    let done = AtomicUsize::new(0);
+    told.tell(0.0, format!("{} points", points.len()));
+    let kept: Result<(), Infallible> = work_on(plan, &points, job::threads(), |point, outcome| {
+        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+        let text = format!("{done} of {} points", points.len());
+        told.tell(done as f64 / points.len() as f64, text);
+        let mut found = found
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        found.insert(point.name.clone(), outcome.clone());
+        Ok(())
+    });
+    let Ok(()) = kept;
+    let found = found
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let missing = || Outcome::Failed {
+        reason: "it was not worked on".to_owned(),
+    };
+    let outcomes = points.iter().map(|point| found.get(&point.name).cloned());
+    outcomes
+        .map(|outcome| outcome.unwrap_or_else(missing))
+        .collect()
+}
+
+/// Many designs made from one. It never changes.
+#[pyclass(frozen, module = "tilebind")]
+pub struct Sweep {
+    plan: Plan,
+    outcomes: Vec<Outcome>,
+}
+
+impl Sweep {
+    fn swept(&self) -> Swept<'_> {
+        Swept {
+            plan: &self.plan,
+            points: self.plan.points(),
+            outcomes: self.outcomes.clone(),
+        }
+    }
+}
+
+#[pymethods]
+impl Sweep {
+    /// numpy.ndarray : One row a point, structured, for ``pandas.DataFrame``: the varied keys,
+    /// `status` ("done", "impossible" or "failed"), `reason`, every figure with its bounds.
+    #[getter]
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table::structured(py, table::of_csv(&self.swept().csv()))
+    }
+
+    /// dict : Everything, with what reproduces it, as ``sweep.json`` has it.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        convert::json(py, &self.swept().json())
+    }
+
+    /// What came of it.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn summary(&self) -> String {
+        self.swept().summary(Some(100))
+    }
+
+    /// The design of a point.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : int
+    ///     The point's number.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    fn design(&self, py: Python<'_>, index: usize) -> PyResult<Design> {
+        let points = self.plan.points();
+        let point = points.get(index).ok_or_else(|| {
+            pyo3::exceptions::PyIndexError::new_err(format!("there are {} points", points.len()))
+        })?;
+        let source = &self.plan.designs[point.design];
+        let mut source = source.clone();
+        for (axis, value) in self.plan.axes.iter().zip(&point.values) {
+            source = source.with(&axis.key, value.toml()).map_err(fault::value)?;
+        }
+        Design::of_source(py, source)
+    }
+
+    /// Curves over one varied number, maps over two, as SVG documents.
+    ///
+    /// Returns
+    /// -------
+    /// list of str
+    fn svg(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let swept = self.swept();
+        let drawn = job::quietly(py, || curve_data::pictures(&swept, &Sheet::SCREEN))?;
+        let drawn = drawn.map_err(fault::run)?;
+        Ok(drawn.iter().map(|figure| figure.svg().to_owned()).collect())
+    }
+
+    /// The page of the sweep.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn report_html(&self, py: Python<'_>) -> PyResult<String> {
+        let swept = self.swept();
+        job::quietly(py, || Page::of_sweep(&swept).to_html())
+    }
+
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let html = py.import("tilebind._html")?;
+        html.call_method1("page", (self.summary(), self.svg(py)?))
+    }
+
+    fn __len__(&self) -> usize {
+        self.outcomes.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let keys: Vec<_> = self
+            .plan
+            .axes
+            .iter()
+            .map(|axis| axis.key.as_str())
+            .collect();
+        let count = self.outcomes.len();
+        format!(
+            "<tilebind.Sweep of {count} points over {}>",
+            keys.join(", ")
+        )
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("_restore")?;
+        let Self { plan, outcomes } = slf.get();
+        Ok((restore, (pickle::dump(slf.py(), &(plan, outcomes))?,)))
+    }
+
+    #[staticmethod]
+    fn _restore(bytes: &[u8]) -> PyResult<Self> {
+        let (plan, outcomes) = pickle::load(bytes)?;
+        Ok(Self { plan, outcomes })
+    }
+}

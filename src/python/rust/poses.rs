@@ -1,0 +1,154 @@
+//! What is known of many configurations at once: arrays in, arrays out.
+
+use numpy::{AllowTypeChange, PyArray1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use tilebind::potential::Potential;
+use tilebind::{Configuration, interruption};
+
+use crate::{fault, job};
+
+/// Poses as users have them: anything that NumPy takes for an array (..., 3) of x (m), y (m) and
+/// theta (rad).
+pub type Poses<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+
+/// Numbers of a pose beyond this (m, rad), whose powers would be infinite, are as good as infinite.
+const FARTHEST: f64 = 1e30;
+/// So few poses are worth neither threads nor the interpreter's lock.
+const FEW: usize = 64;
+/// So many are worth threads.
+const MANY: usize = 2048;
+/// Poses that are worked on together.
+const TOGETHER: usize = 512;
+
+/// For each pose `WIDTH` numbers, found by `kernel` for several poses at a time. NaN where a pose is
+/// not finite.
+pub fn numbers<'py, const WIDTH: usize>(
+    py: Python<'py>,
+    poses: &Poses<'py>,
+    kernel: impl Fn(&[Configuration], &mut [[f64; WIDTH]]) + Sync,
+) -> PyResult<Bound<'py, PyAny>> {
+    let shape = outer_shape(poses)?;
+    let found = evaluate(py, poses, [f64::NAN; WIDTH], kernel)?;
+    if WIDTH == 1 && shape.is_empty() {
+        let one: f64 = found.iter().flatten().sum();
+        return Ok(one.into_pyobject(py)?.into_any());
+    }
+    let mut shape = shape;
+    if WIDTH > 1 {
+        shape.push(WIDTH);
+    }
+    // The same memory, seen as one run of numbers.
+    let array = PyArray1::from_vec(py, found.into_flattened());
+    if shape.len() == 1 {
+        return Ok(array.into_any());
+    }
+    Ok(array.reshape(shape)?.into_any())
+}
+
+/// For each pose whether something holds; it does not where a pose is not finite.
+pub fn truths<'py>(
+    py: Python<'py>,
+    poses: &Poses<'py>,
+    holds: impl Fn(&Configuration) -> bool + Sync,
+) -> PyResult<Bound<'py, PyAny>> {
+    let shape = outer_shape(poses)?;
+    let found = evaluate(
+        py,
+        poses,
+        false,
+        |qs: &[Configuration], out: &mut [bool]| {
+            for (q, held) in qs.iter().zip(out) {
+                *held = holds(q);
+            }
+        },
+    )?;
+    if shape.is_empty() {
+        let one = found.first().copied().unwrap_or(false);
+        return Ok(one.into_pyobject(py)?.to_owned().into_any());
+    }
+    Ok(PyArray1::from_vec(py, found).reshape(shape)?.into_any())
+}
+
+/// The shape of an array of poses without its last axis.
+fn outer_shape(poses: &Poses<'_>) -> PyResult<Vec<usize>> {
+    match poses.shape() {
+        [outer @ .., 3] => Ok(outer.to_vec()),
+        shape => Err(fault::value(format!(
+            "poses are an array (n, 3) of x (m), y (m) and theta (rad), not {shape:?}"
+        ))),
+    }
+}
+
+fn evaluate<T: Copy + Send + Sync>(
+    py: Python<'_>,
+    poses: &Poses<'_>,
+    unknown: T,
+    kernel: impl Fn(&[Configuration], &mut [T]) + Sync,
+) -> PyResult<Vec<T>> {
+    let copy: Vec<f64>;
+    let numbers = match poses.as_slice() {
+        Ok(numbers) if poses.is_c_contiguous() => numbers,
+        _ => {
+            copy = poses.as_array().iter().copied().collect();
+            &copy
+        }
+    };
+    let (rows, _) = numbers.as_chunks::<3>();
+    let mut out = vec![unknown; rows.len()];
+    if rows.len() <= FEW {
+        some(rows, &mut out, &kernel);
+    } else if rows.len() < MANY {
+        py.detach(|| some(rows, &mut out, &kernel));
+    } else {
+        let out = &mut out;
+        job::quietly(py, || {
+            let parts = out.par_chunks_mut(TOGETHER).zip(rows.par_chunks(TOGETHER));
+            parts.for_each(|(out, rows)| {
+                interruption::check();
+                some(rows, out, &kernel);
+            });
+        })?;
+    }
+    Ok(out)
+}
+
+/// Leaves `out` as it is where a pose is not finite.
+fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configuration], &mut [T])) {
+    for (rows, out) in rows.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
+        let is_known = |row: &[f64; 3]| row.iter().all(|number| number.abs() <= FARTHEST);
+        if rows.iter().all(is_known) {
+            let qs: Vec<_> = rows.iter().copied().map(Configuration::from).collect();
+            kernel(&qs, out);
+            continue;
+        }
+        for (row, out) in rows.iter().zip(out) {
+            if is_known(row) {
+                kernel(&[Configuration::from(*row)], std::slice::from_mut(out));
+            }
+        }
+    }
+}
+
+/// The time (s) that a potential takes for poses on all cores, once they lie ready.
+pub fn kernel_seconds(
+    py: Python<'_>,
+    poses: &Poses<'_>,
+    potential: &dyn Potential,
+) -> PyResult<f64> {
+    outer_shape(poses)?;
+    let numbers: Vec<f64> = poses.as_array().iter().copied().collect();
+    let qs: Vec<Configuration> = numbers
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .map(|row| Configuration::from(*row))
+        .collect();
+    let mut out = vec![0.0; qs.len()];
+    job::quietly(py, || {
+        let start = std::time::Instant::now();
+        let parts = out.par_chunks_mut(TOGETHER).zip(qs.par_chunks(TOGETHER));
+        parts.for_each(|(out, qs)| potential.energies(qs, out));
+        start.elapsed().as_secs_f64()
+    })
+}

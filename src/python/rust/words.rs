@@ -1,0 +1,220 @@
+//! Sets of barcodes that bind their mates and nothing else.
+
+use pyo3::prelude::*;
+use tilebind::design::WordSet;
+use tilebind::report::crosstalk as crosstalk_report;
+use tilebind::report::words::{self as report, Request};
+use tilebind::words::budget::Budget;
+use tilebind::words::crosstalk::Stage;
+use tilebind::words::search::Effort;
+use tilebind::words::word::MOST_PLACES;
+use tilebind::words::{Bar, Constraints, Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
+
+use crate::design::Design;
+use crate::{convert, fault, job};
+
+/// Find sets of barcodes that bind their mates and nothing else.
+///
+/// Parameters
+/// ----------
+/// length : int
+///     Magnets of a word.
+/// gap : float, optional
+///     Least gap, from 0 to 1: the answer is the largest set.
+/// count : int, optional
+///     Words wanted: the answer is the set with the widest gap. With neither, the number of words
+///     for every number of contacts.
+/// design : Design, optional
+///     From whose target face magnets and pitch are taken; the paper's tile by default.
+/// faces : {"all", "mates"}, optional
+///     Which faces can meet.
+/// shape : {"none", "shared", "polar"}, optional
+///     Complementary shapes.
+/// flip : bool, optional
+///     Tiles may lie upside down.
+/// tolerate : {"missing", "flipped"}, optional
+///     The words hold though one magnet of every face is missing, or lies the wrong way round.
+/// pitch : float, optional
+///     From place to place (m).
+/// balanced : bool, optional
+///     As many north as south poles, or one more.
+/// seconds : float, optional
+///     Work to spend, as what takes about so many seconds of a core; it is counted.
+/// seed : int, optional
+/// progress : bool, optional
+///
+/// Returns
+/// -------
+/// dict
+///     As ``tilebind words --json``: `words`, `count`, `upper_bound`, `proved`, `gap`, `bond_J`,
+///     `worst`.
+#[pyfunction]
+#[pyo3(signature = (length, *, gap = None, count = None, design = None, faces = "all",
+                    shape = "none", flip = false, tolerate = None, pitch = None, balanced = false, seconds = 20.0,
+                    seed = 1, progress = None))]
+#[allow(clippy::too_many_arguments)]
+pub fn words<'py>(
+    py: Python<'py>,
+    length: usize,
+    gap: Option<f64>,
+    count: Option<usize>,
+    design: Option<Py<Design>>,
+    faces: &str,
+    shape: &str,
+    flip: bool,
+    tolerate: Option<&str>,
+    pitch: Option<f64>,
+    balanced: bool,
+    seconds: f64,
+    seed: u64,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    if !(1..=MOST_PLACES).contains(&length) {
+        return Err(fault::value(format!(
+            "length must be from 1 to {MOST_PLACES}"
+        )));
+    }
+    fault::positive("seconds", Some(seconds))?;
+    let question = match (gap, count) {
+        (Some(_), Some(_)) => return Err(fault::value("give gap or count, not both")),
+        (Some(gap), None) if (0.0..=1.0).contains(&gap) => Question::Gap(gap),
+        (Some(_), None) => return Err(fault::value("a gap lies between 0 and 1")),
+        (None, Some(0)) => return Err(fault::value("count must be at least 1")),
+        (None, Some(count)) => Question::Count(count),
+        (None, None) => Question::Frontier,
+    };
+    let rules = Rules {
+        faces: match faces {
+            "all" => Faces::All,
+            "mates" => Faces::Mates,
+            _ => return Err(fault::value("faces are \"all\" or \"mates\"")),
+        },
+        shape: match shape {
+            "none" => Shape::None,
+            "shared" => Shape::Shared,
+            "polar" => Shape::Polar,
+            _ => return Err(fault::value("a shape is \"none\", \"shared\" or \"polar\"")),
+        },
+        flip,
+        fault: match tolerate {
+            None => None,
+            Some("missing") => Some(Fault::Missing),
+            Some("flipped") => Some(Fault::Flipped),
+            Some(_) => return Err(fault::value("tolerated are \"missing\" or \"flipped\"")),
+        },
+    };
+    let bar = bar(design.as_ref(), pitch)?;
+    let least_spacing = (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
+    if (length - 1) * least_spacing >= length {
+        return Err(fault::value(format!(
+            "magnets {} m wide do not fit side by side {} m apart: give a wider pitch",
+            bar.size[1], bar.pitch
+        )));
+    }
+    let energies = Lags::new(&bar, length);
+    let constraints = Constraints {
+        balanced,
+        least_spacing,
+        ..Constraints::default()
+    };
+    let task = Task {
+        places: length,
+        magnets: length,
+        lags: energies.clone(),
+        rules,
+        constraints,
+    };
+    let mut effort = Effort {
+        seed,
+        budget: Budget::seconds(seconds, Budget::deadline(3.0 * seconds)),
+    };
+    let answer = job::run(py, progress, |told| {
+        told.tell(0.0, "words".to_owned());
+        answer(&task, question, &energies, &mut effort)
+    })?;
+    let request = Request {
+        design: design.map(|design| design.get().content.design.name.clone()),
+        bar,
+        task,
+        question,
+        contacts: None,
+        seed,
+        seconds,
+        energies,
+    };
+    convert::json(py, &report::json(&request, &answer))
+}
+
+/// The magnets of words.
+fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<Bar> {
+    fault::positive("pitch", pitch)?;
+    let Some(design) = design else {
+        let paper = Bar::paper();
+        return Ok(Bar {
+            pitch: pitch.unwrap_or(paper.pitch),
+            ..paper
+        });
+    };
+    let design = &design.get().content.design;
+    let pitch = pitch
+        .or(design.pitch)
+        .ok_or_else(|| fault::value("the design gives no pitch: pitch=0.04"))?;
+    let (pair, interaction) = (&design.pair, &design.interaction);
+    Bar::of_face(&pair.fixed, pair.target.0, interaction, pitch).map_err(|error| {
+        fault::value(format!(
+            "{error}; words need equal magnets behind a flat face, as in shapes/paper-tile.toml"
+        ))
+    })
+}
+
+/// The strongest attraction of every two words of a set over all poses, with their mates.
+///
+/// Parameters
+/// ----------
+/// words : sequence of str or Mapping
+///     The words, without their mates, or a whole set with the keys of its file.
+/// certify : float or bool, optional
+///     Prove that no attraction is stronger, to within so many J; True for a twentieth of a contact.
+/// cells : int, optional
+///     Spent on the proof at most.
+/// progress : bool, optional
+///
+/// Returns
+/// -------
+/// dict
+///     As ``tilebind crosstalk --json``: `words`, `strongest_J`, `lower_J`, `poses`.
+#[pyfunction]
+#[pyo3(signature = (words, *, certify = None, cells = 8_000_000, progress = None))]
+pub fn crosstalk<'py>(
+    py: Python<'py>,
+    words: &Bound<'py, PyAny>,
+    certify: Option<&Bound<'py, PyAny>>,
+    cells: usize,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    const SHARE: f64 = 0.05;
+    let table = match convert::toml(words)? {
+        toml::Value::Table(table) => table,
+        list => toml::Table::from_iter([("words".to_owned(), list)]),
+    };
+    let set = WordSet::parse(&table.to_string(), "words.toml", None);
+    let set = set.map_err(|error| fault::design(py, &error))?;
+    let stage = Stage::new(
+        set.stage.pair.as_ref().clone(),
+        set.stage.interaction.clone(),
+    );
+    let usual = || SHARE * stage.contact_energy();
+    let tolerance = match certify.filter(|certify| !certify.is_none()) {
+        None => None,
+        Some(certify) => match certify.extract::<bool>() {
+            Ok(wanted) => wanted.then(usual),
+            Err(_) => Some(certify.extract()?),
+        },
+    };
+    fault::positive("certify", tolerance)?;
+    let found = job::run(py, progress, |told| {
+        told.tell(0.0, "crosstalk".to_owned());
+        stage.crosstalk(&set.words, tolerance.map(|tolerance| (tolerance, cells)))
+    })?;
+    convert::json(py, &crosstalk_report::json(&set, &found))
+}

@@ -1,0 +1,49 @@
+"""How two magnetic tiles bind: states, traps, certified energy barriers, pathways.
+
+Everything is in SI units (m, kg, s, T, J, N, rad). A pose is ``(x, y, theta)``: the moving tile's
+reference point in the fixed tile's frame and its orientation, counter-clockwise; arrays of poses
+are ``(n, 3)``. The wanted meeting of the tiles is the *bond*, every other held one a *trap*, far
+apart is *free*.
+
+>>> import tilebind
+>>> design = tilebind.Design.load("shapes/paper-tile.toml")
+>>> energy = design.energy([[0.43, 0.0, 0.0], [0.43, -0.04, 0.0]])  # J
+>>> analysis = design.analyse()
+>>> pandas.DataFrame(analysis.states)
+"""
+
+from ._errors import DesignError
+from ._magpylib import Tile
+from ._results import Barrier, LandscapeMap, Share
+from ._tilebind import (
+    Analysis,
+    Comparison,
+    Design,
+    Docking,
+    Sweep,
+    __version__,
+    compare,
+    crosstalk,
+    dock,
+    sweep,
+    words,
+)
+
+__all__ = [
+    "Analysis",
+    "Barrier",
+    "Comparison",
+    "Design",
+    "DesignError",
+    "Docking",
+    "LandscapeMap",
+    "Share",
+    "Sweep",
+    "Tile",
+    "__version__",
+    "compare",
+    "crosstalk",
+    "dock",
+    "sweep",
+    "words",
+]

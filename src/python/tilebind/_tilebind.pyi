@@ -1,0 +1,272 @@
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._results import Barrier, LandscapeMap, Share
+
+__version__: str
+
+_Model = Literal["dipole", "cuboid"]
+_TileName = Literal["fixed", "moving"]
+_Place = int | np.integer[Any] | str
+_Picture = Literal[
+    "map", "approach", "profiles", "docking", "models", "disconnectivity", "disconnectivity-linear"
+]
+_Floats = NDArray[np.float64]
+# Structured: its fields are told where it comes from.
+_Table = NDArray[np.void]
+_Value = float | str | bool | Sequence[Any] | Mapping[str, Any]
+
+@final
+class Design:
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Design: ...
+    @staticmethod
+    def loads(text: str, *, file: str = "design.toml") -> Design: ...
+    @staticmethod
+    def from_dict(tables: Mapping[str, Any]) -> Design: ...
+    def replace(self, key: str, value: _Value) -> Design: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def sha256(self) -> str: ...
+    @property
+    def model(self) -> _Model: ...
+    @property
+    def warnings(self) -> tuple[str, ...]: ...
+    @property
+    def bound(self) -> _Floats: ...
+    @property
+    def table(self) -> tuple[float, float]: ...
+    def outline(self, tile: _TileName) -> _Floats: ...
+    def magnets(self, tile: _TileName) -> _Table: ...
+    def energy(self, poses: ArrayLike, *, model: _Model | None = None) -> Any: ...
+    def wrench(self, poses: ArrayLike, *, model: _Model | None = None) -> _Floats: ...
+    def clearance(self, poses: ArrayLike) -> Any: ...
+    def is_free(self, poses: ArrayLike) -> Any: ...
+    def analyse(
+        self,
+        *,
+        seed: int = 1,
+        milestones: int = 8000,
+        neighbours: int | None = None,
+        boltzmann: float | None = None,
+        thermal_energy: float | None = None,
+        settled: float = 0.005,
+        far_starts: int = 1000,
+        repeats: int = 1,
+        tolerance: float | None = None,
+        certify_seconds: float = 60.0,
+        certify_cells: int = 1_000_000,
+        complete_seconds: float = 60.0,
+        complete_cells: int = 4_000_000,
+        complete_below: float = 0.01,
+        complete_escape: float = 0.005,
+        dynamics_runs: int = 0,
+        progress: bool | None = None,
+    ) -> Analysis: ...
+    def barrier(
+        self,
+        start: ArrayLike,
+        end: ArrayLike | Literal["free"] | None = None,
+        *,
+        tolerance: float | None = None,
+        certify_seconds: float | None = None,
+        milestones: int | None = None,
+        seed: int | None = None,
+        progress: bool | None = None,
+    ) -> Barrier: ...
+    def dock(
+        self,
+        *,
+        runs: int = 2000,
+        seed: int = 1,
+        duration: float = 5.0,
+        engine: bool = False,
+        drag: float | None = None,
+        friction: float | None = None,
+        restitution: float | None = None,
+        walls: bool | None = None,
+        shaking: float | None = None,
+        fans: Sequence[tuple[float, float, float, float]] = (),
+        threshold: float | None = None,
+        distance: tuple[float, float] | None = None,
+        speed: tuple[float, float] | None = None,
+        direction: float | None = None,
+        orientation: float | None = None,
+        aim: float | None = None,
+        spin: float | None = None,
+        progress: bool | None = None,
+    ) -> Docking: ...
+    def matches(self, most: int = 100) -> _Table: ...
+    def summary(self) -> str: ...
+    def show(self) -> dict[str, Any]: ...
+    def svg(self) -> str: ...
+    def to_magpylib(self, poses: ArrayLike | None = None) -> tuple[Any, Any]: ...
+
+@final
+class Analysis:
+    @property
+    def design(self) -> Design: ...
+    @property
+    def states(self) -> _Table: ...
+    @property
+    def barriers(self) -> _Table: ...
+    @property
+    def bound(self) -> _Floats: ...
+    @property
+    def bound_energy(self) -> float: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    @property
+    def inventory(self) -> dict[str, Any]: ...
+    def pathway(self, start: _Place, end: _Place | None = None) -> _Table: ...
+    def landscape_map(self, samples: int = 160, orientations: int = 48) -> LandscapeMap: ...
+    def disconnectivity(self) -> _Table: ...
+    def svg(self, name: _Picture) -> str: ...
+    def summary(self) -> str: ...
+    def report_html(self) -> str: ...
+    def report_json(self) -> str: ...
+    def write(
+        self,
+        folder: str | PathLike[str],
+        *,
+        arrays: bool = False,
+        compact: bool = False,
+        command: str | None = None,
+    ) -> list[str]: ...
+    def plot_map(self, ax: Any = None, **style: Any) -> Any: ...
+    def plot_profile(
+        self, start: _Place | None = None, end: _Place | None = None, ax: Any = None, **style: Any
+    ) -> Any: ...
+    def plot_disconnectivity(self, ax: Any = None, **style: Any) -> Any: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class Comparison:
+    @property
+    def table(self) -> _Table: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def summary(self) -> str: ...
+    def markdown(self) -> str: ...
+    def svg(self) -> str: ...
+    def report_html(self) -> str: ...
+    def __len__(self) -> int: ...
+
+@final
+class Sweep:
+    @property
+    def table(self) -> _Table: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def design(self, index: int) -> Design: ...
+    def summary(self) -> str: ...
+    def svg(self) -> list[str]: ...
+    def report_html(self) -> str: ...
+    def __len__(self) -> int: ...
+
+@final
+class Docking:
+    @property
+    def bound(self) -> Share: ...
+    @property
+    def trapped(self) -> Share: ...
+    @property
+    def free(self) -> Share: ...
+    @property
+    def runs(self) -> _Table: ...
+    @property
+    def traps(self) -> _Table: ...
+    @property
+    def chances(self) -> _Table: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def trajectory(self, index: int, *, interval: float = 0.02) -> _Table: ...
+    def summary(self) -> str: ...
+    def svg(self) -> str: ...
+    def __len__(self) -> int: ...
+
+def compare(
+    designs: Sequence[Design],
+    *,
+    by: str = "selectivity",
+    milestones: int = 8000,
+    neighbours: int | None = None,
+    settled: float = 0.005,
+    far_starts: int = 1000,
+    tolerance: float | None = None,
+    certify_cells: int = 200_000,
+    complete_cells: int = 300_000,
+    dynamics_runs: int = 0,
+    seed: int = 1,
+    progress: bool | None = None,
+) -> Comparison: ...
+def sweep(
+    design: Design,
+    vary: Mapping[str, Iterable[float | str | bool]],
+    *,
+    milestones: int = 8000,
+    neighbours: int | None = None,
+    settled: float = 0.005,
+    far_starts: int = 1000,
+    tolerance: float | None = None,
+    certify_cells: int = 200_000,
+    complete_cells: int = 300_000,
+    dynamics_runs: int = 0,
+    seed: int = 1,
+    progress: bool | None = None,
+) -> Sweep: ...
+def dock(
+    design: Design,
+    *,
+    runs: int = 2000,
+    seed: int = 1,
+    duration: float = 5.0,
+    engine: bool = False,
+    drag: float | None = None,
+    friction: float | None = None,
+    restitution: float | None = None,
+    walls: bool | None = None,
+    shaking: float | None = None,
+    fans: Sequence[tuple[float, float, float, float]] = (),
+    threshold: float | None = None,
+    distance: tuple[float, float] | None = None,
+    speed: tuple[float, float] | None = None,
+    direction: float | None = None,
+    orientation: float | None = None,
+    aim: float | None = None,
+    spin: float | None = None,
+    progress: bool | None = None,
+) -> Docking: ...
+def words(
+    length: int,
+    *,
+    gap: float | None = None,
+    count: int | None = None,
+    design: Design | None = None,
+    faces: Literal["all", "mates"] = "all",
+    shape: Literal["none", "shared", "polar"] = "none",
+    flip: bool = False,
+    tolerate: Literal["missing", "flipped"] | None = None,
+    pitch: float | None = None,
+    balanced: bool = False,
+    seconds: float = 20.0,
+    seed: int = 1,
+    progress: bool | None = None,
+) -> dict[str, Any]: ...
+def crosstalk(
+    words: Sequence[str] | Mapping[str, Any],
+    *,
+    certify: float | bool | None = None,
+    cells: int = 8_000_000,
+    progress: bool | None = None,
+) -> dict[str, Any]: ...

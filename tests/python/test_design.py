@@ -1,0 +1,84 @@
+"""Designs: read, made, varied; what is wrong with them."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+import tilebind
+from tilebind import Design, DesignError
+
+
+def test_a_design_says_what_it_is(design):
+    assert design.name == "paper-tile" and design.model == "dipole"
+    assert design.bound.tolist() == [0.43, 0.0, 0.0]
+    assert design.table == (2.0, 2.0)
+    assert len(design.magnets("fixed")) == 16 and design.outline("moving").shape == (4, 2)
+    assert design.magnets("fixed")["moment_A_m2"][0] == pytest.approx(0.2865, rel=1e-3)
+    assert "bind" in design.summary() and design.svg().startswith("<svg")
+    assert isinstance(design.show(), dict)
+
+
+def test_text_and_dictionaries_make_the_same_design(design, root):
+    same = Design.loads((root / "shapes/paper-tile.toml").read_text(), file=str(root / "shapes/paper-tile.toml"))
+    assert same == design and hash(same) == hash(design)
+    made = Design.from_dict(design.to_dict())
+    poses = [[0.43, 0, 0], [0.5, 0.1, 0.3]]
+    assert np.array_equal(made.energy(poses), design.energy(poses))
+    assert made != design and made != "a design"
+
+
+def test_a_key_is_replaced_in_another_design(tab):
+    deeper = tab.replace("fixed.faces.east.profile.depth", 0.025)
+    assert deeper.to_dict()["fixed"]["faces"]["east"]["profile"]["depth"] == 0.025
+    assert tab.to_dict()["fixed"]["faces"]["east"]["profile"]["depth"] == 0.02
+    assert deeper.name == tab.name and deeper != tab
+    assert tab.replace("table.size", np.array([3.0, 2.0])).table == (3.0, 2.0)
+    assert tab.replace("table.size.0", "250 cm").table == (2.5, 2.0)
+    with pytest.raises(DesignError, match="leads nowhere"):
+        tab.replace("name.first", 1)
+    with pytest.raises(DesignError):
+        tab.replace("fixed.side", -1)
+    with pytest.raises(ValueError, match="not a object"):
+        tab.replace("fixed.side", object())
+
+
+def test_errors_tell_line_column_and_mend(root):
+    text = (root / "shapes/paper-tile.toml").read_text().replace("side = 0.43", "side = 430", 1)
+    with pytest.raises(DesignError) as caught:
+        Design.loads(text + "\n[tabel]\n", file="my.toml")
+    error = caught.value
+    line = 1 + text[: text.index("side = 430")].count("\n")
+    assert (error.file, error.line, error.column) == ("my.toml", line, 8)
+    assert "0.43" in error.message + error.mend
+    assert f"my.toml:{line}:8" in str(error) and "help:" in str(error)
+    assert len(error.also) == 1 and "tabel" in error.also[0].message
+    for again in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert (again.line, again.mend, str(again)) == (error.line, error.mend, str(error))
+    assert isinstance(error, ValueError)
+    with pytest.raises(DesignError, match="check the path") as caught:
+        Design.load("no/such/file.toml")
+    assert caught.value.line is None
+
+
+def test_designs_do_not_change_and_travel(design, tab, root):
+    with pytest.raises(AttributeError):
+        design.name = "another"
+    with pytest.raises(ValueError):
+        design.bound[0] = 1.0
+    for one in (design, tab, Design.load(root / "shapes/drawn-wave.toml")):
+        again = pickle.loads(pickle.dumps(one))
+        assert again == one and again.sha256 == one.sha256
+        assert again.energy(one.bound) == one.energy(one.bound)
+        assert copy.deepcopy(one) == one
+    with pytest.raises(ValueError, match="no result of tilebind"):
+        Design._restore(b"\x00")
+
+
+def test_outlines_fit(tab):
+    found = tab.matches(3)
+    assert len(found) == 3 and np.all(np.diff(found["contact_m"]) <= 0)
+
+
+def test_the_version_is_told():
+    assert tilebind.__version__.count(".") == 2

@@ -1,0 +1,194 @@
+"""Analyses, barriers, comparisons, sweeps, docking: as the program has them."""
+
+import json
+import pathlib
+import pickle
+import re
+import subprocess
+
+import numpy as np
+import pandas
+import pytest
+import tilebind
+from conftest import SMALL
+
+
+def test_tables_are_for_pandas(analysis):
+    states = pandas.DataFrame(analysis.states)
+    assert states.kind[0] == "bound" and states.name[0] == "A"
+    assert states.energy_J[0] == states.energy_J.min() == pytest.approx(analysis.bound_energy, rel=1e-6)
+    assert {"x_m", "y_m", "theta_rad", "escape_J", "escape_to", "caged", "capture_share"} <= set(states)
+    barriers = pandas.DataFrame(analysis.barriers)
+    assert "pathway" not in barriers and barriers["from"].dtype == np.int64
+    assert (barriers.saddle_energy_J >= states.energy_J.min()).all()
+    with pytest.raises(ValueError):
+        analysis.states["id"] = 0
+
+
+def test_pathways_lead_from_place_to_place(analysis):
+    barrier = analysis.barriers[0]
+    path = analysis.pathway(barrier["from"], barrier["to"])
+    assert path["energy_J"].max() == barrier["saddle_energy_J"]
+    assert path["clearance_m"].min() > -1e-6 and np.all(np.diff(path["s_m"]) >= 0)
+    back = analysis.pathway(barrier["to"], barrier["from"])
+    assert np.array_equal(back["energy_J"], path["energy_J"][::-1])
+    assert np.array_equal(analysis.pathway("A"), analysis.pathway(0, "free"))
+    for wrong in (999, "Z''", -5):
+        with pytest.raises(ValueError):
+            analysis.pathway(wrong)
+    with pytest.raises(LookupError, match="barrier"):
+        analysis.pathway("free", "free")
+
+
+def test_maps_and_graphs(analysis):
+    found = analysis.landscape_map(samples=24, orientations=8)
+    assert found.energy.shape == found.theta.shape == (len(found.y), len(found.x))
+    free = ~np.isnan(found.energy)
+    row, column = np.argwhere(free)[0]
+    pose = [found.x[column], found.y[row], found.theta[row, column]]
+    assert analysis.design.energy(pose) == pytest.approx(found.energy[row, column], rel=1e-9)
+    with pytest.raises(ValueError):
+        analysis.landscape_map(samples=1)
+    lines = analysis.disconnectivity()
+    kinds = set(analysis.states["name"])
+    assert kinds <= {name for line in lines for name in line["states"].split()}
+    assert analysis.svg("map").startswith("<svg")
+    with pytest.raises(ValueError, match="disconnectivity"):
+        analysis.svg("graph")
+    shown = analysis._repr_html_()
+    assert shown.count("<img") == 2 and "&lt;" not in shown[:20]
+    assert "results in" not in analysis.summary()
+
+
+@pytest.mark.parametrize("name", ["tab-20mm", "paper-tile"])
+def test_files_are_those_of_the_program(program, root, tmp_path, name):
+    file = root / f"shapes/{name}.toml"
+    options = [f"--{key.replace('_', '-')}={value}" for key, value in SMALL.items()]
+    run = [program, "analyse", str(file), *options, "--arrays", "--quiet"]
+    subprocess.run([*run, "--out", str(tmp_path / "program")], check=True)
+    told = " ".join(["tilebind analyse", file.name, *options, "--arrays"])
+    found = tilebind.Design.load(file).analyse(progress=False, **SMALL)
+    assert found.write(tmp_path / "python", arrays=True, command=told) == []
+    theirs, ours = (
+        {p.relative_to(tmp_path / k): p.read_bytes() for p in (tmp_path / k).rglob("*") if p.is_file()}
+        for k in ("program", "python")
+    )
+    assert set(theirs) == set(ours)
+    report = pathlib.Path("report.json")
+    for path in theirs:
+        if path == report:
+            assert without_timing(theirs[path].decode()) == without_timing(ours[path].decode())
+        else:
+            assert theirs[path] == ours[path], path
+    alone = json.loads(found.report_json())
+    whole = json.loads(ours[report])
+    del whole["files"], whole["timing"], alone["timing"]
+    assert alone == whole
+
+
+def without_timing(text):
+    """All bytes but the times."""
+    left, count = re.subn(r'"(total_)?wall_s": [0-9.e-]+', "", text)
+    assert count > 3
+    return left
+
+
+def test_nothing_foreign_is_overwritten(analysis, tmp_path):
+    (tmp_path / "report.json").write_text("{}")
+    with pytest.raises(ValueError, match="another folder"):
+        analysis.write(tmp_path)
+    assert (tmp_path / "report.json").read_text() == "{}"
+
+
+def test_results_travel(analysis):
+    again = pickle.loads(pickle.dumps(analysis))
+    assert again.report_json() == analysis.report_json()
+    assert again.states.tobytes() == analysis.states.tobytes()
+    assert again.report_html() == analysis.report_html()
+    assert again.design == analysis.design
+
+
+def test_a_barrier_between_bounds(design):
+    found = design.barrier(design.bound, tolerance=1e-3, milestones=1000, progress=False)
+    lower, upper, path, *_ = found
+    assert lower <= found.saddle_energy <= upper + 1e-12 and upper - lower <= 1e-3
+    assert path["energy_J"].max() == found.saddle_energy
+    assert found.forward == found.saddle_energy - design.energy(design.bound)
+    assert pickle.loads(pickle.dumps(found)).lower == lower
+    with pytest.raises(ValueError, match="overlap"):
+        design.barrier([0.0, 0.0, 0.0], progress=False)
+    for wrong in ([1, 2], [np.nan, 0, 0], "bound"):
+        with pytest.raises(ValueError):
+            design.barrier(design.bound, wrong, progress=False)
+    with pytest.raises(ValueError, match="above 0"):
+        design.barrier(design.bound, tolerance=0.0)
+
+
+def test_designs_side_by_side(design, tab):
+    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0, "complete_cells": 0}
+    found = tilebind.compare([design, tab], by="bond_depth", progress=False, **few)
+    table = pandas.DataFrame(found.table)
+    assert len(found) == len(table) == 2 and set(table.name) == {"paper-tile", tab.name}
+    assert table.bond_depth_J.is_monotonic_decreasing or table["rank"].tolist() == [1, 2]
+    again = pickle.loads(pickle.dumps(found))
+    assert again.summary() == found.summary() and "<html" in found.report_html()
+    with pytest.raises(ValueError, match="selectivity"):
+        tilebind.compare([design], by="beauty")
+    with pytest.raises(ValueError, match="no design"):
+        tilebind.compare([])
+
+
+def test_sweeps_are_those_of_the_program(tab, program, root, tmp_path):
+    key = "fixed.faces.east.profile.depth"
+    few = {"milestones": 300, "far_starts": 30, "certify_cells": 0, "complete_cells": 0}
+    found = tilebind.sweep(tab, {key: [0.01, 0.02, 5.0]}, progress=False, **few)
+    table = pandas.DataFrame(found.table)
+    assert table.status.tolist() == ["done", "done", "impossible"] and table.reason[2]
+    assert table[key].tolist() == [0.01, 0.02, 5.0]
+    options = [f"--{k.replace('_', '-')}={v}" for k, v in few.items()]
+    run = [program, "sweep", str(root / "shapes/tab-20mm.toml"), "--vary", f"{key}=0.01,0.02,5.0"]
+    subprocess.run([*run, "--out", str(tmp_path), "--quiet", *options], check=True)
+    assert found.report == json.loads((tmp_path / "sweep.json").read_text())
+    again = pickle.loads(pickle.dumps(found))
+    assert again.summary() == found.summary()
+    assert found.design(0) == again.design(0)
+    assert found.design(0).to_dict()["fixed"]["faces"]["east"]["profile"]["depth"] == 0.01
+    with pytest.raises(ValueError, match="cannot be varied"):
+        tilebind.sweep(tab, {"magnet.colour": [1]})
+
+
+def test_docking(design):
+    found = design.dock(runs=40, seed=3, progress=False)
+    assert len(found) == len(found.runs) == found.bound.of == 40
+    ends = found.runs["end"].tolist()
+    assert ends.count("bound") == found.bound.count
+    assert found.bound.low <= found.bound.value <= found.bound.high
+    again = pickle.loads(pickle.dumps(found))
+    assert again.runs.tobytes() == found.runs.tobytes() and again.summary() == found.summary()
+    path = found.trajectory(0)
+    assert path["time_s"][0] == 0 and path["time_s"][-1] <= 5.0
+    assert tilebind.dock(design, runs=40, seed=3, progress=False).runs.tobytes() == found.runs.tobytes()
+    for wrong in ({"speed": (1, 0)}, {"drag": -1}, {"runs": 0}, {"orientation": float("nan")}):
+        with pytest.raises(ValueError):
+            design.dock(progress=False, **wrong)
+
+
+def test_words_and_crosstalk(design):
+    found = tilebind.words(6, gap=0.4, seconds=2, progress=False)
+    assert found["proved"] and found["count"] == len(found["words"]) == found["upper_bound"]
+    strongest = np.array(tilebind.crosstalk(found["words"][:1], progress=False)["strongest_J"])
+    assert strongest.shape == (2, 2) and strongest[0, 1] == strongest.min()
+    with pytest.raises(tilebind.DesignError):
+        tilebind.crosstalk(["NXS"])
+    with pytest.raises(ValueError):
+        tilebind.words(0)
+
+
+def test_wrong_arguments_are_told(design):
+    with pytest.raises(TypeError, match="milestones"):
+        design.analyse(milestone=3)
+    with pytest.raises(TypeError, match="seed"):
+        design.analyse(seed="one")
+    for wrong in ({"milestones": 0}, {"tolerance": -1.0}, {"settled": 2.0}, {"milestones": 10**12}):
+        with pytest.raises(ValueError):
+            design.analyse(**wrong)
