@@ -150,7 +150,7 @@ mod tests {
         });
         assert_eq!(given_up, Err(Interrupted));
         check();
-        assert_eq!(Interruption::default().run(1, || check()), Ok(()));
+        assert_eq!(Interruption::default().run(1, check), Ok(()));
     }
 
     #[test]

@@ -14,7 +14,7 @@ from tilebind import _progress
 MANY = 10_000_000
 JOBS = {
     "roadmap": lambda d: d.analyse(milestones=400_000),
-    "certificate": lambda d: d.barrier(d.bound, tolerance=1e-9, certify_seconds=3600),
+    "certificate": lambda d: d.barrier(d.bound, tolerance=1e-12, certify_seconds=3600, milestones=4000),
     "states": lambda d: d.analyse(milestones=2000, complete_seconds=3600, complete_below=1e-4),
     "docking": lambda d: d.dock(runs=MANY),
     "sweep": lambda d: tilebind.sweep(d, {"magnet.pitch": np.linspace(0.03, 0.05, 1000)}),
@@ -32,10 +32,13 @@ def test_an_interruption_is_heeded(design, job):
         asked.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
 
-    timer = threading.Timer(1.0, interrupt)
+    timer = threading.Timer(0.3, interrupt)
     timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        JOBS[job](design)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            JOBS[job](design)
+    finally:
+        timer.cancel()
     waited = time.monotonic() - asked[0]
     print(f"{job}: stopped after {waited:.2f} s")
     # The session goes on.

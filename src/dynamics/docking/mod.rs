@@ -231,6 +231,8 @@ pub fn dock(
     let clock = Instant::now();
     let ended: Vec<_> = (0..settings.runs)
         .into_par_iter()
+        // Of what is left, nothing is begun once the work is given up.
+        .panic_fuse()
         .map(|index| {
             let ended = experiment.run(index);
             done();
