@@ -141,7 +141,8 @@ mod tests {
     fn work_is_given_up_on_all_threads_and_the_session_goes_on() {
         let interruption = Interruption::default();
         let given_up = interruption.run(2, || {
-            (0..u64::MAX).into_par_iter().for_each(|k| {
+            // Without the fuse every item of what is left would unwind on its own.
+            (0..u64::MAX).into_par_iter().panic_fuse().for_each(|k| {
                 if k == 1000 {
                     interruption.ask();
                 }
