@@ -38,6 +38,13 @@ pub struct Cut {
     pub slack: f64,
 }
 
+impl Cut {
+    /// The one of a pair that is satisfied more easily, judged at the cell's centre.
+    pub(crate) fn easier([a, b]: &[Self; 2]) -> &Self {
+        if a.form.value > b.form.value { a } else { b }
+    }
+}
+
 /// What contact says about a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellContact {

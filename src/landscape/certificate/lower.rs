@@ -98,12 +98,9 @@ pub(crate) fn assess_open(
 /// Change of the energy (J), to first order, on the shortest way from the centre to where the
 /// most violated cut is satisfied.
 fn pushed_out(energy: &Quadratic, cuts: &[Cut], corners: &[[Cut; 2]], lever: f64) -> f64 {
-    let easier = corners
-        .iter()
-        .map(|[a, b]| if a.form.value > b.form.value { a } else { b });
     let Some(cut) = cuts
         .iter()
-        .chain(easier)
+        .chain(corners.iter().map(Cut::easier))
         .min_by_key(|cut| OrderedFloat(cut.form.value))
     else {
         return 0.0;

@@ -214,10 +214,8 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
 fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
     let limits = Limits::below(upper, problem.depth());
     let direct = pathway::shortened(problem, points, &limits);
-    let pathways = [direct.as_slice(), points]
+    let mut pathways = [direct.as_slice(), points]
         .into_iter()
         .map(|points| pathway::of_configurations(problem, points, bend));
-    pathways
-        .into_iter()
-        .find(|pathway| highest_point(pathway).is_some_and(|highest| highest.energy <= upper))
+    pathways.find(|pathway| highest_point(pathway).is_some_and(|highest| highest.energy <= upper))
 }

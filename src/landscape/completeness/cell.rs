@@ -123,17 +123,9 @@ impl CellProof<'_> {
 
     /// The offset from the centre, within the cell, of about the nearest free configuration.
     fn pushed_out(&self, cell: &Cell, cuts: &[Cut], corners: &[[Cut; 2]]) -> Vector3<f64> {
-        let easier = corners.iter().map(|pair| {
-            if pair[0].form.value > pair[1].form.value {
-                pair[0]
-            } else {
-                pair[1]
-            }
-        });
         let rows: Vec<Constraint> = cuts
             .iter()
-            .copied()
-            .chain(easier)
+            .chain(corners.iter().map(Cut::easier))
             .map(|cut| Constraint {
                 touch: NO_TOUCH,
                 gap: cut.form.value,
@@ -176,6 +168,12 @@ impl CellProof<'_> {
         None
     }
 
+    /// Whether a step closes no contact that can be made in the box that it sweeps.
+    fn closes_nothing(&self, swept: &Cell, step: &Vector3<f64>) -> bool {
+        let contacts = self.possible(swept);
+        contacts.is_some_and(|all| all.iter().all(|c| c.opening(&swept.half, step) >= 0.0))
+    }
+
     /// Whether the step keeps free configurations free and lowers the energy from everywhere in the
     /// cell, with no more than the allowed rise on the way.
     fn is_fall(
@@ -186,10 +184,7 @@ impl CellProof<'_> {
         corners: &[[Cut; 2]],
     ) -> bool {
         let swept = swept(cell, step);
-        let Some(contacts) = self.possible(&swept) else {
-            return false;
-        };
-        if contacts.iter().any(|c| c.opening(&swept.half, step) < 0.0) {
+        if !self.closes_nothing(&swept, step) {
             return false;
         }
         let known = self.bounds.enclose(&swept);
@@ -213,11 +208,7 @@ impl CellProof<'_> {
         let least = |c: &PossibleContact| spare - c.least(&cell.half);
         let step = self.opening_step(cell, &contacts, (Vector3::zeros(), longest), least)?;
         let swept = swept(cell, &step);
-        let on_the_way = self.possible(&swept)?;
-        if on_the_way
-            .iter()
-            .any(|c| c.opening(&swept.half, &step) < 0.0)
-        {
+        if !self.closes_nothing(&swept, &step) {
             return None;
         }
         let freed = Cell {

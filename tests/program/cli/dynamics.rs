@@ -85,7 +85,11 @@ fn docking_runs_are_the_same_on_any_number_of_threads_and_written_whole() {
     let matched: usize = map.lines().skip(1).map(|line| column(line, 4)).sum();
     assert_eq!(runs, 40);
     assert_eq!(once.0["count"], matched);
-    for name in ["chances.svg", "trajectories.svg", "trajectory.csv"] {
+    for name in [
+        "pictures/chances.svg",
+        "pictures/trajectories.svg",
+        "trajectory.csv",
+    ] {
         let content = std::fs::read(format!("{out}/{name}")).unwrap();
         assert!(content.len() > 500, "{name}");
     }
