@@ -18,4 +18,5 @@
 pub mod exit;
 mod field;
 mod mesh;
+pub mod rates;
 mod sets;
