@@ -132,15 +132,26 @@ impl Correlations {
     /// Of a word and of one read as it faces the first.
     pub fn new(word: super::Word, facing: super::Word) -> Self {
         let places = word.places();
-        let last = places as i32 - 1;
         let mut values = [0; 2 * MOST_PLACES];
-        for (value, lag) in values.iter_mut().zip(-last..=last) {
-            *value = word.correlation(facing, lag);
+        if (word.magnets() * facing.magnets()) as usize <= places {
+            // Few magnets: pair by pair.
+            for (k, pole) in word.poles() {
+                for (j, other) in facing.poles() {
+                    values[j + places - 1 - k] += pole * other;
+                }
+            }
+        } else {
+            let last = places as i32 - 1;
+            for (value, lag) in values.iter_mut().zip(-last..=last) {
+                *value = word.correlation(facing, lag);
+            }
         }
         Self { places, values }
     }
 
-    fn at(&self, lag: i32) -> i32 {
+    /// c of a lag of less than as many places as there are.
+    #[inline]
+    pub(super) fn at(&self, lag: i32) -> i32 {
         self.values[(lag + self.places as i32 - 1) as usize]
     }
 }

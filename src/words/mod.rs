@@ -86,7 +86,7 @@ impl Task {
         match self.magnets == self.places {
             // Most pairs that conflict do so at once.
             true => 8 + one * meetings / 4,
-            false => 8 + 2 * one * meetings,
+            false => 8 + one * meetings,
         }
     }
 

@@ -174,7 +174,9 @@ impl Rules {
                 let facing_alone = sign
                     * match full {
                         true => u.full_correlation(facing, s),
-                        false => u.correlation(facing, s),
+                        false => all_lags
+                            .get_or_insert_with(|| Correlations::new(u, facing))
+                            .at(s),
                     };
                 if facing_alone <= fine || Self::is_bond(way, s, same) {
                     return true;
