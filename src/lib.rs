@@ -26,6 +26,7 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
 //! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
@@ -107,6 +108,7 @@ pub mod design;
 pub mod dynamics;
 pub mod inspection;
 pub mod interruption;
+pub mod kinetics;
 pub mod landscape;
 pub mod observer;
 pub mod pipeline;

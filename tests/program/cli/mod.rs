@@ -11,6 +11,7 @@ mod excess;
 mod first_hour;
 mod kept;
 mod mistakes;
+mod rates;
 mod shields;
 mod starting;
 #[cfg(unix)]
@@ -49,6 +50,7 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "words",
         "crosstalk",
         "match",
+        "rates",
         "init",
         "show",
         "make",
