@@ -121,6 +121,7 @@ pub mod tile;
 pub mod units;
 pub mod words;
 pub mod workshop;
+pub mod yields;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

@@ -6,9 +6,12 @@
 
 pub mod basin;
 pub mod bond;
+pub mod chain;
 pub mod corner;
 mod frame;
 mod line;
+pub mod mixture;
+pub mod population;
 pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};

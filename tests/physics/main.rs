@@ -19,3 +19,4 @@ mod shielding;
 mod strength;
 mod tiles;
 mod units;
+mod wells;
