@@ -122,6 +122,7 @@ pub mod tile;
 pub mod units;
 pub mod words;
 pub mod workshop;
+pub mod yields;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

@@ -20,6 +20,7 @@
 
 pub mod arrays;
 mod assessments;
+pub mod bond;
 mod braille;
 pub mod calibration;
 pub mod columns;
