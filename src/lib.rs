@@ -28,6 +28,7 @@
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
 //! | [`workshop`] | a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
@@ -97,6 +98,7 @@
 //! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
 //! dependencies state; a compiler that old has not been tried.
 
+pub mod assembly;
 pub mod calibration;
 pub mod cell;
 mod checksum;
