@@ -109,6 +109,7 @@ pub mod design;
 pub mod dynamics;
 pub mod inspection;
 pub mod interruption;
+pub mod kinetics;
 pub mod landscape;
 pub mod observer;
 pub mod pipeline;

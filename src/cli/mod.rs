@@ -3,6 +3,7 @@
 pub mod analyse;
 mod assessment;
 pub mod barrier;
+pub mod bond;
 pub mod calibrate;
 pub mod compare;
 pub mod completions;

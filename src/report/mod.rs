@@ -19,6 +19,7 @@
 
 pub mod arrays;
 mod assessments;
+pub mod bond;
 mod braille;
 pub mod calibration;
 pub mod columns;
