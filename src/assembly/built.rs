@@ -61,7 +61,9 @@ pub enum BuiltError {
     #[error(transparent)]
     Wiring(#[from] WiringError),
     /// Not enough words.
-    #[error("the tile set needs {needed} words and there are {there}: find more with `tilebind words`, on a longer face or with a narrower gap")]
+    #[error(
+        "the tile set needs {needed} words and there are {there}: find more with `tilebind words`, on a longer face or with a narrower gap"
+    )]
     Words {
         /// Needed.
         needed: usize,
@@ -95,7 +97,11 @@ impl Built {
         let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
         by_depth.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
         let mut by_strength: Vec<usize> = (0..needed).collect();
-        by_strength.sort_by(|a, b| wiring.bonds[*b].strength.total_cmp(&wiring.bonds[*a].strength));
+        by_strength.sort_by(|a, b| {
+            wiring.bonds[*b]
+                .strength
+                .total_cmp(&wiring.bonds[*a].strength)
+        });
         let mut chosen = vec![words.words[0]; needed];
         for (bond, word) in by_strength.iter().zip(by_depth) {
             chosen[*bond] = words.words[word];
@@ -104,11 +110,20 @@ impl Built {
         if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
             return Err(BuiltError::Loose(chosen[loose]));
         }
-        let least = wiring.bonds.iter().map(|bond| bond.strength).fold(f64::INFINITY, f64::min);
+        let least = wiring
+            .bonds
+            .iter()
+            .map(|bond| bond.strength)
+            .fold(f64::INFINITY, f64::min);
         let depth = |bond: &usize| matrix.bond(*bond) / wiring.bonds[*bond].strength;
         let weakest = (0..needed).filter(|bond| wiring.bonds[*bond].strength == least);
-        let weakest = weakest.min_by(|a, b| depth(a).total_cmp(&depth(b))).unwrap_or(0);
-        let stage = Stage::new(words.stage.pair.as_ref().clone(), words.stage.interaction.clone());
+        let weakest = weakest
+            .min_by(|a, b| depth(a).total_cmp(&depth(b)))
+            .unwrap_or(0);
+        let stage = Stage::new(
+            words.stage.pair.as_ref().clone(),
+            words.stage.interaction.clone(),
+        );
         let problem = stage.problem_of(chosen[weakest], chosen[weakest].mate());
         let bound = words.stage.pair.bound;
         let volume = corner::volume(&problem, &bound, shaking.kt)
@@ -138,7 +153,11 @@ impl Built {
     pub fn face(&self, tile: usize, side: usize) -> Option<usize> {
         let bond = self.wiring.of(&self.set, tile, side)?;
         // East and north carry words.
-        Some(if side < 2 { bond } else { bond + self.matrix.words.len() })
+        Some(if side < 2 {
+            bond
+        } else {
+            bond + self.matrix.words.len()
+        })
     }
 
     /// The set as engines run it: glues are faces, strengths their energies over Gse, seed and
@@ -150,7 +169,10 @@ impl Built {
         let name = |face: usize| face_name(face, self.matrix.words.len());
         let mut set = TileSet {
             glues: (0..faces)
-                .map(|face| Glue { name: name(face), strength: strength(face, face) })
+                .map(|face| Glue {
+                    name: name(face),
+                    strength: strength(face, face),
+                })
                 .collect(),
             links: (0..faces)
                 .flat_map(|i| (i + 1..faces).map(move |j| (i, j)))
@@ -221,7 +243,8 @@ impl Built {
                 let held = |tile: usize| gse * engine.at(&there, *place, tile);
                 let right = held(tile) + self.set.tiles[tile].stoic.max(f64::MIN_POSITIVE).ln();
                 let others = (0..self.set.tiles.len()).filter(|other| *other != tile);
-                let weight = |other: usize| self.set.tiles[other].stoic * (held(other) - right).exp();
+                let weight =
+                    |other: usize| self.set.tiles[other].stoic * (held(other) - right).exp();
                 let wrong: f64 = others.map(weight).sum();
                 sum += wrong / (1.0 + wrong);
             }
@@ -238,7 +261,12 @@ impl Built {
             return None;
         }
         let pair = &design.pair;
-        let bar = crate::words::Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, design.pitch?);
+        let bar = crate::words::Bar::of_face(
+            &pair.fixed,
+            pair.target.0,
+            &design.interaction,
+            design.pitch?,
+        );
         Some(Lags::new(&bar.ok()?, words.words.first()?.places()))
     }
 }

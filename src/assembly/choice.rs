@@ -69,7 +69,9 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
     let gaps: Vec<f64> = match asked.gap {
         Some(gap) => vec![gap],
         // By contacts: between their whole numbers there is nothing to gain.
-        None => (0..unit).map(|c| 1.0 - (c as f64 + 0.5) / unit as f64).collect(),
+        None => (0..unit)
+            .map(|c| 1.0 - (c as f64 + 0.5) / unit as f64)
+            .collect(),
     };
     let mut last = Choice {
         places,
@@ -81,7 +83,10 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
     let seconds = asked.seconds / gaps.len() as f64;
     for gap in gaps {
         let deadline = Budget::deadline(3.0 * seconds);
-        let mut effort = Effort { seed: asked.seed, budget: Budget::seconds(seconds, deadline) };
+        let mut effort = Effort {
+            seed: asked.seed,
+            budget: Budget::seconds(seconds, deadline),
+        };
         last = at_gap(demand, places, gap, asked, &mut effort);
         if last.verdict == Verdict::Found {
             break;
@@ -127,8 +132,13 @@ fn at_gap(
 ) -> Choice {
     let strongest = demand.first().map_or(1.0, |first| first.0);
     let weakest = demand.last().map_or(1.0, |last| last.0);
-    let mut choice =
-        Choice { places, gap, verdict: Verdict::Found, words: Vec::new(), upper: Vec::new() };
+    let mut choice = Choice {
+        places,
+        gap,
+        verdict: Verdict::Found,
+        words: Vec::new(),
+        upper: Vec::new(),
+    };
     let unit = magnets(places, weakest, strongest) as f64;
     for (part, (strength, needed)) in demand.iter().enumerate() {
         let of_class = magnets(places, *strength, strongest);
@@ -153,7 +163,11 @@ fn at_gap(
         let wanted: usize = demand[..=part].iter().map(|class| class.1).sum();
         if choice.words.len() < wanted {
             let refuted = choice.upper[part] < *needed;
-            choice.verdict = if refuted { Verdict::Refuted } else { Verdict::Open };
+            choice.verdict = if refuted {
+                Verdict::Refuted
+            } else {
+                Verdict::Open
+            };
             return choice;
         }
     }
@@ -175,10 +189,16 @@ fn beside(
     let mut words = all.words;
     words.retain(|word| {
         task.rules.bond(&task.lags, *word) >= least
-            && there.iter().all(|other| task.rules.within(&task.lags, *word, *other, limit))
+            && there
+                .iter()
+                .all(|other| task.rules.within(&task.lags, *word, *other, limit))
     });
     let graph = Graph::new(task, words, limit);
     effort.budget.spend(graph.work());
     let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
-    found.iter().take(needed).map(|at| graph.words[*at]).collect()
+    found
+        .iter()
+        .take(needed)
+        .map(|at| graph.words[*at])
+        .collect()
 }

@@ -43,14 +43,19 @@ impl Holds {
 
     /// Of a tile and its neighbour on a side.
     pub fn between(&self, tile: usize, side: usize, neighbour: usize) -> f64 {
-        let (own, other) = (self.glues[tile][side], self.glues[neighbour][(side + 2) % 4]);
+        let (own, other) = (
+            self.glues[tile][side],
+            self.glues[neighbour][(side + 2) % 4],
+        );
         own.zip(other).map_or(0.0, |(a, b)| self.strengths[a][b])
     }
 
     /// The sum over the neighbours of a place.
     pub fn at(&self, tiles: &BTreeMap<Place, usize>, place: Place, tile: usize) -> f64 {
         let near = neighbours(place).map(|(side, there)| {
-            tiles.get(&there).map_or(0.0, |near| self.between(tile, side, *near))
+            tiles
+                .get(&there)
+                .map_or(0.0, |near| self.between(tile, side, *near))
         });
         near.sum()
     }
@@ -65,9 +70,15 @@ pub fn neighbours(place: Place) -> impl Iterator<Item = (usize, Place)> {
 /// Grows up to `most` tiles from the seed, or from the set's first tile.
 pub fn grow(set: &TileSet, most: usize) -> Grown {
     let mut tiles: BTreeMap<Place, usize> = BTreeMap::new();
-    let first = set.seed.first().map_or((0, 0), |(row, column, _)| (*row, *column));
+    let first = set
+        .seed
+        .first()
+        .map_or((0, 0), |(row, column, _)| (*row, *column));
     for (row, column, tile) in &set.seed {
-        let at = (*column as i32 - first.1 as i32, first.0 as i32 - *row as i32);
+        let at = (
+            *column as i32 - first.1 as i32,
+            first.0 as i32 - *row as i32,
+        );
         tiles.insert(at, *tile);
     }
     if tiles.is_empty() && !set.tiles.is_empty() {
@@ -78,7 +89,10 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
     let mut choices = 0;
     let mut order: Vec<Place> = tiles.keys().copied().collect();
     let mut open: VecDeque<Place> = tiles.keys().copied().collect();
-    let around: Vec<Place> = open.iter().flat_map(|it| neighbours(*it).map(|it| it.1)).collect();
+    let around: Vec<Place> = open
+        .iter()
+        .flat_map(|it| neighbours(*it).map(|it| it.1))
+        .collect();
     open = around.into();
     while let Some(place) = open.pop_front() {
         if tiles.contains_key(&place) {
@@ -89,13 +103,23 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
         let Some(tile) = fitting.next() else { continue };
         choices += usize::from(fitting.next().is_some());
         if tiles.len() >= most {
-            return Grown { tiles, order, complete: false, choices };
+            return Grown {
+                tiles,
+                order,
+                complete: false,
+                choices,
+            };
         }
         tiles.insert(place, tile);
         order.push(place);
         open.extend(neighbours(place).map(|it| it.1));
     }
-    Grown { tiles, order, complete: true, choices }
+    Grown {
+        tiles,
+        order,
+        complete: true,
+        choices,
+    }
 }
 
 /// Two tiles that meet in an assembly: along an axis the first lies west or south of the second.
@@ -113,7 +137,10 @@ impl Grown {
     pub fn meetings(&self) -> BTreeMap<Met, usize> {
         let mut met = BTreeMap::new();
         for ((x, y), tile) in &self.tiles {
-            for (axis, there) in [(Axis::Horizontal, (x + 1, *y)), (Axis::Vertical, (*x, y + 1))] {
+            for (axis, there) in [
+                (Axis::Horizontal, (x + 1, *y)),
+                (Axis::Vertical, (*x, y + 1)),
+            ] {
                 if let Some(other) = self.tiles.get(&there) {
                     *met.entry((*tile, axis, *other)).or_default() += 1;
                 }

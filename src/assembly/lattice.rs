@@ -31,7 +31,12 @@ pub fn unique(rows: usize, columns: usize) -> TileSet {
                 (column > 0).then(|| name("h", row, column)),
             ];
             let glues = glues.map(|name| name.map(|name| set.glue(&name, 1.0)));
-            set.tiles.push(TileType { name: name("t", row, column), glues, stoic: 1.0, color: None });
+            set.tiles.push(TileType {
+                name: name("t", row, column),
+                glues,
+                stoic: 1.0,
+                color: None,
+            });
         }
     }
     set
@@ -48,6 +53,11 @@ pub fn homogeneous(rows: usize, columns: usize) -> TileSet {
     };
     let [v, h] = ["v", "h"].map(|name| Some(set.glue(name, 1.0)));
     let glues = [v, h, v, h];
-    set.tiles.push(TileType { name: "t".to_owned(), glues, stoic: 1.0, color: None });
+    set.tiles.push(TileType {
+        name: "t".to_owned(),
+        glues,
+        stoic: 1.0,
+        color: None,
+    });
     set
 }

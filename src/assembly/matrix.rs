@@ -16,10 +16,17 @@ pub struct Matrix {
 impl Matrix {
     /// Of words of a set, in any order.
     pub fn new(set: &WordSet, words: &[Word]) -> Self {
-        let stage = Stage::new(set.stage.pair.as_ref().clone(), set.stage.interaction.clone());
+        let stage = Stage::new(
+            set.stage.pair.as_ref().clone(),
+            set.stage.interaction.clone(),
+        );
         let by_magnets = stage.flush();
         let places = words.first().map_or(0, |word| word.places());
-        let faces: Vec<Word> = words.iter().copied().chain(words.iter().map(|it| it.mate())).collect();
+        let faces: Vec<Word> = words
+            .iter()
+            .copied()
+            .chain(words.iter().map(|it| it.mate()))
+            .collect();
         let poles: Vec<Vec<f64>> = faces
             .iter()
             .map(|face| (0..places).map(|k| f64::from(face.at(k))).collect())
@@ -37,7 +44,10 @@ impl Matrix {
                 energies[j][i] = energy;
             }
         }
-        Self { words: words.to_vec(), energies }
+        Self {
+            words: words.to_vec(),
+            energies,
+        }
     }
 
     /// The depth (J) of the bond of a word and its mate.
@@ -57,7 +67,11 @@ impl Matrix {
     pub fn strongest_wrong(&self) -> Option<(usize, usize, f64)> {
         let (n, faces) = (self.words.len(), self.energies.len());
         let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| (i, j)));
-        let wrong = pairs.filter(|(i, j)| j - i != n).map(|(i, j)| (i, j, self.energies[i][j]));
-        wrong.min_by(|a, b| a.2.total_cmp(&b.2)).filter(|it| it.2 < 0.0)
+        let wrong = pairs
+            .filter(|(i, j)| j - i != n)
+            .map(|(i, j)| (i, j, self.energies[i][j]));
+        wrong
+            .min_by(|a, b| a.2.total_cmp(&b.2))
+            .filter(|it| it.2 < 0.0)
     }
 }

@@ -29,6 +29,9 @@ pub mod square;
 pub mod wiring;
 pub mod xgrow;
 
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 
 use crate::design::{DesignError, Place};
@@ -161,7 +164,9 @@ impl TileSet {
 
     /// What is wrong with a set that is well written.
     fn check(&self, text: &str, file: &str) -> Result<(), DesignError> {
-        let wrong = |needle: &str, message: String, help: &str| Err(fault(text, file, needle, message, help));
+        let wrong = |needle: &str, message: String, help: &str| {
+            Err(fault(text, file, needle, message, help))
+        };
         if self.tiles.is_empty() {
             return wrong("", "it has no tiles".to_owned(), "list them under `tiles`");
         }
@@ -184,7 +189,11 @@ impl TileSet {
             .chain(self.links.iter().map(|link| link.2))
             .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
         if numbers.any(|x| !x.is_finite()) {
-            return wrong("", "a strength is no number".to_owned(), "write it as 1 or 0.5");
+            return wrong(
+                "",
+                "a strength is no number".to_owned(),
+                "write it as 1 or 0.5",
+            );
         }
         for (row, column, tile) in &self.seed {
             let [rows, columns] = self.size.unwrap_or([usize::MAX; 2]);

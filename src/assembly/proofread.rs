@@ -19,10 +19,21 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
         name: format!("{}-{k}x{k}", set.name),
         seed: Vec::new(),
         size: set.size.map(|size| size.map(|n| n * k)),
-        ..TileSet { tiles: Vec::new(), glues: Vec::new(), links: Vec::new(), ..set.clone() }
+        ..TileSet {
+            tiles: Vec::new(),
+            glues: Vec::new(),
+            links: Vec::new(),
+            ..set.clone()
+        }
     };
     let weak = tau / 2.0;
-    let part = |strength: f64, row: usize| if row == 0 { strength } else { strength.min(weak) };
+    let part = |strength: f64, row: usize| {
+        if row == 0 {
+            strength
+        } else {
+            strength.min(weak)
+        }
+    };
     let outer = |glue: usize, row: usize| format!("{}.{row}", set.glues[glue].name);
     for glue in 0..set.glues.len() {
         for row in 0..k {
@@ -30,7 +41,8 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
         }
     }
     for (a, b, strength) in &set.links {
-        out.links.extend((0..k).map(|row| (a * k + row, b * k + row, part(*strength, row))));
+        out.links
+            .extend((0..k).map(|row| (a * k + row, b * k + row, part(*strength, row))));
     }
     for (number, tile) in set.tiles.iter().enumerate() {
         // A glue's hold on whatever it binds.
@@ -57,10 +69,26 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
                 let last = k - 1;
                 let face = |side: usize, row: usize| tile.glues[side].map(|glue| glue * k + row);
                 let glues = [
-                    if y == last { face(0, x) } else { inner(Axis::Vertical, x, y) },
-                    if x == last { face(1, y) } else { inner(Axis::Horizontal, x, y) },
-                    if y == 0 { face(2, x) } else { inner(Axis::Vertical, x, y - 1) },
-                    if x == 0 { face(3, y) } else { inner(Axis::Horizontal, x - 1, y) },
+                    if y == last {
+                        face(0, x)
+                    } else {
+                        inner(Axis::Vertical, x, y)
+                    },
+                    if x == last {
+                        face(1, y)
+                    } else {
+                        inner(Axis::Horizontal, x, y)
+                    },
+                    if y == 0 {
+                        face(2, x)
+                    } else {
+                        inner(Axis::Vertical, x, y - 1)
+                    },
+                    if x == 0 {
+                        face(3, y)
+                    } else {
+                        inner(Axis::Horizontal, x - 1, y)
+                    },
                 ];
                 out.tiles.push(TileType {
                     name: format!("{}/{x}.{y}", tile.name),

@@ -93,9 +93,10 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
             file: file.to_owned(),
             place: at.map(|at| Box::new(Place::of(text, at))),
             message: format!("it is no tile set: {error}"),
-            help: "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
+            help:
+                "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
                    a .tiles file of xgrow"
-                .to_owned(),
+                    .to_owned(),
             also: Vec::new(),
         }
     })?;
@@ -139,7 +140,10 @@ fn made_of(entries: Entries, text: &str, file: &str) -> Result<TileSet, DesignEr
     }
     for (i, tile) in entries.tiles.iter().enumerate() {
         let name = tile.name.as_ref().map_or((i + 1).to_string(), Ident::text);
-        let single = tile.shape.as_deref().is_none_or(|it| ["single", "Single", "s", "S"].contains(&it));
+        let single = tile
+            .shape
+            .as_deref()
+            .is_none_or(|it| ["single", "Single", "s", "S"].contains(&it));
         if !single {
             let message = format!("the tile `{name}` is no single square");
             return Err(fault(text, file, &name, message, DOUBLE));
@@ -166,7 +170,13 @@ fn made_of(entries: Entries, text: &str, file: &str) -> Result<TileSet, DesignEr
             let known = set.glues.iter().position(|glue| glue.name == name);
             known.ok_or_else(|| {
                 let message = format!("no tile and no bond has the glue `{name}`");
-                fault(text, file, "glues", message, "name glues of tiles, or list it under bonds")
+                fault(
+                    text,
+                    file,
+                    "glues",
+                    message,
+                    "name glues of tiles, or list it under bonds",
+                )
             })
         };
         let (a, b) = (place(a)?, place(b)?);

@@ -44,7 +44,10 @@ impl Slid {
             }
         }
         let all = profile.len().max(1) as f64;
-        Self { deepest, captured: ends.map(|count| f64::from(count) / all) }
+        Self {
+            deepest,
+            captured: ends.map(|count| f64::from(count) / all),
+        }
     }
 }
 

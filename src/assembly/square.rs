@@ -29,8 +29,20 @@ pub fn counted(side: usize) -> TileSet {
         ..TileSet::default()
     };
     // The west counter's lines are rows; the south one's are columns, its copy in the diagonal.
-    let corner = Counter { prefix: "w", side: "fill-e", n, lines: side, transposed: false };
-    let along = Counter { prefix: "s", side: "fill-n", n, lines: side - n, transposed: true };
+    let corner = Counter {
+        prefix: "w",
+        side: "fill-e",
+        n,
+        lines: side,
+        transposed: false,
+    };
+    let along = Counter {
+        prefix: "s",
+        side: "fill-n",
+        n,
+        lines: side - n,
+        transposed: true,
+    };
     corner.add(&mut set, [None, Some("s-first")]);
     along.add(&mut set, [Some("s-first"), None]);
     let fill = [along.side, corner.side].map(|name| Some(set.glue(name, 1.0)));
@@ -50,7 +62,12 @@ struct Counter {
 }
 
 fn tile(name: &str, glues: [Option<usize>; 4]) -> TileType {
-    TileType { name: name.to_owned(), glues, stoic: 1.0, color: None }
+    TileType {
+        name: name.to_owned(),
+        glues,
+        stoic: 1.0,
+        color: None,
+    }
 }
 
 impl Counter {
@@ -69,7 +86,9 @@ impl Counter {
             let b = start >> (n - 1 - k) & 1;
             let link = |k: usize| strong(format!("{p}-line-{k}"));
             let west = (k > 0).then(|| link(k)).flatten();
-            let south = first.filter(|_| k == 0).and_then(|name| strong(name.to_owned()));
+            let south = first
+                .filter(|_| k == 0)
+                .and_then(|name| strong(name.to_owned()));
             let least = k == n - 1;
             let east = match (least, last) {
                 (false, _) => link(k + 1),
@@ -83,9 +102,21 @@ impl Counter {
         let copy = || weak(format!("{p}-copy"));
         for b in 0..2 {
             let name = |what: &str| format!("{p}-{what}-{b}");
-            self.tile(set, &name("flip"), [bit(1 - b), outer(), begin("up", b), carry(b)]);
-            self.tile(set, &name("copy-high"), [bit(b), copy(), begin("back", b), None]);
-            self.tile(set, &name("copy-least"), [begin("up", b), outer(), bit(b), copy()]);
+            self.tile(
+                set,
+                &name("flip"),
+                [bit(1 - b), outer(), begin("up", b), carry(b)],
+            );
+            self.tile(
+                set,
+                &name("copy-high"),
+                [bit(b), copy(), begin("back", b), None],
+            );
+            self.tile(
+                set,
+                &name("copy-least"),
+                [begin("up", b), outer(), bit(b), copy()],
+            );
             if n > 2 {
                 self.tile(set, &name("copy"), [bit(b), copy(), bit(b), copy()]);
             }
@@ -99,22 +130,42 @@ impl Counter {
                     0 => begin("back", sum),
                     _ => capped.then(|| begin("cap", 0)).flatten(),
                 };
-                self.tile(set, &format!("{p}-high-{b}{c}"), [north, carry(c), bit(b), None]);
+                self.tile(
+                    set,
+                    &format!("{p}-high-{b}{c}"),
+                    [north, carry(c), bit(b), None],
+                );
             }
         }
         if capped {
             let cap = || weak(format!("{p}-cap"));
-            self.tile(set, &format!("{p}-cap-high"), [None, cap(), begin("cap", 0), None]);
-            self.tile(set, &format!("{p}-cap-least"), [None, outer(), bit(0), cap()]);
+            self.tile(
+                set,
+                &format!("{p}-cap-high"),
+                [None, cap(), begin("cap", 0), None],
+            );
+            self.tile(
+                set,
+                &format!("{p}-cap-least"),
+                [None, outer(), bit(0), cap()],
+            );
             if n > 2 {
-                self.tile(set, &format!("{p}-cap-middle"), [None, cap(), bit(0), cap()]);
+                self.tile(
+                    set,
+                    &format!("{p}-cap-middle"),
+                    [None, cap(), bit(0), cap()],
+                );
             }
         }
     }
 
     fn tile(&self, set: &mut TileSet, name: &str, glues: [Option<(String, f64)>; 4]) {
         let [n, e, s, w] = glues.map(|glue| glue.map(|(name, strength)| set.glue(&name, strength)));
-        let glues = if self.transposed { [e, n, w, s] } else { [n, e, s, w] };
+        let glues = if self.transposed {
+            [e, n, w, s]
+        } else {
+            [n, e, s, w]
+        };
         set.tiles.push(tile(name, glues));
     }
 }

@@ -70,7 +70,9 @@ pub enum WiringError {
         other: f64,
     },
     /// None at all.
-    #[error("no two of its tiles bind: give its glues strengths, under `bonds` or as `binding strengths`")]
+    #[error(
+        "no two of its tiles bind: give its glues strengths, under `bonds` or as `binding strengths`"
+    )]
     None,
 }
 
@@ -82,10 +84,14 @@ impl Wiring {
     pub fn new(set: &TileSet) -> Result<Self, WiringError> {
         let n = set.glues.len();
         let strengths = set.strengths();
-        let mut wiring = Self { bonds: Vec::new(), by_face: std::array::from_fn(|_| vec![None; n]) };
+        let mut wiring = Self {
+            bonds: Vec::new(),
+            by_face: std::array::from_fn(|_| vec![None; n]),
+        };
         for axis in Axis::ALL {
             let used = axis.sides().map(|side| {
-                let used = |glue: &usize| set.tiles.iter().any(|tile| tile.glues[side] == Some(*glue));
+                let used =
+                    |glue: &usize| set.tiles.iter().any(|tile| tile.glues[side] == Some(*glue));
                 (0..n).filter(used).collect::<Vec<usize>>()
             });
             let mut open = used.clone();
@@ -95,7 +101,9 @@ impl Wiring {
                     let before = glues.clone();
                     for (from, to) in [(0, 1), (1, 0)] {
                         let holds = |glue: &usize| {
-                            glues[from].iter().any(|other| strengths[*other][*glue] > 0.0)
+                            glues[from]
+                                .iter()
+                                .any(|other| strengths[*other][*glue] > 0.0)
                         };
                         let more: Vec<usize> = used[to].iter().copied().filter(holds).collect();
                         for glue in more {
@@ -115,7 +123,9 @@ impl Wiring {
                 wiring.bonds.push(bond(set, axis, glues, &strengths)?);
             }
         }
-        wiring.bonds.sort_by_key(|bond| (bond.glues[0].iter().min().copied(), bond.axis));
+        wiring
+            .bonds
+            .sort_by_key(|bond| (bond.glues[0].iter().min().copied(), bond.axis));
         for (number, bond) in wiring.bonds.iter().enumerate() {
             for (side, glues) in bond.axis.sides().into_iter().zip(&bond.glues) {
                 for glue in glues {
@@ -156,7 +166,11 @@ fn bond(
     strengths: &[Vec<f64>],
 ) -> Result<Bond, WiringError> {
     glues.iter_mut().for_each(|glues| glues.sort_unstable());
-    let pairs = || glues[0].iter().flat_map(|a| glues[1].iter().map(|b| (*a, *b)));
+    let pairs = || {
+        glues[0]
+            .iter()
+            .flat_map(|a| glues[1].iter().map(|b| (*a, *b)))
+    };
     let strength = pairs().map(|(a, b)| strengths[a][b]).fold(0.0, f64::max);
     if let Some((a, b)) = pairs().find(|(a, b)| strengths[*a][*b] != strength) {
         return Err(WiringError::Mixed {
@@ -167,5 +181,9 @@ fn bond(
             other: strength,
         });
     }
-    Ok(Bond { axis, strength, glues })
+    Ok(Bond {
+        axis,
+        strength,
+        glues,
+    })
 }

@@ -98,7 +98,10 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
         return Err(scan.wrong(message, "split the set"));
     }
     set.glues = (1..=glues)
-        .map(|number| Glue { name: number.to_string(), strength: 1.0 })
+        .map(|number| Glue {
+            name: number.to_string(),
+            strength: 1.0,
+        })
         .collect();
     if scan.takes("binding type names=") {
         scan.expect("{")?;
@@ -165,7 +168,12 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
         name = scan.until(&['>']).trim().to_owned();
         scan.expect(">")?;
     }
-    Ok(TileType { name, glues, stoic, color })
+    Ok(TileType {
+        name,
+        glues,
+        stoic,
+        color,
+    })
 }
 
 /// A line after the strengths; what only steers the engine is passed over.

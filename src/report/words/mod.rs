@@ -7,7 +7,7 @@ mod text;
 use serde_json::{Value, json};
 
 pub use continuous::{Spaced, rounded, toml as spaced_toml};
-pub use files::files;
+pub use files::{files, set_toml};
 pub use text::{headline, meetings, summary};
 
 use super::json as layout;
