@@ -1,6 +1,7 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+pub mod assemble;
 mod assessment;
 pub mod barrier;
 pub mod bond;

@@ -244,6 +244,13 @@ impl Rules {
         }
     }
 
+    /// The energy (J) of two faces without faults, neither turned over, the second one `slide`
+    /// places farther along the first (counter-clockwise); the bond of a word and its mate too.
+    pub fn energy_at(&self, lags: &Lags, first: Word, second: Word, slide: i32) -> f64 {
+        let all = Correlations::new(first, second.mate());
+        -lags.energy(&all, -slide)
+    }
+
     /// All energies (J) of wrong meetings of two faces without faults, the second a mate or not,
     /// neither turned over.
     pub fn energies(&self, lags: &Lags, [u, v]: [Word; 2], mate: bool) -> Vec<f64> {
