@@ -193,7 +193,7 @@ fn beside(
                 .iter()
                 .all(|other| task.rules.within(&task.lags, *word, *other, limit))
     });
-    let graph = Graph::new(task, words, limit);
+    let graph = Graph::new(task, words, limit, effort.budget.left());
     effort.budget.spend(graph.work());
     let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
     found
