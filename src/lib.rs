@@ -29,6 +29,7 @@
 //! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
 //! | [`workshop`] | a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
@@ -98,6 +99,7 @@
 //! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
 //! dependencies state; a compiler that old has not been tried.
 
+pub mod assembly;
 pub mod calibration;
 pub mod cell;
 mod checksum;
@@ -122,6 +124,7 @@ pub mod tile;
 pub mod units;
 pub mod words;
 pub mod workshop;
+pub mod yields;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

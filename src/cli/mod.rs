@@ -1,8 +1,10 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+pub mod assemble;
 mod assessment;
 pub mod barrier;
+pub mod bond;
 pub mod calibrate;
 pub mod compare;
 pub mod completions;

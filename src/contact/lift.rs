@@ -36,6 +36,47 @@ impl Contact {
         touching.into_iter().max_by(f64::total_cmp)
     }
 
+    /// The intervals of translations t (m) within `range` along the unit vector `direction` that
+    /// leave `q` free, ascending. Freedom changes only where a vertex meets an edge, so that one
+    /// look between two such translations tells; where the tiles overlap deeply there, the
+    /// translations that cannot undo it are passed over.
+    pub fn free_translations(
+        &self,
+        q: &Configuration,
+        direction: Vector2<f64>,
+        range: [f64; 2],
+    ) -> Vec<[f64; 2]> {
+        let mut ends = self.touching_translations(q, direction);
+        ends.retain(|t| range[0] < *t && *t < range[1]);
+        ends.extend(range);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|a, b| *a - *b < TOUCH);
+        let mut free: Vec<[f64; 2]> = Vec::new();
+        let mut blocked_down_to = f64::INFINITY;
+        // From far away inwards.
+        for pair in ends.windows(2).rev() {
+            let [low, high] = [pair[0], pair[1]];
+            // What is blocked in part is blocked all along.
+            if high > blocked_down_to {
+                continue;
+            }
+            let middle = (low + high) / 2.0;
+            let x = q.x + direction.x * middle;
+            let y = q.y + direction.y * middle;
+            let there = Configuration::new(x, y, q.theta);
+            if !self.is_free(&there) {
+                blocked_down_to = middle - self.overlap_depth(&there) + 2.0 * TOUCH;
+                continue;
+            }
+            match free.last_mut() {
+                Some(above) if above[0] <= high => above[0] = low,
+                _ => free.push([low, high]),
+            }
+        }
+        free.reverse();
+        free
+    }
+
     /// All translations t along a direction at which a vertex meets an edge.
     fn touching_translations(&self, q: &Configuration, direction: Vector2<f64>) -> Vec<f64> {
         let rotation = q.rotation();

@@ -1,4 +1,8 @@
-//! Kinetics: what overdamped motion makes of a landscape.
+//! Kinetics: what shaken tiles do with a landscape: how strongly a state holds at kT, how soon and
+//! whereto it is left, and what comes out in the end.
+//!
+//! kT (J) is an effective energy of shaking, see [`crate::dynamics`]; nothing here says that a
+//! table has one.
 //!
 //! # The equations
 //! With the drag c (kg/s) on the tile's mass, spread evenly, and the effective energy kT (J) of its
@@ -15,8 +19,20 @@
 //! and a layer of e^(-U/kT) along it may be thinner than a cell. The energy of the computed
 //! committor is an upper bound of the capacity (Dirichlet's principle), but for the quadrature.
 
+pub mod basin;
+pub mod bond;
+pub mod chain;
+pub mod corner;
 pub mod exit;
 mod field;
+mod frame;
+mod line;
 mod mesh;
+pub mod mixture;
+pub mod population;
 pub mod rates;
 mod sets;
+pub mod well;
+
+pub use bond::{Bond, BondError, Hold, Trap};
+pub use well::{Estimate, Well};

@@ -7,6 +7,7 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`assembly`] - tile sets whose glues are words;
 //! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
 //! - [`rates`] - exits and rates of overdamped motion;
 //! - [`figures`] - numbers with their bounds, for people;
@@ -19,7 +20,9 @@
 //! - [`writer`] - all of it as [`files`] of one folder.
 
 pub mod arrays;
+pub mod assembly;
 mod assessments;
+pub mod bond;
 mod braille;
 pub mod calibration;
 pub mod columns;

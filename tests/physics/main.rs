@@ -20,3 +20,4 @@ mod shielding;
 mod strength;
 mod tiles;
 mod units;
+mod wells;

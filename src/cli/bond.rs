@@ -1,0 +1,63 @@
+//! `tilebind bond`.
+
+use clap::Args;
+use tilebind::Settings;
+use tilebind::kinetics::bond::{Bond, Shaking, traps};
+use tilebind::pipeline;
+use tilebind::report::bond::BondReport;
+use tilebind::report::json;
+
+use super::options::{DesignOptions, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
+
+/// How strongly bond and traps hold shaken tiles: depths, docking costs and ln K at kT
+#[derive(Args)]
+#[command(after_help = "\
+kT is an effective energy of the shaking, to be fitted to pairs that bind and part: `tilebind
+calibrate --bonds`. The docking cost is -ln(rho Z0 s / 2 pi): rho tiles on a square metre, Z0 the
+integral of exp(-(U - Umin) / kT) over the state's basin with true contact, s its copies by turns of
+the moving tile. ln K is the depth less this cost: above 0 a pair is bound more often than not.
+
+Examples:
+  tilebind bond shapes/paper-tile.toml --kt 3e-3 --coverage 0.3
+  tilebind bond shapes/tab-20mm.toml --kt 3e-3 --coverage 0.3 --model cuboid --json")]
+pub struct BondCommand {
+    #[command(flatten)]
+    design: DesignOptions,
+
+    /// Effective energy kT of the shaking (J)
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    kt: f64,
+
+    /// Share of the table that tiles cover
+    #[arg(long, value_name = "F", value_parser = input::fraction)]
+    coverage: f64,
+
+    #[command(flatten)]
+    work: WorkOptions,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+impl BondCommand {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        let design = self.design.load()?;
+        self.work.use_threads()?;
+        let progress = self.print.progress();
+        let settings = Settings::without_proofs(self.work.seed);
+        let analysis = pipeline::analyse(&design, &settings, &progress);
+        let found = Bond::new(&analysis.problem, &analysis.inventory);
+        let bond = found.map_err(|error| Failure::Run(error.to_string()))?;
+        let traps = traps(&analysis.problem, &analysis.inventory);
+        let shaking = Shaking {
+            kt: self.kt,
+            coverage: self.coverage,
+        };
+        let report = BondReport::new(&design, &analysis.problem, &bond, &traps, shaking);
+        progress.finish();
+        let text = json::text(&report.json());
+        self.print.results(&text, || report.summary())
+    }
+}

@@ -1,0 +1,252 @@
+//! How strongly states hold shaken tiles: what models of tile assembly call Gse and Gmc.
+
+use super::corner;
+use super::well::{Estimate, Well};
+use crate::configuration::Configuration;
+use crate::interruption;
+use crate::landscape::constrained::Point;
+use crate::landscape::{Inventory, Kind, Place};
+use crate::problem::Problem;
+use crate::tile::Pair;
+
+/// Relative error to which partition functions are integrated.
+pub const TOLERANCE: f64 = 3e-4;
+/// ... and that with which a window of shaking is looked for.
+const ROUGH: f64 = 2e-3;
+/// Depths of the bond in kT between which a window is looked for.
+const DEPTHS: [f64; 2] = [1.0, 200.0];
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BondError {
+    /// No state where the target faces meet.
+    #[error(
+        "the tiles do not hold where the target faces meet: there is no bond to speak of \
+         (`tilebind show` tells more)"
+    )]
+    NoBond,
+    /// An energy over which there are no two tiles.
+    #[error("without tiles there is no coverage of a table")]
+    NoTiles,
+}
+
+/// A table with tiles on it that is shaken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaking {
+    /// Effective energy kT (J).
+    pub kt: f64,
+    /// Share of the table that tiles cover.
+    pub coverage: f64,
+}
+
+/// A kind of state that holds tiles.
+pub struct Hold<'a> {
+    /// What people call it: `A` for the bond, `B` for the deepest trap.
+    pub name: String,
+    /// Where its first state is.
+    pub configuration: Configuration,
+    /// U there (J).
+    pub energy: f64,
+    /// How many copies symmetries make of it, those by turns of the fixed tile included.
+    pub copies: usize,
+    /// How many of them turns of the moving tile alone make.
+    pub moving_copies: usize,
+    well: Well<'a>,
+    area: f64,
+}
+
+/// A trap is a hold like any other.
+pub type Trap<'a> = Hold<'a>;
+
+/// The bond, as assembly models see it.
+pub struct Bond<'a>(Hold<'a>);
+
+/// What holding takes and gives at one shaking, in kT.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Docking {
+    /// Depth of the state over kT (Gse).
+    pub depth: f64,
+    /// The integral Z0 (m^2 rad) of `exp(-(U - Umin) / kT)` over the state's basin.
+    pub volume: Estimate,
+    /// `-ln(rho Z0 s / 2 pi)` with rho tiles a square metre and s copies (Gmc); infinite where the
+    /// basin has no volume, as between square teeth without play.
+    pub cost: f64,
+}
+
+impl Docking {
+    /// ln K of `bonds` equal bonds that are closed by one docking: their depth less its cost.
+    pub fn ln_k(&self, bonds: f64) -> f64 {
+        bonds * self.depth - self.cost
+    }
+}
+
+impl<'a> Hold<'a> {
+    /// A kind of states of an inventory; its basin is flooded.
+    fn new(problem: &'a Problem, inventory: &Inventory, kind: &Kind, name: String) -> Self {
+        interruption::check();
+        let state = kind.first();
+        let minimum = Point::new(problem, state.configuration);
+        let others = inventory.states.iter().filter(|other| other.id != state.id);
+        let others: Vec<_> = others.map(|other| other.configuration).collect();
+        Self {
+            name,
+            configuration: state.configuration,
+            energy: minimum.energy,
+            copies: kind.copies(),
+            moving_copies: problem.symmetries.iter().filter(|s| s.fixed == 0.0).count(),
+            well: Well::new(problem, &minimum, pass(inventory, kind), &others),
+            area: problem.pair.as_ref().map_or(0.0, |pair| area(pair)),
+        }
+    }
+
+    /// Its basin and the integral over it.
+    pub fn well(&self) -> &Well<'a> {
+        &self.well
+    }
+
+    /// What it holds with at one shaking; the integral to the relative `tolerance`.
+    pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Docking {
+        let volume = self.well.volume(shaking.kt, tolerance);
+        self.with(shaking, volume)
+    }
+
+    /// The same with no more of its basin than lies below `level` (J).
+    pub fn docking_below(&self, shaking: &Shaking, level: f64, tolerance: f64) -> Docking {
+        let volume = self.well.volume_below(shaking.kt, level, tolerance);
+        self.with(shaking, volume)
+    }
+
+    /// The same with the partition function in closed form, see [`corner`]; `None` where there is
+    /// none.
+    pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Docking> {
+        let value = corner::volume(problem, &self.configuration, shaking.kt)?;
+        Some(self.with(
+            shaking,
+            Estimate {
+                value,
+                error: f64::NAN,
+            },
+        ))
+    }
+
+    /// The constant K (m^2) of association of one pair: over an area S alone, it is in one of the
+    /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi`, all n copies
+    /// counted.
+    pub fn association(&self, docking: &Docking) -> f64 {
+        self.copies as f64 * docking.volume.value * docking.depth.exp() / std::f64::consts::TAU
+    }
+
+    fn with(&self, shaking: &Shaking, volume: Estimate) -> Docking {
+        let density = shaking.coverage / self.area;
+        let share = density * volume.value * self.moving_copies as f64 / std::f64::consts::TAU;
+        Docking {
+            depth: -self.energy / shaking.kt,
+            volume,
+            cost: -share.ln(),
+        }
+    }
+}
+
+impl<'a> Bond<'a> {
+    /// The bond of an inventory.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn new(problem: &'a Problem, inventory: &Inventory) -> Result<Self, BondError> {
+        problem.pair.as_ref().ok_or(BondError::NoTiles)?;
+        let kind = inventory
+            .kinds()
+            .find(Kind::is_bond)
+            .ok_or(BondError::NoBond)?;
+        let name = inventory.names()[kind.first().id].clone();
+        Ok(Self(Hold::new(problem, inventory, &kind, name)))
+    }
+
+    /// The bond as a hold.
+    pub fn hold(&self) -> &Hold<'a> {
+        &self.0
+    }
+
+    /// The two kT (J) at a coverage between which two bonds that are closed by one docking hold and
+    /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
+    /// second. `None` where a bond of 1 to 200 kT decides nothing.
+    pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
+        [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds))
+    }
+
+    /// The kT (J) above which ln K of `bonds` bonds is negative.
+    fn threshold(&self, coverage: f64, bonds: f64) -> Option<f64> {
+        let hold = &self.0;
+        // By -kT's logarithm, in which cost is nearly straight.
+        let ln_k = |log_depth: f64| {
+            let kt = -hold.energy / log_depth.exp();
+            hold.docking(&Shaking { kt, coverage }, ROUGH).ln_k(bonds)
+        };
+        root(ln_k, DEPTHS.map(f64::ln)).map(|log_depth| -hold.energy / log_depth.exp())
+    }
+}
+
+/// The kinds of traps of an inventory, from the deepest on.
+pub fn traps<'a>(problem: &'a Problem, inventory: &Inventory) -> Vec<Trap<'a>> {
+    let names = inventory.names();
+    let kinds = inventory.kinds().filter(|kind| !kind.is_bond());
+    let trap = |kind: Kind| Hold::new(problem, inventory, &kind, names[kind.first().id].clone());
+    kinds.map(trap).collect()
+}
+
+/// The lowest energy (J) at which a known way leads out of a kind of states.
+fn pass(inventory: &Inventory, kind: &Kind) -> f64 {
+    let is_own = |place: Place| {
+        kind.states
+            .iter()
+            .any(|state| place == Place::State(state.id))
+    };
+    let ways = inventory.barriers.iter();
+    let ways = ways.filter(|way| is_own(way.from) != is_own(way.to));
+    ways.map(|way| way.saddle_energy)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The area (m^2) of the moving tile.
+fn area(pair: &Pair) -> f64 {
+    pair.moving.outline.area()
+}
+
+/// The upper of the roots of a function that grows from there on, by bisection and secants
+/// (Illinois); `None` where there is none between the ends.
+fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
+    /// Both in the logarithm and in kT.
+    const CLOSE: f64 = 5e-4;
+    let (mut high, mut low) = (most, most);
+    let mut above = f(high);
+    if above <= 0.0 {
+        return None;
+    }
+    let mut below = above;
+    while below > 0.0 {
+        (high, above) = (low, below);
+        if low <= least {
+            return None;
+        }
+        low = (low - 1.0).max(least);
+        below = f(low);
+    }
+    let mut side = 0;
+    for _ in 0..40 {
+        let next = (low * above - high * below) / (above - below);
+        let value = f(next);
+        if value.abs() < CLOSE || high - low < CLOSE {
+            return Some(next);
+        }
+        if value > 0.0 {
+            (high, above) = (next, value);
+            below *= if side == 1 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            (low, below) = (next, value);
+            above *= if side == -1 { 0.5 } else { 1.0 };
+            side = -1;
+        }
+    }
+    Some((low + high) / 2.0)
+}
