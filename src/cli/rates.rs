@@ -8,6 +8,7 @@ use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
+use tilebind::landscape::Place as End;
 use tilebind::observer::Observer;
 use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
@@ -224,14 +225,13 @@ impl Rates {
     /// The bond and the deepest traps that hold at this kT.
     fn places(&self, analysis: &pipeline::Analysis) -> Vec<report::Place> {
         let inventory = &analysis.inventory;
-        let named = inventory.kinds().zip(inventory.names());
-        let held = named.filter_map(|(kind, name)| {
+        let held = inventory.kinds().filter_map(|kind| {
             let state = kind.first();
             let barrier = analysis.escape(state.id)?.forward();
             let holds = kind.is_bond() || barrier >= LEAST_BARRIER * self.kt;
             let below = self.basin_energy.filter(|_| kind.is_bond());
             holds.then(|| report::Place {
-                name: format!("{} {name}", if kind.is_bond() { "bond" } else { "trap" }),
+                name: inventory.name_of(End::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
                 below: below.unwrap_or(state.energy + BASIN * barrier),

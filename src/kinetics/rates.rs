@@ -140,11 +140,13 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         let unknowns = found.unknowns;
         meshes.push(MeshRates { error, ..found });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
-        if is_fine || unknowns > settings.unknowns {
-            return match places.shared.first() {
-                Some(&(_, limit)) => Err(RatesError::Joined(limit)),
-                None => Ok(Rates { meshes }),
-            };
+        let is_done = is_fine || unknowns > settings.unknowns;
+        if let Some(&(_, limit)) = places.shared.first() {
+            if is_done || meshes.len() > MESHES {
+                return Err(RatesError::Joined(limit));
+            }
+        } else if is_done {
+            return Ok(Rates { meshes });
         }
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();

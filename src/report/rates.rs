@@ -305,7 +305,7 @@ impl Table<'_> {
     pub fn summary(&self) -> String {
         let free = self.places.len();
         let mut text = format!(
-            "{}: free tiles bind at {} and the bond comes off at {}, on a table of {} by {} m\n",
+            "{}: free tiles bind at {} and the bond is left at {}, on a table of {} by {} m\n",
             self.design.name,
             per_second(self.rate(free, 0)),
             per_second(self.rate_out(0)),

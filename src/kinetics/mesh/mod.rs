@@ -6,11 +6,13 @@ mod chart;
 mod element;
 mod nodes;
 mod octree;
+mod quadrature;
 mod system;
 
 pub(super) use chart::{Chart, UNITS};
-pub(super) use element::{Element, Integrator, gradients, shapes};
+pub(super) use element::{Element, gradients, shapes};
 pub(super) use nodes::Nodes;
 pub(super) use octree::{Leaf, Octree};
+pub(super) use quadrature::Integrator;
 pub use system::Unsolved;
 pub(super) use system::{System, loads};

@@ -66,3 +66,50 @@ fn a_start_in_the_bond_is_refused_with_what_mends_it() {
     );
     assert!(stdout(&output).is_empty());
 }
+
+#[test]
+fn rates_between_the_states_balance_in_detail() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("rates");
+    let entry = json(&[
+        "rates",
+        "shapes/paper-tile.toml",
+        "--kt",
+        "3e-3",
+        "--traps",
+        "1",
+        "--out",
+        out.to_str().unwrap(),
+        "--json",
+    ]);
+    let places = entry["places"].as_array().unwrap();
+    let names: Vec<&str> = places
+        .iter()
+        .map(|place| place["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["bond A", "trap B", "free"]);
+    let share = |name: &serde_json::Value| {
+        let place = places.iter().find(|place| place["name"] == *name).unwrap();
+        place["occupation"].as_f64().unwrap()
+    };
+    let all: f64 = places.iter().map(|place| share(&place["name"])).sum();
+    assert!((all - 1.0).abs() < 1e-9);
+    let rates = entry["rates"].as_array().unwrap();
+    assert_eq!(rates.len(), 6);
+    let flow =
+        |rate: &serde_json::Value| share(&rate["from"]) * rate["value_per_s"].as_f64().unwrap();
+    for rate in rates {
+        let is_back =
+            |other: &&serde_json::Value| other["from"] == rate["to"] && other["to"] == rate["from"];
+        let back = rates.iter().find(is_back).unwrap();
+        assert!(
+            (flow(rate) / flow(back) - 1.0).abs() < 1e-9,
+            "{rate} {back}"
+        );
+    }
+    let table = std::fs::read_to_string(out.join("rates.csv")).unwrap();
+    assert!(table.starts_with("from,to,lower_per_s,value_per_s,upper_per_s,"));
+    assert_eq!(table.lines().count(), 7);
+    let table = std::fs::read_to_string(out.join("occupation.csv")).unwrap();
+    assert_eq!(table.lines().count(), 4);
+}
