@@ -2,7 +2,7 @@
 
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::sets::{basin, is_at_the_rim};
+use super::sets::{basin, is_at_the_rim, pass};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -215,7 +215,8 @@ impl Ends {
         if is_low && held.iter().any(|&id| inside[id]) {
             return Err(ExitError::Bound(asked.basin_energy));
         }
-        field.set_level(&beside, &asked.start, &|id| inside[id] || rim[id]);
+        let level = pass(&field.mesh, &beside, &held, &|id| inside[id] || rim[id]);
+        field.set_level(level.unwrap_or(0.0));
         let deep = field.level() - DEEP * field.kt;
         let is_deep = field.energy_at(&asked.start) < deep;
         Ok(Self {

@@ -109,16 +109,8 @@ impl<'a> Field<'a> {
         self.integrator.ground
     }
 
-    /// Takes the highest energy on the best way from a configuration to the ends for the level about
-    /// which weights are kept in bounds.
-    pub fn set_level(
-        &mut self,
-        beside: &[Vec<u32>],
-        from: &Configuration,
-        ends: &dyn Fn(usize) -> bool,
-    ) {
-        let start = self.mesh.holding(from);
-        let level = sets::pass(&self.mesh, beside, &start, ends).unwrap_or(0.0);
+    /// Has weights kept in bounds about another energy (J), unless it is much the same.
+    pub fn set_level(&mut self, level: f64) {
         if (level - self.integrator.level).abs() > MOVED * self.kt {
             self.integrator.level = level;
             for leaf in &mut self.mesh.leaves {

@@ -30,6 +30,7 @@ mod line;
 mod mesh;
 pub mod mixture;
 pub mod population;
+pub mod rates;
 mod sets;
 pub mod well;
 

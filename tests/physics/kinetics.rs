@@ -7,6 +7,7 @@ use std::sync::Arc;
 use nalgebra::{Vector2, Vector3};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::kinetics::exit::{Exit, ExitError, ExitSettings, exit};
+use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};
 use tilebind::tile::{Outline, Pair, Tile};
@@ -160,6 +161,57 @@ fn finer_meshes_come_closer_to_the_integrals() {
     );
 }
 
+fn double_well_basins() -> Vec<Basin> {
+    let basin = |r: f64, below: f64| Basin { at: at(r), below };
+    vec![basin(0.3, BASIN), basin(0.5, 0.0)]
+}
+
+#[test]
+fn rates_balance_in_detail_and_are_those_of_the_integrals() {
+    let kt = 0.4;
+    let settings = RateSettings {
+        tolerance: 0.01,
+        ..RateSettings::new(kt, double_well_basins(), 0.6)
+    };
+    let found = rates(&radial(double_well), &settings).unwrap();
+    let finest = found.finest();
+    assert!((finest.occupation.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    for i in 0..3 {
+        for j in 0..i {
+            let [forth, back] =
+                [(i, j), (j, i)].map(|(i, j)| finest.occupation[i] * finest.rates[i][j]);
+            assert!(
+                (forth - back).abs() <= 1e-9 * forth.max(back),
+                "{i} {j}: {forth} {back}"
+            );
+        }
+    }
+    // Out of the second well, as from its middle.
+    let [time, bound] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
+    let out: f64 = finest.rates[1].iter().sum();
+    assert!((out * time - 1.0).abs() < 0.03, "{out} {time}");
+    assert!(
+        (finest.rates[1][0] / out - bound).abs() < 0.01,
+        "{:?} {bound}",
+        finest.rates[1]
+    );
+    // Between the first well and `free` the second one stands.
+    assert!(finest.rates[0][2] < 1e-6 * finest.rates[0][1]);
+}
+
+#[test]
+fn basins_that_are_one_have_no_rates() {
+    let mut basins = double_well_basins();
+    basins[1].below = 4.6;
+    let joined = rates(&radial(double_well), &RateSettings::new(0.4, basins, 0.6));
+    assert!(matches!(joined, Err(RatesError::Joined(_))), "{joined:?}");
+    let near = rates(
+        &radial(double_well),
+        &RateSettings::new(0.4, double_well_basins(), 0.45),
+    );
+    assert!(matches!(near, Err(RatesError::NoFree(_))), "{near:?}");
+}
+
 /// A slope that presses the tiles together up to 0.55 m, and one down into the bond at 0.7 m.
 fn slope(r: f64) -> f64 {
     let peak = 0.55;
@@ -178,15 +230,15 @@ fn a_linear_well_against_a_wall_is_left_as_the_integrals_say() {
         tolerance: 0.01,
         ..ExitSettings::new(1.0, at(2.0 * RADIUS + 1e-6), -6.0, 0.75)
     };
-    let bond = at(0.70);
+    let bond = at(0.69);
     let open = exit(&problem, &bond, &settings);
     assert!(matches!(open, Err(ExitError::Open(_))), "{open:?}");
     // Where the basin is all that there is outside, `free` is never reached.
     let rising = |r: f64| {
-        if r < 0.72 {
+        if r < 0.69 {
             slope(r)
         } else {
-            slope(0.72) + 400.0 * (r - 0.72)
+            slope(0.69) + 400.0 * (r - 0.69)
         }
     };
     let found = exit(&round(radial(rising)), &bond, &settings)

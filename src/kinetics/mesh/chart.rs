@@ -29,6 +29,8 @@ pub(in crate::kinetics) struct Chart {
     step: [f64; 3],
     /// First cells in theta by which a turn in phi turns theta on.
     shift: i64,
+    /// How many configurations the chart shows as one.
+    copies: usize,
 }
 
 impl Chart {
@@ -67,7 +69,13 @@ impl Chart {
                 periods[1] / cells[2] as f64,
             ],
             shift: moving as i64 * along_theta / fixed as i64,
+            copies: fixed * moving,
         }
+    }
+
+    /// How many configurations the chart shows as one.
+    pub(in crate::kinetics) fn copies(&self) -> usize {
+        self.copies
     }
 
     /// Size of a cell of this level (m, rad, rad).
