@@ -2,6 +2,7 @@
 
 mod analyse;
 mod barrier;
+mod bond;
 mod calibrate;
 mod completions;
 mod consistency;
