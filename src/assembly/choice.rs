@@ -15,6 +15,8 @@ use crate::words::{Bar, Constraints, Lags, Rules, Task, Word, local};
 pub struct Asked {
     /// The magnets.
     pub bar: Bar,
+    /// Magnets of a word of the strongest bonds; as many as places where it is not given.
+    pub magnets: Option<usize>,
     /// Which meetings are wrong.
     pub rules: Rules,
     /// The least gap; the widest there is where it is not given.
@@ -54,18 +56,21 @@ pub struct Choice {
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
 /// The longest face that is looked at.
-pub const MOST_PLACES: usize = 32;
+pub const MOST_PLACES: usize = 48;
 
-/// How many magnets a word of some strength has on a face of so many places.
-pub fn magnets(places: usize, strength: f64, strongest: f64) -> usize {
-    ((places as f64 * strength / strongest).round() as usize).clamp(1, places)
+impl Asked {
+    /// How many magnets a word of some strength has on a face of so many places.
+    fn magnets(&self, places: usize, strength: f64, strongest: f64) -> usize {
+        let most = self.magnets.unwrap_or(places).min(places);
+        ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
 }
 
 /// Words for a face of so many places; `demand` as [`super::Wiring::demand`] gives it.
 pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
     let weakest = demand.last().map_or(1.0, |last| last.0);
     let strongest = demand.first().map_or(1.0, |first| first.0);
-    let unit = magnets(places, weakest, strongest);
+    let unit = asked.magnets(places, weakest, strongest);
     let gaps: Vec<f64> = match asked.gap {
         Some(gap) => vec![gap],
         // By contacts: between their whole numbers there is nothing to gain.
@@ -139,9 +144,9 @@ fn at_gap(
         words: Vec::new(),
         upper: Vec::new(),
     };
-    let unit = magnets(places, weakest, strongest) as f64;
+    let unit = asked.magnets(places, weakest, strongest) as f64;
     for (part, (strength, needed)) in demand.iter().enumerate() {
-        let of_class = magnets(places, *strength, strongest);
+        let of_class = asked.magnets(places, *strength, strongest);
         let task = task(asked, places, of_class);
         // The gap is of the weakest bond.
         let own_gap = 1.0 - (1.0 - gap) * unit / of_class as f64;

@@ -1,6 +1,7 @@
 //! The commands on one design, and what every command has: help, mistakes, completions.
 
 mod analyse;
+mod assemble;
 mod barrier;
 mod calibrate;
 mod completions;
@@ -49,6 +50,7 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "words",
         "crosstalk",
         "match",
+        "assemble",
         "init",
         "show",
         "make",
