@@ -71,33 +71,34 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
     let weakest = demand.last().map_or(1.0, |last| last.0);
     let strongest = demand.first().map_or(1.0, |first| first.0);
     let unit = asked.magnets(places, weakest, strongest);
-    let gaps: Vec<f64> = match asked.gap {
-        Some(gap) => vec![gap],
-        // By contacts: between their whole numbers there is nothing to gain.
-        None => (0..unit)
-            .map(|c| 1.0 - (c as f64 + 0.5) / unit as f64)
-            .collect(),
-    };
-    let mut last = Choice {
-        places,
-        gap: 0.0,
-        verdict: Verdict::Open,
-        words: Vec::new(),
-        upper: Vec::new(),
-    };
-    let seconds = asked.seconds / gaps.len() as f64;
-    for gap in gaps {
-        let deadline = Budget::deadline(3.0 * seconds);
+    let trial = |gap: f64, trials: f64| {
+        let seconds = asked.seconds / trials;
+        let budget = Budget::seconds(seconds, Budget::deadline(3.0 * seconds));
         let mut effort = Effort {
             seed: asked.seed,
-            budget: Budget::seconds(seconds, deadline),
+            budget,
         };
-        last = at_gap(demand, places, gap, asked, &mut effort);
-        if last.verdict == Verdict::Found {
-            break;
+        at_gap(demand, places, gap, asked, &mut effort)
+    };
+    if let Some(gap) = asked.gap {
+        return trial(gap, 1.0);
+    }
+    // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
+    let (mut low, mut high) = (0, unit);
+    let trials = f64::from(usize::BITS - unit.leading_zeros());
+    let (mut best, mut last) = (None, None);
+    while low < high {
+        let contacts = (low + high) / 2;
+        let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, trials);
+        if choice.verdict == Verdict::Found {
+            high = contacts;
+            best = Some(choice);
+        } else {
+            low = contacts + 1;
+            last = Some(choice);
         }
     }
-    last
+    best.or(last).unwrap_or_else(|| trial(0.0, 1.0))
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
