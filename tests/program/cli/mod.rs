@@ -1,6 +1,7 @@
 //! The commands on one design, and what every command has: help, mistakes, completions.
 
 mod analyse;
+mod assemble;
 mod barrier;
 mod bond;
 mod calibrate;
@@ -52,6 +53,7 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "crosstalk",
         "match",
         "rates",
+        "assemble",
         "init",
         "show",
         "make",
