@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::design::Design;
+use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
+use tilebind::dynamics::{Body, MotionSettings};
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use tilebind::observer::Observer;
 use tilebind::report::{json, rates as report, writer};
-use tilebind::{Configuration, Settings, pipeline};
+use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt, memory, print};
@@ -18,6 +20,9 @@ use super::{Failure, input, interrupt, memory, print};
 const BASIN: f64 = 0.5;
 /// Barriers of states with rates are at least so many kT high.
 const LEAST_BARRIER: f64 = 2.0;
+
+/// Mean exit times after which a moving tile is given up.
+const PATIENCE: f64 = 30.0;
 
 /// Print how fast shaken tiles bind, come off and change between states
 #[derive(Args)]
@@ -74,6 +79,16 @@ pub struct Rates {
     #[arg(long, value_name = "DIR", conflicts_with = "start")]
     out: Option<PathBuf>,
 
+    /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
+    /// that of overdamped motion
+    #[arg(long, value_name = "N", requires = "start", value_parser = input::runs)]
+    check: Option<usize>,
+
+    /// Share of the approach velocity that a knock gives back, in --check
+    #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
+          value_parser = input::not_negative)]
+    restitution: f64,
+
     #[command(flatten)]
     work: WorkOptions,
 
@@ -103,11 +118,52 @@ impl Rates {
             _ => Failure::Usage(error.to_string()),
         })?;
         let motion = report::Motion::new(design, self.kt, self.drag);
+        let mean = found.finest().time / motion.diffusion;
+        let checked = self.check.map(|runs| {
+            let runs = self.runs(&asked, runs, mean);
+            self.let_go(&problem, &Body::of_tile(&design.pair.moving), &runs)
+        });
+        let checked = checked.transpose()?;
         print(&if self.print.json {
-            json::text(&report::exit_entry(&asked, &motion, &found))
+            let mut entry = report::exit_entry(&asked, &motion, &found);
+            if let Some(runs) = &checked {
+                entry["check"] = report::check_entry(&motion, &found, runs);
+            }
+            json::text(&entry)
         } else {
-            report::exit_summary(design, &asked, &motion, &found)
+            let text = report::exit_summary(design, &asked, &motion, &found);
+            let check = checked.map(|runs| report::check_summary(&motion, &found, &runs));
+            text + &check.unwrap_or_default()
         })
+    }
+
+    fn runs(&self, asked: &ExitSettings, runs: usize, mean: f64) -> ExitRunSettings {
+        ExitRunSettings {
+            start: asked.start,
+            basin_energy: asked.basin_energy,
+            free_at: asked.free_at,
+            runs,
+            seed: self.work.seed,
+            longest: PATIENCE * mean,
+        }
+    }
+
+    /// Tiles that really move.
+    fn let_go(
+        &self,
+        problem: &Problem,
+        body: &Body,
+        asked: &ExitRunSettings,
+    ) -> Result<ExitRuns, Failure> {
+        let motion = MotionSettings {
+            drag: self.drag,
+            restitution: self.restitution,
+            friction: 0.0,
+            walls: false,
+            shaking: Some(self.kt),
+            ..MotionSettings::default()
+        };
+        exits(problem, *body, &motion, asked).map_err(|error| Failure::Usage(error.to_string()))
     }
 
     fn free_at(&self, design: &Design) -> f64 {

@@ -275,15 +275,15 @@ impl Places {
             }
         }
         let last = self.count - 1;
-        for i in 0..last {
-            for j in 0..i {
-                let mean = 0.5 * (flows[i][j] + flows[j][i]);
-                (flows[i][j], flows[j][i]) = (mean, mean);
-            }
-            flows[last][i] = flows[i][last];
-        }
+        // As symmetric as they are without rounding.
+        let flow = |i: usize, j: usize| match (i == last, j == last) {
+            (true, true) => 0.0,
+            (true, false) => flows[j][i],
+            (false, true) => flows[i][j],
+            (false, false) => 0.5 * (flows[i][j] + flows[j][i]),
+        };
         let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
-        let rate = |from: usize, to: usize| (scale * flows[from][to] / occupations[from]).max(0.0);
+        let rate = |from: usize, to: usize| (scale * flow(from, to) / occupations[from]).max(0.0);
         let all: f64 = occupations.iter().sum();
         let found = MeshRates {
             rates: (0..self.count)

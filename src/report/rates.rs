@@ -2,12 +2,15 @@
 
 use std::fmt::Write;
 
+use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::terminal::write_table;
 use super::values;
 use crate::configuration::Configuration;
 use crate::design::Design;
+use crate::dynamics::exits::ExitRuns;
+use crate::kinetics::chain::Chain;
 use crate::kinetics::exit::{Exit, ExitSettings};
 use crate::kinetics::rates::{RateSettings, Rates};
 use crate::units::si;
@@ -92,6 +95,59 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
     text
 }
 
+/// What moving tiles say of an exit, as an object; ratios are theirs over the overdamped motion's.
+pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
+    let mean = exit.finest().time / motion.diffusion;
+    let [bound, free] = runs.ends;
+    json!({
+        "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
+        "mean_exit_s": finite(runs.time[0]),
+        "standard_error_s": finite(runs.time[1]),
+        "ratio": finite(runs.time[0] / mean),
+        "bound": finite(bound as f64 / (bound + free) as f64),
+        "kinetic_over_kt": finite(runs.warmth),
+    })
+}
+
+/// The kinetic energy of moving tiles may differ from that of kT by this share.
+const WARM: f64 = 0.1;
+
+/// What moving tiles say of an exit, in a few lines.
+pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
+    let mean = exit.finest().time / motion.diffusion;
+    let [bound, free] = runs.ends;
+    let [time, error] = runs.time;
+    let mut text = format!(
+        "check: {} rigid bodies with inertia take {} +- {} on average, {:.2} +- {:.2} times as \
+         long; bound first in {:.0} % ({bound} of {})\n",
+        bound + free + runs.given_up,
+        si(time, "s", 3),
+        si(error, "s", 2),
+        time / mean,
+        error / mean,
+        100.0 * bound as f64 / (bound + free) as f64,
+        bound + free,
+    );
+    if runs.given_up > 0 {
+        let _ = writeln!(
+            text,
+            "  {} were given up under way: the mean is too short",
+            runs.given_up
+        );
+    }
+    let _ = writeln!(
+        text,
+        "  their kinetic energy is {:.2} times that of kT{}",
+        runs.warmth,
+        if (runs.warmth - 1.0).abs() > WARM {
+            ": knocks take energy that the shaking does not give back, so no temperature exists"
+        } else {
+            ""
+        },
+    );
+    text
+}
+
 /// Where kT means something.
 const SCOPE: &str = "  overdamped motion, knocks without loss: drag of 50 /s and more; at less \
                      drag, or where knocks\n  take energy that shaking does not give back, there \
@@ -144,6 +200,14 @@ impl Table<'_> {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
+    /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
+    /// does not count.
+    fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
+        let rate = |i: usize, j: usize| self.rate(i, j);
+        let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
+        chain.mean_times(&[to])[from]
+    }
+
     /// Every two places, from and to.
     fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let count = self.count();
@@ -174,6 +238,7 @@ impl Table<'_> {
                 "lower_per_s": null,
                 "value_per_s": self.rate(from, to),
                 "upper_per_s": null,
+                "mean_first_passage_s": finite(self.mean_first_passage(from, to)),
                 "first": finite(self.rate(from, to) / self.rate_out(from)),
                 "spread": finite(self.found.spread(from, to)),
             })
@@ -190,7 +255,7 @@ impl Table<'_> {
 
     /// rates.csv: bounds are empty where nothing is proved.
     pub fn rates_csv(&self) -> String {
-        let mut text = "from,to,lower_per_s,value_per_s,upper_per_s,spread,first,from_basin_J,\
+        let mut text = "from,to,lower_per_s,value_per_s,upper_per_s,spread,first,mean_first_passage_s,from_basin_J,\
                         to_basin_J,free_at_m\n"
             .to_owned();
         let limit = |place: usize| {
@@ -200,12 +265,13 @@ impl Table<'_> {
         for (from, to) in self.pairs() {
             let _ = writeln!(
                 text,
-                "{},{},,{:.6e},,{:.1e},{:.6e},{},{},{}",
+                "{},{},,{:.6e},,{:.1e},{:.6e},{:.6e},{},{},{}",
                 self.name(from),
                 self.name(to),
                 self.rate(from, to),
                 self.found.spread(from, to),
                 self.rate(from, to) / self.rate_out(from),
+                self.mean_first_passage(from, to),
                 limit(from),
                 limit(to),
                 self.asked.free_at,
