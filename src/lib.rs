@@ -26,6 +26,7 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
@@ -123,6 +124,7 @@ pub mod tile;
 pub mod units;
 pub mod words;
 pub mod workshop;
+pub mod yields;
 
 pub use configuration::{Configuration, ConfigurationSpace};
 pub use design::Design;

@@ -55,6 +55,8 @@ pub struct Choice {
 
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
+/// Weaker words to choose from at most.
+const MOST_BESIDE: usize = 3000;
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 
@@ -199,7 +201,7 @@ fn beside(
                 .iter()
                 .all(|other| task.rules.within(&task.lags, *word, *other, limit))
     });
-    let graph = Graph::new(task, words, limit);
+    let graph = Graph::new(task, words, limit, effort.budget.left());
     effort.budget.spend(graph.work());
     let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
     found

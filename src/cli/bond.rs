@@ -1,7 +1,9 @@
 //! `tilebind bond`.
 
 use clap::Args;
-use tilebind::kinetics::bond::{Bond, Shaking, survey, traps};
+use tilebind::Settings;
+use tilebind::kinetics::bond::{Bond, Shaking, traps};
+use tilebind::pipeline;
 use tilebind::report::bond::BondReport;
 use tilebind::report::json;
 
@@ -44,7 +46,8 @@ impl BondCommand {
         let design = self.design.load()?;
         self.work.use_threads()?;
         let progress = self.print.progress();
-        let analysis = survey(&design, self.work.seed, &progress);
+        let settings = Settings::without_proofs(self.work.seed);
+        let analysis = pipeline::analyse(&design, &settings, &progress);
         let found = Bond::new(&analysis.problem, &analysis.inventory);
         let bond = found.map_err(|error| Failure::Run(error.to_string()))?;
         let traps = traps(&analysis.problem, &analysis.inventory);

@@ -22,6 +22,7 @@ pub mod matching;
 mod memory;
 mod options;
 mod progress;
+pub mod rates;
 pub mod schema;
 pub mod show;
 mod style;

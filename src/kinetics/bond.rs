@@ -3,12 +3,9 @@
 use super::corner;
 use super::well::{Estimate, Well};
 use crate::configuration::Configuration;
-use crate::design::Design;
 use crate::interruption;
 use crate::landscape::constrained::Point;
-use crate::landscape::{CompletenessSettings, Inventory, Kind, Place};
-use crate::observer::Observer;
-use crate::pipeline::{self, Analysis, Settings};
+use crate::landscape::{Inventory, Kind, Place};
 use crate::problem::Problem;
 use crate::tile::Pair;
 
@@ -83,22 +80,6 @@ impl Docking {
     }
 }
 
-/// The main job as far as kinetics needs it: states and barriers without proofs.
-pub fn survey(design: &Design, seed: u64, observer: &dyn Observer) -> Analysis {
-    let default = Settings::default();
-    let settings = Settings {
-        seed,
-        far_starts: 0,
-        certify_seconds: 0.0,
-        completeness: CompletenessSettings {
-            seconds: 0.0,
-            ..default.completeness
-        },
-        ..default
-    };
-    pipeline::analyse(design, &settings, observer)
-}
-
 impl<'a> Hold<'a> {
     /// A kind of states of an inventory; its basin is flooded.
     fn new(problem: &'a Problem, inventory: &Inventory, kind: &Kind, name: String) -> Self {
@@ -148,6 +129,13 @@ impl<'a> Hold<'a> {
         ))
     }
 
+    /// The constant K (m^2) of association of one pair: over an area S alone, it is in one of the
+    /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi`, all n copies
+    /// counted.
+    pub fn association(&self, docking: &Docking) -> f64 {
+        self.copies as f64 * docking.volume.value * docking.depth.exp() / std::f64::consts::TAU
+    }
+
     fn with(&self, shaking: &Shaking, volume: Estimate) -> Docking {
         let density = shaking.coverage / self.area;
         let share = density * volume.value * self.moving_copies as f64 / std::f64::consts::TAU;
@@ -160,7 +148,7 @@ impl<'a> Hold<'a> {
 }
 
 impl<'a> Bond<'a> {
-    /// The bond of an analysis, or of [`survey`].
+    /// The bond of an inventory.
     ///
     /// # Errors
     /// Where there is none.

@@ -75,6 +75,21 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// For states and barriers without proofs and capture shares, as kinetics needs them.
+    pub fn without_proofs(seed: u64) -> Self {
+        let default = Self::default();
+        Self {
+            seed,
+            far_starts: 0,
+            certify_seconds: 0.0,
+            completeness: CompletenessSettings {
+                seconds: 0.0,
+                ..default.completeness
+            },
+            ..default
+        }
+    }
+
     /// The roadmap's settings for a problem, with nothing left open.
     pub fn roadmap(&self, problem: &Problem) -> RoadmapSettings {
         let depth = problem.depth();

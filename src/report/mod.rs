@@ -9,6 +9,7 @@
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`assembly`] - tile sets whose glues are words;
 //! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
+//! - [`rates`] - exits and rates of overdamped motion;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal; [`inspection`] - a design at a glance;
 //! - [`workshop`] - drawings and a sheet to make the tiles by;
@@ -41,6 +42,7 @@ pub mod names;
 mod packing;
 pub mod page;
 pub mod plots;
+pub mod rates;
 pub mod summary;
 pub mod sweep;
 mod sweep_answer;

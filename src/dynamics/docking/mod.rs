@@ -7,7 +7,7 @@ mod starts;
 
 pub use map::{DockingMap, MapCell, share_within};
 pub use matching::MatchRule;
-pub use rate::OnRate;
+pub use rate::{OnRate, poisson_interval};
 pub use starts::{Start, Starts, stream};
 
 use std::time::Instant;

@@ -16,8 +16,7 @@ pub struct OnRate {
     pub time: f64,
     /// Attachments per second.
     pub rate: f64,
-    /// Its 95 % interval: the count's, for a Poisson process, by `(sqrt(n + 3/8) +- 0.98)^2 - 3/8`
-    /// (Anscombe 1948, doi:10.1093/biomet/35.3-4.246).
+    /// Its 95 % interval, see [`poisson_interval`].
     pub interval: [f64; 2],
     /// Times between attachments (s).
     pub times: Vec<f64>,
@@ -45,15 +44,12 @@ impl OnRate {
                 _ => time += docking.settings.duration,
             }
         }
-        let n = times.len() as f64;
-        let root = (n + 0.375).sqrt();
         let per_time = |count: f64| if time > 0.0 { count / time } else { 0.0 };
-        let end = |root: f64| per_time((root.max(0.0).powi(2) - 0.375).max(0.0));
         Self {
             attachments: times.len(),
             time,
-            rate: per_time(n),
-            interval: [end(root - 0.98), end(root + 0.98)],
+            rate: per_time(times.len() as f64),
+            interval: poisson_interval(times.len()).map(per_time),
             statistic: exponential_statistic(&times),
             times,
         }
@@ -63,6 +59,13 @@ impl OnRate {
     pub fn is_exponential(&self) -> bool {
         self.statistic <= Self::CRITICAL
     }
+}
+
+/// The 95 % interval of the mean of which a Poisson process gave the count n,
+/// `(sqrt(n + 3/8) +- 0.98)^2 - 3/8` (Anscombe 1948, doi:10.1093/biomet/35.3-4.246).
+pub fn poisson_interval(count: usize) -> [f64; 2] {
+    let root = (count as f64 + 0.375).sqrt();
+    [root - 0.98, root + 0.98].map(|root| (root.max(0.0).powi(2) - 0.375).max(0.0))
 }
 
 fn exponential_statistic(times: &[f64]) -> f64 {

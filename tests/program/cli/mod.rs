@@ -12,6 +12,7 @@ mod excess;
 mod first_hour;
 mod kept;
 mod mistakes;
+mod rates;
 mod shields;
 mod starting;
 #[cfg(unix)]
@@ -51,6 +52,7 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "crosstalk",
         "match",
         "assemble",
+        "rates",
         "init",
         "show",
         "make",
