@@ -55,6 +55,8 @@ pub struct Choice {
 
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
+/// Weaker words to choose from at most.
+const MOST_BESIDE: usize = 3000;
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 

@@ -54,6 +54,8 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "match",
         "rates",
         "assemble",
+        "assemble",
+        "rates",
         "init",
         "show",
         "make",
