@@ -13,6 +13,7 @@
 //! strength 1, Z0 that bond's. A tile that two bonds hold moves less than that: engines leave this
 //! out, so a real corner holds a little less.
 
+use super::assignment::assign;
 use super::growth::{Grown, Holds, grow, neighbours};
 use super::matrix::Matrix;
 use super::wiring::{Wiring, WiringError};
@@ -81,7 +82,7 @@ pub const MOST_GROWN: usize = 2500;
 const MARGIN: i32 = 4;
 
 impl Built {
-    /// A set with the words of a file, the deepest ones for its strongest bonds.
+    /// A set with the words of a file, see [`assign`].
     ///
     /// # Errors
     /// Where that is impossible.
@@ -92,20 +93,7 @@ impl Built {
             return Err(BuiltError::Words { needed, there });
         }
         let all = Matrix::new(words, &words.words);
-        let mut by_depth: Vec<usize> = (0..there).collect();
-        // Depths that differ in their last digits only are the same.
-        let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
-        by_depth.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
-        let mut by_strength: Vec<usize> = (0..needed).collect();
-        by_strength.sort_by(|a, b| {
-            wiring.bonds[*b]
-                .strength
-                .total_cmp(&wiring.bonds[*a].strength)
-        });
-        let mut chosen = vec![words.words[0]; needed];
-        for (bond, word) in by_strength.iter().zip(by_depth) {
-            chosen[*bond] = words.words[word];
-        }
+        let chosen = assign(&all, &wiring);
         let matrix = Matrix::new(words, &chosen);
         if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
             return Err(BuiltError::Loose(chosen[loose]));

@@ -15,6 +15,8 @@ use crate::words::{Bar, Constraints, Lags, Rules, Task, Word, local};
 pub struct Asked {
     /// The magnets.
     pub bar: Bar,
+    /// Magnets of a word of the strongest bonds; as many as places where it is not given.
+    pub magnets: Option<usize>,
     /// Which meetings are wrong.
     pub rules: Rules,
     /// The least gap; the widest there is where it is not given.
@@ -53,46 +55,52 @@ pub struct Choice {
 
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
+/// Weaker words to choose from at most.
+const MOST_BESIDE: usize = 3000;
 /// The longest face that is looked at.
-pub const MOST_PLACES: usize = 32;
+pub const MOST_PLACES: usize = 48;
 
-/// How many magnets a word of some strength has on a face of so many places.
-pub fn magnets(places: usize, strength: f64, strongest: f64) -> usize {
-    ((places as f64 * strength / strongest).round() as usize).clamp(1, places)
+impl Asked {
+    /// How many magnets a word of some strength has on a face of so many places.
+    fn magnets(&self, places: usize, strength: f64, strongest: f64) -> usize {
+        let most = self.magnets.unwrap_or(places).min(places);
+        ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
 }
 
 /// Words for a face of so many places; `demand` as [`super::Wiring::demand`] gives it.
 pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
     let weakest = demand.last().map_or(1.0, |last| last.0);
     let strongest = demand.first().map_or(1.0, |first| first.0);
-    let unit = magnets(places, weakest, strongest);
-    let gaps: Vec<f64> = match asked.gap {
-        Some(gap) => vec![gap],
-        // By contacts: between their whole numbers there is nothing to gain.
-        None => (0..unit)
-            .map(|c| 1.0 - (c as f64 + 0.5) / unit as f64)
-            .collect(),
-    };
-    let mut last = Choice {
-        places,
-        gap: 0.0,
-        verdict: Verdict::Open,
-        words: Vec::new(),
-        upper: Vec::new(),
-    };
-    let seconds = asked.seconds / gaps.len() as f64;
-    for gap in gaps {
-        let deadline = Budget::deadline(3.0 * seconds);
+    let unit = asked.magnets(places, weakest, strongest);
+    let trial = |gap: f64, trials: f64| {
+        let seconds = asked.seconds / trials;
+        let budget = Budget::seconds(seconds, Budget::deadline(3.0 * seconds));
         let mut effort = Effort {
             seed: asked.seed,
-            budget: Budget::seconds(seconds, deadline),
+            budget,
         };
-        last = at_gap(demand, places, gap, asked, &mut effort);
-        if last.verdict == Verdict::Found {
-            break;
+        at_gap(demand, places, gap, asked, &mut effort)
+    };
+    if let Some(gap) = asked.gap {
+        return trial(gap, 1.0);
+    }
+    // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
+    let (mut low, mut high) = (0, unit);
+    let trials = f64::from(usize::BITS - unit.leading_zeros());
+    let (mut best, mut last) = (None, None);
+    while low < high {
+        let contacts = (low + high) / 2;
+        let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, trials);
+        if choice.verdict == Verdict::Found {
+            high = contacts;
+            best = Some(choice);
+        } else {
+            low = contacts + 1;
+            last = Some(choice);
         }
     }
-    last
+    best.or(last).unwrap_or_else(|| trial(0.0, 1.0))
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
@@ -139,9 +147,9 @@ fn at_gap(
         words: Vec::new(),
         upper: Vec::new(),
     };
-    let unit = magnets(places, weakest, strongest) as f64;
+    let unit = asked.magnets(places, weakest, strongest) as f64;
     for (part, (strength, needed)) in demand.iter().enumerate() {
-        let of_class = magnets(places, *strength, strongest);
+        let of_class = asked.magnets(places, *strength, strongest);
         let task = task(asked, places, of_class);
         // The gap is of the weakest bond.
         let own_gap = 1.0 - (1.0 - gap) * unit / of_class as f64;

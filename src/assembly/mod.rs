@@ -14,9 +14,10 @@
 //! - [`wiring`] - which faces bind which: the words that are needed;
 //! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
 //! - [`growth`] - what grows without errors;
-//! - [`choice`] - words for a set; [`matrix`] - their energies; [`slides`] - what engines leave out;
+//! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`slides`] - what engines leave out;
 //! - [`built`] - all of it for one shaking and one coverage of the table.
 
+mod assignment;
 pub mod built;
 pub mod choice;
 pub mod growth;
@@ -206,7 +207,7 @@ impl TileSet {
     }
 }
 
-/// A fault at the first place where a text has `needle`.
+/// A fault at the place where a text gives something the name `needle`, or first has it.
 pub(crate) fn fault(
     text: &str,
     file: &str,
@@ -214,7 +215,17 @@ pub(crate) fn fault(
     message: String,
     help: &str,
 ) -> DesignError {
-    let at = (!needle.is_empty()).then(|| text.find(needle)).flatten();
+    let named = |before: &str, after: &str| {
+        let at = text.find(&format!("{before}{needle}{after}"))?;
+        Some(at + before.len())
+    };
+    let at = match needle {
+        "" => None,
+        _ => named("name: ", ",")
+            .or_else(|| named("name: \"", "\""))
+            .or_else(|| named("\"name\": \"", "\""))
+            .or_else(|| text.find(needle)),
+    };
     DesignError {
         file: file.to_owned(),
         place: at.map(|at| Box::new(Place::of(text, at..at + needle.len()))),

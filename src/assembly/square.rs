@@ -79,7 +79,10 @@ impl Counter {
         let start = (1_usize << n) - self.lines / 2;
         let strong = |name: String| Some((name, 2.0));
         let weak = |name: String| Some((name, 1.0));
+        // The ends of a line have glues of their own, so that no other tile takes their places.
         let bit = |b: usize| weak(format!("{p}-{b}"));
+        let high = |b: usize| weak(format!("{p}-high-{b}"));
+        let least = |b: usize| weak(format!("{p}-least-{b}"));
         let begin = |end: &str, b: usize| strong(format!("{p}-{end}-{b}"));
         let outer = || weak(self.side.to_owned());
         for k in 0..n {
@@ -89,13 +92,17 @@ impl Counter {
             let south = first
                 .filter(|_| k == 0)
                 .and_then(|name| strong(name.to_owned()));
-            let least = k == n - 1;
-            let east = match (least, last) {
+            let is_least = k == n - 1;
+            let east = match (is_least, last) {
                 (false, _) => link(k + 1),
                 (true, Some(name)) => strong(name.to_owned()),
                 (true, None) => outer(),
             };
-            let north = if least { begin("up", b) } else { bit(b) };
+            let north = match k {
+                0 => high(b),
+                _ if is_least => begin("up", b),
+                _ => bit(b),
+            };
             self.tile(set, &format!("{p}-first-{k}"), [north, east, south, west]);
         }
         let carry = |c: usize| weak(format!("{p}-carry-{c}"));
@@ -105,17 +112,17 @@ impl Counter {
             self.tile(
                 set,
                 &name("flip"),
-                [bit(1 - b), outer(), begin("up", b), carry(b)],
+                [least(1 - b), outer(), begin("up", b), carry(b)],
             );
             self.tile(
                 set,
                 &name("copy-high"),
-                [bit(b), copy(), begin("back", b), None],
+                [high(b), copy(), begin("back", b), None],
             );
             self.tile(
                 set,
                 &name("copy-least"),
-                [begin("up", b), outer(), bit(b), copy()],
+                [begin("up", b), outer(), least(b), copy()],
             );
             if n > 2 {
                 self.tile(set, &name("copy"), [bit(b), copy(), bit(b), copy()]);
@@ -133,7 +140,7 @@ impl Counter {
                 self.tile(
                     set,
                     &format!("{p}-high-{b}{c}"),
-                    [north, carry(c), bit(b), None],
+                    [north, carry(c), high(b), None],
                 );
             }
         }
@@ -147,7 +154,7 @@ impl Counter {
             self.tile(
                 set,
                 &format!("{p}-cap-least"),
-                [None, outer(), bit(0), cap()],
+                [None, outer(), least(0), cap()],
             );
             if n > 2 {
                 self.tile(

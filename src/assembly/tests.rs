@@ -226,6 +226,7 @@ fn blocks_grow_into_the_same_pattern() {
 fn words(set: &TileSet, places: usize) -> WordSet {
     let asked = Asked {
         bar: Bar::paper(),
+        magnets: None,
         rules: Rules::default(),
         gap: None,
         seed: 1,

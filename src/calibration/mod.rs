@@ -12,6 +12,7 @@
 //! What the rows do not depend on they cannot tell: A and l show behind and beside the iron only,
 //! G in front of it. A standard error as large as the constant itself says so.
 
+pub mod bonds;
 mod fit;
 mod rows;
 

@@ -8,7 +8,7 @@ use tilebind::assembly::{Built, Shaking, TileSet, Wiring, lattice, proofread, sq
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::report::{words, writer};
-use tilebind::words::{Bar, Rules, Word};
+use tilebind::words::{Bar, Rules, Shape, Word};
 
 use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
@@ -69,9 +69,19 @@ pub struct Assemble {
     #[arg(long, value_name = "L", value_parser = input::count)]
     length: Option<usize>,
 
+    /// Magnets of the strongest bonds' words, where spacing is code too [default: one a place]
+    #[arg(long, value_name = "K", value_parser = input::count, requires = "length")]
+    magnets: Option<usize>,
+
     /// Least gap of the words, from 0 to 1 [default: 0.5; with --length the widest there is]
     #[arg(long, value_name = "G", value_parser = values::gap)]
     gap: Option<f64>,
+
+    /// Complementary shapes of the faces: none; shared, one that any two have and that forbids
+    /// slides; polar, knobs on words and slots on mates. Designs are written flat all the same
+    #[arg(long, value_name = "KIND", default_value = "none", value_parser = values::shape(),
+          hide_possible_values = true)]
+    shape: Shape,
 
     /// From place to place (m) [default: the design's, or 0.04]
     #[arg(long, value_name = "M", value_parser = input::length)]
@@ -131,10 +141,6 @@ impl Assemble {
         let (tiles, design) = self.read()?;
         let set = proofread::blocks(&tiles, usize::from(self.proofread));
         let wiring = Wiring::new(&set).map_err(|error| Failure::Usage(error.to_string()))?;
-        if let Some([rows, columns]) = self.lattice {
-            let needed = lattice::words(rows, columns);
-            debug_assert!(tiles.tiles.len() == 1 || wiring.bonds.len() >= needed);
-        }
         input::check_folder(&self.out)?;
         self.work.use_threads()?;
         let (text, tried) = match &self.words {
@@ -161,6 +167,7 @@ impl Assemble {
             design: design.as_ref(),
             tried,
             lattice: self.lattice,
+            rules: self.rules(),
             proofread: self.proofread.into(),
             seed: self.work.seed,
         };
@@ -178,6 +185,13 @@ impl Assemble {
                 report::FILES
             )
         })
+    }
+
+    fn rules(&self) -> Rules {
+        Rules {
+            shape: self.shape,
+            ..Rules::default()
+        }
     }
 
     /// The tile set, and the design if there is one.
@@ -262,9 +276,17 @@ impl Assemble {
                 tilebind::units::si(bar.pitch, "m", 3)
             )));
         }
+        if let (Some(length), Some(magnets)) = (self.length, self.magnets)
+            && magnets > length
+        {
+            return Err(usage(format!(
+                "{magnets} magnets do not fit into {length} places: give --length {magnets} or more"
+            )));
+        }
         let asked = Asked {
             bar,
-            rules: Rules::default(),
+            magnets: self.magnets,
+            rules: self.rules(),
             gap: self.gap.or(self.length.is_none().then_some(GAP)),
             seed: self.work.seed,
             seconds: self.seconds,

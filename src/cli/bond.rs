@@ -50,12 +50,13 @@ impl BondCommand {
         let analysis = pipeline::analyse(&design, &settings, &progress);
         let found = Bond::new(&analysis.problem, &analysis.inventory);
         let bond = found.map_err(|error| Failure::Run(error.to_string()))?;
-        let traps = traps(&analysis.problem, &analysis.inventory);
+        let traps = traps(&analysis.problem, &analysis.inventory, self.kt);
+        let shallow = analysis.inventory.kinds().count() - 1 - traps.len();
         let shaking = Shaking {
             kt: self.kt,
             coverage: self.coverage,
         };
-        let report = BondReport::new(&design, &analysis.problem, &bond, &traps, shaking);
+        let report = BondReport::new(&design, &analysis.problem, &bond, &traps, shallow, shaking);
         progress.finish();
         let text = json::text(&report.json());
         self.print.results(&text, || report.summary())

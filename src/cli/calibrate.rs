@@ -1,15 +1,20 @@
 //! `tilebind calibrate`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use tilebind::Settings;
+use tilebind::calibration::bonds::PairTimes;
 use tilebind::calibration::{self, Specimen};
-use tilebind::design::MagnetModel;
+use tilebind::design::{Design, MagnetModel};
+use tilebind::kinetics::Bond;
+use tilebind::observer::Silent;
+use tilebind::pipeline;
 use tilebind::report::calibration as report;
 
 use super::{Failure, input, print};
 
-/// Fit the constants of soft-iron shields to measured forces or energies
+/// Fit the constants of soft-iron shields to measured forces, or kT to pairs that bind and part
 #[derive(Args)]
 #[command(after_help = "\
 The table is a CSV file. Its first line names the columns, in any order: x_m, y_m, theta_rad (the
@@ -22,14 +27,28 @@ Rows without iron give the strength of the magnets, rows with iron the shields' 
 shields sit on the faces that have one in the design, or on all faces if none has. Rows held out of
 the fit say how good the model is for other poses.
 
-Example:
-  tilebind calibrate my.toml measured.csv")]
+With --bonds the table has two columns, bound_s and apart_s: whole intervals for which a pair was
+bound, and for which it was apart (s). Their means give K and so the effective kT of the shaking. Speeds
+of tiles do not: where both were measured, they differed tenfold.
+
+Examples:
+  tilebind calibrate my.toml measured.csv
+  tilebind calibrate my.toml --bonds intervals.csv --area 0.6")]
 pub struct Calibrate {
     /// The design file of the tiles that were measured
     design: PathBuf,
 
     /// The measurements (CSV)
-    table: PathBuf,
+    #[arg(required_unless_present = "bonds", conflicts_with = "bonds")]
+    table: Option<PathBuf>,
+
+    /// Fit kT instead, to intervals for which pairs were bound and apart (CSV: bound_s,apart_s)
+    #[arg(long, value_name = "FILE")]
+    bonds: Option<PathBuf>,
+
+    /// Area that a pair had for itself (m^2) [default: the design's table]
+    #[arg(long, value_name = "M2", value_parser = input::positive, requires = "bonds")]
+    area: Option<f64>,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = input::model(),
@@ -49,10 +68,12 @@ pub struct Calibrate {
 impl Calibrate {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load_as(&self.design, self.model)?;
-        let wrong = |error: &dyn std::fmt::Display| {
-            Failure::Usage(format!("{}: {error}", self.table.display()))
+        let (None, Some(table)) = (&self.bonds, &self.table) else {
+            return self.fit_kt(&design);
         };
-        let text = input::text(&self.table).map_err(|error| wrong(&error))?;
+        let wrong =
+            |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", table.display()));
+        let text = input::text(table).map_err(|error| wrong(&error))?;
         let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
         let (specimen, settings) = Specimen::of(&design, self.hold_out.into());
         let found =
@@ -61,6 +82,26 @@ impl Calibrate {
             report::json(&design, &found)
         } else {
             report::summary(&design, &found)
+        })
+    }
+
+    /// The kT at which pairs bind and part as measured.
+    fn fit_kt(&self, design: &Design) -> Result<(), Failure> {
+        let file = self.bonds.as_deref().unwrap_or(Path::new(""));
+        let wrong =
+            |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", file.display()));
+        let text = input::text(file).map_err(|error| wrong(&error))?;
+        let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
+        let settings = Settings::without_proofs(Settings::default().seed);
+        let analysis = pipeline::analyse(design, &settings, &Silent);
+        let bond = Bond::new(&analysis.problem, &analysis.inventory)
+            .map_err(|error| Failure::Run(error.to_string()))?;
+        let area = self.area.unwrap_or(design.table[0] * design.table[1]);
+        let found = report::KtFit::new(&times, &bond, area);
+        print(&if self.json {
+            found.json(design)
+        } else {
+            found.summary(design)
         })
     }
 }

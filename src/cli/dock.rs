@@ -9,7 +9,7 @@ use tilebind::dynamics::docking::{
 use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::{Figure, PictureError, Sheet, dock, paths};
-use tilebind::report::{docking as report, writer};
+use tilebind::report::{docking as report, release, writer};
 
 use super::docking_starts::StartOptions;
 use super::figures::{FigureOptions, command_line};
@@ -36,6 +36,7 @@ Examples:
   tilebind dock shapes/paper-tile.toml --runs 2000 --engine --restitution 0.1
   tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
   tilebind dock my.toml --runs 1000 --speed 0.4,0.8 --orientation 0.5
+  tilebind dock shapes/halbach.toml --from-bond --shaking 3e-3 --drag 5 --duration 60 --runs 200
   tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5"
 )]
 pub struct Dock {
@@ -82,6 +83,11 @@ pub struct Dock {
 
     #[command(flatten)]
     starts: StartOptions,
+
+    /// Start bound instead, with a thermal velocity, and find the rate of detachment; the options of
+    /// starts do not matter
+    #[arg(long, requires = "shaking", conflicts_with_all = ["engine", "out", "trajectory"])]
+    from_bond: bool,
 
     /// Lets tiles leave the table
     #[arg(long)]
@@ -142,6 +148,14 @@ impl Dock {
             let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             progress.share("trajectories", done as f64 / settings.runs as f64);
         };
+        if self.from_bond {
+            let found = docking::releases(&problem, &settings, &step).map_err(usage)?;
+            progress.finish();
+            let json = release::json(&design, &settings, &found);
+            return self
+                .print
+                .results(&json, || release::summary(&design, &settings, &found));
+        }
         let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
         let map = DockingMap::new(&docking, CELLS);
         let json = report::json(&design, &docking, &map);

@@ -31,6 +31,7 @@ mod sweep_progress;
 mod word;
 pub mod words;
 mod workload;
+pub mod yields;
 
 pub use failure::Failure;
 use failure::WRONG;

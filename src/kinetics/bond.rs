@@ -10,11 +10,14 @@ use crate::problem::Problem;
 use crate::tile::Pair;
 
 /// Relative error to which partition functions are integrated.
-pub const TOLERANCE: f64 = 3e-4;
+pub const TOLERANCE: f64 = 2e-3;
 /// ... and that with which a window of shaking is looked for.
-const ROUGH: f64 = 2e-3;
+const ROUGH: f64 = 1e-2;
+/// A state less deep than this, in kT, holds nothing: what is in it and what is free is as good as
+/// the same.
+pub const LEAST_DEPTH: f64 = 2.0;
 /// Depths of the bond in kT between which a window is looked for.
-const DEPTHS: [f64; 2] = [1.0, 200.0];
+const DEPTHS: [f64; 2] = [2.0, 120.0];
 
 /// Why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -104,6 +107,11 @@ impl<'a> Hold<'a> {
         &self.well
     }
 
+    /// Whether it is deep enough at kT (J) to hold anything.
+    pub fn holds_at(&self, kt: f64) -> bool {
+        -self.energy >= LEAST_DEPTH * kt
+    }
+
     /// What it holds with at one shaking; the integral to the relative `tolerance`.
     pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Docking {
         let volume = self.well.volume(shaking.kt, tolerance);
@@ -169,9 +177,21 @@ impl<'a> Bond<'a> {
 
     /// The two kT (J) at a coverage between which two bonds that are closed by one docking hold and
     /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
-    /// second. `None` where a bond of 1 to 200 kT decides nothing.
+    /// second. `None` where a bond of 2 to 120 kT decides nothing.
     pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
         [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds))
+    }
+
+    /// The kT (J) at which a pair that has an area (m^2) for itself is bound for `exp(log_odds)`
+    /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
+    pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
+        let hold = &self.0;
+        let excess = |log_depth: f64| {
+            let kt = -hold.energy / log_depth.exp();
+            let docking = hold.docking(&Shaking { kt, coverage: 1.0 }, ROUGH);
+            (hold.association(&docking) / area).ln() - log_odds
+        };
+        root(excess, DEPTHS.map(f64::ln)).map(|log_depth| -hold.energy / log_depth.exp())
     }
 
     /// The kT (J) above which ln K of `bonds` bonds is negative.
@@ -186,10 +206,14 @@ impl<'a> Bond<'a> {
     }
 }
 
-/// The kinds of traps of an inventory, from the deepest on.
-pub fn traps<'a>(problem: &'a Problem, inventory: &Inventory) -> Vec<Trap<'a>> {
+/// The kinds of traps of an inventory that are deep enough to hold anything at kT (J), in the
+/// inventory's order.
+pub fn traps<'a>(problem: &'a Problem, inventory: &Inventory, kt: f64) -> Vec<Trap<'a>> {
     let names = inventory.names();
-    let kinds = inventory.kinds().filter(|kind| !kind.is_bond());
+    let is_deep = |kind: &Kind| -kind.first().energy >= LEAST_DEPTH * kt;
+    let kinds = inventory
+        .kinds()
+        .filter(|kind| !kind.is_bond() && is_deep(kind));
     let trap = |kind: Kind| Hold::new(problem, inventory, &kind, names[kind.first().id].clone());
     kinds.map(trap).collect()
 }
@@ -215,8 +239,8 @@ fn area(pair: &Pair) -> f64 {
 /// The upper of the roots of a function that grows from there on, by bisection and secants
 /// (Illinois); `None` where there is none between the ends.
 fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
-    /// Both in the logarithm and in kT.
-    const CLOSE: f64 = 5e-4;
+    /// Of the function, and of where it is looked for.
+    const CLOSE: [f64; 2] = [3e-3, 5e-4];
     let (mut high, mut low) = (most, most);
     let mut above = f(high);
     if above <= 0.0 {
@@ -235,7 +259,7 @@ fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
     for _ in 0..40 {
         let next = (low * above - high * below) / (above - below);
         let value = f(next);
-        if value.abs() < CLOSE || high - low < CLOSE {
+        if value.abs() < CLOSE[0] || high - low < CLOSE[1] {
             return Some(next);
         }
         if value > 0.0 {

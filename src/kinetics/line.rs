@@ -17,8 +17,10 @@ const POINTS: usize = 8;
 const RANGE: f64 = 5.0;
 /// Panels are halved so often at most.
 const DEEPEST: u32 = 12;
-/// ... and so often to find where the basin ends.
-const DEEPEST_EDGE: u32 = 7;
+/// Beyond this exponent a weight is nothing.
+const NOTHING: f64 = 60.0;
+/// Halvings by which the end of the basin is found.
+const BISECTIONS: usize = 24;
 /// Shortest first panel, as a share of the longest line.
 const SHORTEST: f64 = 1e-7;
 /// Gaps looked at for the lowest energy on a line, each double the one before.
@@ -77,70 +79,75 @@ impl Lines<'_> {
         energies
     }
 
-    /// The integral (m) of the weight over an interval, up to where the basin ends.
+    /// The integral (m) of the weight over an interval, from where the basin begins to where it
+    /// ends.
     pub fn integral(&self, at: [f64; 2], [start, end]: [f64; 2], weight: &Weight) -> f64 {
         let q = self.frame.configuration(at, start);
-        let (_, gradient) = self.problem.potential().energy_and_gradient(&q);
+        let (energy, gradient) = self.problem.potential().energy_and_gradient(&q);
         let slope = gradient.xy().dot(&self.frame.normal()).abs();
         let decay = if slope > 0.0 {
             weight.kt / slope
         } else {
             self.reach
         };
-        let mut length = decay.clamp(SHORTEST * self.reach, self.reach / 16.0);
-        let (mut low, mut sum, mut was_inside) = (start, 0.0, false);
+        let longest = self.reach / 16.0;
+        let mut length = decay.clamp(SHORTEST * self.reach, longest);
+        let is_inside = |gap: f64| self.energies(at, [gap])[0] < weight.level;
+        let (mut low, mut inside, mut sum) = (start, energy < weight.level, 0.0);
         while low < end {
             let high = (low + length).min(end);
-            let panel = self.panel(at, [low, high], weight, 0);
-            if was_inside && panel.share == 0.0 {
+            let inside_next = is_inside(high);
+            let edge = (inside != inside_next).then(|| bisected(low, high, &is_inside));
+            sum += match (inside, inside_next) {
+                (false, false) => 0.0,
+                (false, true) => self.panel(at, [edge.unwrap_or(low), high], weight, 0),
+                (true, _) => self.panel(at, [low, edge.unwrap_or(high)], weight, 0),
+            };
+            if inside && !inside_next {
                 break;
             }
-            was_inside |= panel.share > 0.0;
-            sum += panel.sum;
-            length = (2.0 * length).min(self.reach / 16.0);
-            low = high;
+            (low, inside) = (high, inside_next);
+            length = (2.0 * length).min(longest);
         }
         sum
     }
 
-    /// Gauss' rule over a panel, halved where the exponent changes too much and where the basin
-    /// ends in it.
-    fn panel(&self, at: [f64; 2], [low, high]: [f64; 2], weight: &Weight, depth: u32) -> Panel {
+    /// Gauss' rule (m) over a panel, halved where the exponent changes too much.
+    fn panel(&self, at: [f64; 2], [low, high]: [f64; 2], weight: &Weight, depth: u32) -> f64 {
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
         let gaps: [f64; POINTS] = std::array::from_fn(|k| {
             let x = GAUSS[k % 4].0;
             middle + if k < 4 { -x } else { x } * half
         });
-        let energies = self.energies(at, gaps);
-        let inside = energies.iter().filter(|u| **u < weight.level).count();
-        let exponents = energies.map(|u| (u - weight.lowest) / weight.kt);
+        let exponents = self
+            .energies(at, gaps)
+            .map(|u| (u - weight.lowest) / weight.kt);
         let least = exponents.into_iter().fold(f64::INFINITY, f64::min);
         let most = exponents.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let ends_here = inside > 0 && inside < POINTS && depth < DEEPEST_EDGE;
-        let matters = inside > 0 && least < 60.0;
-        if ends_here || (matters && most - least > RANGE && depth < DEEPEST) {
-            let [a, b] =
-                [[low, middle], [middle, high]].map(|part| self.panel(at, part, weight, depth + 1));
-            return Panel {
-                sum: a.sum + b.sum,
-                share: (a.share + b.share) / 2.0,
-            };
+        if least < NOTHING && most - least > RANGE && depth < DEEPEST {
+            let parts = [[low, middle], [middle, high]];
+            return parts
+                .map(|part| self.panel(at, part, weight, depth + 1))
+                .iter()
+                .sum();
         }
-        let terms = energies.iter().zip(exponents).enumerate();
-        let sum = terms
-            .filter(|(_, (u, _))| **u < weight.level)
-            .map(|(k, (_, exponent))| GAUSS[k % 4].1 * (-exponent).exp())
-            .sum::<f64>();
-        Panel {
-            sum: sum * half,
-            share: inside as f64 / POINTS as f64,
-        }
+        let terms = exponents.iter().enumerate();
+        half * terms
+            .map(|(k, exponent)| GAUSS[k % 4].1 * (-exponent).exp())
+            .sum::<f64>()
     }
 }
 
-struct Panel {
-    /// The integral (m).
-    sum: f64,
-    /// Share of it that lies in the basin.
-    share: f64,
+/// Where between two gaps (m) a line crosses the basin's end.
+fn bisected(mut low: f64, mut high: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
+    let inside = is_inside(low);
+    for _ in 0..BISECTIONS {
+        let middle = (low + high) / 2.0;
+        if is_inside(middle) == inside {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (low + high) / 2.0
 }

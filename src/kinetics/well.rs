@@ -24,7 +24,7 @@ const SEEN: f64 = 0.2;
 /// ... or it is this small a share of the whole.
 const SMALLEST: f64 = 1e-6;
 /// Most rectangles.
-const MOST: usize = 20_000;
+const MOST: usize = 4_000;
 
 /// A number with its estimated error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

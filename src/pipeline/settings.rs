@@ -80,6 +80,7 @@ impl Settings {
         let default = Self::default();
         Self {
             seed,
+            milestones: 3000,
             far_starts: 0,
             certify_seconds: 0.0,
             completeness: CompletenessSettings {

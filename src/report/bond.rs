@@ -17,6 +17,8 @@ pub struct BondReport<'a> {
     shaking: Shaking,
     /// The bond first, then the traps from the deepest on.
     holds: Vec<Held>,
+    /// How many kinds of traps are too shallow to hold anything.
+    shallow: usize,
     window: [Option<f64>; 2],
 }
 
@@ -94,18 +96,20 @@ impl Held {
 }
 
 impl<'a> BondReport<'a> {
-    /// Integrates what is reported.
+    /// Integrates what is reported; `shallow` kinds of traps are left out of `traps`.
     pub fn new(
         design: &'a Design,
         problem: &Problem,
         bond: &Bond,
         traps: &[Hold],
+        shallow: usize,
         shaking: Shaking,
     ) -> Self {
         let holds = std::iter::once(bond.hold()).chain(traps);
         Self {
             design,
             shaking,
+            shallow,
             holds: holds
                 .map(|hold| Held::new(problem, hold, &shaking))
                 .collect(),
@@ -141,6 +145,8 @@ impl<'a> BondReport<'a> {
             "two_hold_one_does_not_bond_kT": window.map(|kt| kt.map(|kt| -bond.energy / kt)),
             "bond": bond.json(),
         });
+        // Kinds of traps that are left out: less than 2 kT deep, they hold nothing.
+        value["shallow_traps"] = self.shallow.into();
         value["traps"] = self.holds[1..].iter().map(Held::json).collect();
         value
     }
@@ -199,6 +205,13 @@ impl<'a> BondReport<'a> {
         text.push_str(
             "(depth and cost of docking in kT; closed form: how far the corner formula is off)\n",
         );
+        if self.shallow > 0 {
+            let _ = writeln!(
+                text,
+                "{} more kinds of trap are less than 2 kT deep",
+                self.shallow
+            );
+        }
         let blurred: Vec<&str> = self
             .holds
             .iter()

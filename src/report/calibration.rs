@@ -5,8 +5,11 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::json;
+use crate::calibration::bonds::PairTimes;
 use crate::calibration::{Calibration, QUANTITIES, Residuals};
 use crate::design::Design;
+use crate::dynamics::docking::OnRate;
+use crate::kinetics::Bond;
 use crate::units::si;
 
 /// The constants of a shield: name in a design file, unit.
@@ -130,4 +133,86 @@ fn residuals(part: &Residuals) -> Value {
         "rms": by_quantity(&part.rms),
         "relative": by_quantity(&part.relative),
     })
+}
+
+/// kT as pairs that bind and part tell it.
+#[derive(Clone, Debug)]
+pub struct KtFit {
+    times: PairTimes,
+    area: f64,
+    /// kT (J); `None` where no kT fits.
+    kt: Option<f64>,
+    /// Its 95 % interval; an end is `None` where nothing bounds it.
+    interval: [Option<f64>; 2],
+}
+
+impl KtFit {
+    /// Fits kT to intervals of pairs that have an area (m^2) for themselves.
+    pub fn new(times: &PairTimes, bond: &Bond, area: f64) -> Self {
+        let (odds, [low, high]) = times.log_odds();
+        // The longer tiles are bound, the colder they are.
+        let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));
+        Self {
+            times: times.clone(),
+            area,
+            kt,
+            interval: [least, most],
+        }
+    }
+
+    /// The sentence that answers, and how far the intervals are exponential.
+    pub fn summary(&self, design: &Design) -> String {
+        let energy = |kt: Option<f64>| kt.map_or("?".to_owned(), |kt| si(kt, "J", 3));
+        let [bound, apart] = self.times.means();
+        let mut text = match self.kt {
+            Some(_) => format!(
+                "{}: pairs bind and part as at kT = {} ({} to {}, 95 %)\n",
+                design.name,
+                energy(self.kt),
+                energy(self.interval[0]),
+                energy(self.interval[1])
+            ),
+            None => format!(
+                "{}: at no kT would pairs bind and part so (bond of 2 to 120 kT)\n",
+                design.name
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "bound for {} in the mean of {}, apart for {} in the mean of {}, on {} m2",
+            si(bound, "s", 3),
+            self.times.bound.len(),
+            si(apart, "s", 3),
+            self.times.apart.len(),
+            self.area
+        );
+        for (name, statistic) in ["bound", "apart"].iter().zip(self.times.statistics()) {
+            if statistic > OnRate::CRITICAL {
+                let _ = writeln!(
+                    text,
+                    "the times {name} are not exponential (statistic {statistic:.2} above {}): one \
+                     kT does not tell of them",
+                    OnRate::CRITICAL
+                );
+            }
+        }
+        text
+    }
+
+    /// The same as JSON.
+    pub fn json(&self, design: &Design) -> String {
+        let [bound, apart] = self.times.means();
+        let [of_bound, of_apart] = self.times.statistics();
+        json::text(&json!({
+            "tilebind": env!("CARGO_PKG_VERSION"),
+            "design": {"name": design.name, "sha256": design.sha256},
+            "model": design.interaction.model.name(),
+            "kT_J": self.kt,
+            "kT_interval_J": self.interval,
+            "area_m2": self.area,
+            "bound": {"count": self.times.bound.len(), "mean_s": bound, "statistic": of_bound},
+            "apart": {"count": self.times.apart.len(), "mean_s": apart, "statistic": of_apart},
+            "critical": OnRate::CRITICAL,
+        }))
+    }
 }

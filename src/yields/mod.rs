@@ -147,7 +147,8 @@ pub fn yields(
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, inventory) = (&analysis.problem, &analysis.inventory);
     let bond = Bond::new(problem, inventory)?;
-    let traps = traps(problem, inventory);
+    let coldest = question.kts.iter().copied().fold(f64::INFINITY, f64::min);
+    let traps = traps(problem, inventory, coldest);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
@@ -189,9 +190,12 @@ fn state(
     attached: &Attachments,
     shaking: &Shaking,
 ) -> Option<StateRates> {
-    let docking = hold.docking(shaking, TOLERANCE);
     let count = attached.counts[kind];
-    if docking.cost.is_infinite() || (kind > 0 && count == 0) {
+    if kind > 0 && (count == 0 || !hold.holds_at(shaking.kt)) {
+        return None;
+    }
+    let docking = hold.docking(shaking, TOLERANCE);
+    if docking.cost.is_infinite() {
         return None;
     }
     let on = attached.rate(count);

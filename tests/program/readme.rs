@@ -65,6 +65,7 @@ fn shortened(command: &str) -> String {
         "compare" | "sweep" => {
             " --milestones 300 --far-starts 10 --certify-cells 300 --complete-cells 0 --quiet"
         }
+        "yield" => " --runs 8 --simulations 10 --quiet",
         _ => "",
     };
     format!("tilebind {}{quick}", short.join(" "))
@@ -110,7 +111,12 @@ fn copy(from: &Path, to: &Path) {
     fs::create_dir(to).unwrap();
     for entry in fs::read_dir(from).unwrap() {
         let entry = entry.unwrap();
-        fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+        let to = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &to);
+        } else {
+            fs::copy(entry.path(), to).unwrap();
+        }
     }
 }
 

@@ -3,11 +3,13 @@
 mod map;
 mod matching;
 mod rate;
+mod release;
 mod starts;
 
 pub use map::{DockingMap, MapCell, share_within};
 pub use matching::MatchRule;
-pub use rate::{OnRate, poisson_interval};
+pub use rate::{OnRate, exponential_statistic, poisson_interval};
+pub use release::{Release, off_rate, releases};
 pub use starts::{Start, Starts, stream};
 
 use std::time::Instant;

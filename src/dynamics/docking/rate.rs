@@ -32,16 +32,22 @@ impl OnRate {
 
     /// The rate of an experiment's matches, trials taken one after the other.
     pub fn new(docking: &Docking) -> Self {
+        Self::of_events(docking.runs.iter().map(|run| match run.end {
+            End::Bound { since } => (since, true),
+            _ => (docking.settings.duration, false),
+        }))
+    }
+
+    /// The rate of what happens or not in trials that are taken one after the other: how long each
+    /// lasts (s), and whether it ends with what is counted.
+    pub fn of_events(trials: impl Iterator<Item = (f64, bool)>) -> Self {
         let mut times = Vec::new();
         let (mut time, mut since) = (0.0, 0.0);
-        for run in &docking.runs {
-            match run.end {
-                End::Bound { since: matched } => {
-                    time += matched;
-                    times.push(time - since);
-                    since = time;
-                }
-                _ => time += docking.settings.duration,
+        for (duration, happens) in trials {
+            time += duration;
+            if happens {
+                times.push(time - since);
+                since = time;
             }
         }
         let per_time = |count: f64| if time > 0.0 { count / time } else { 0.0 };
@@ -68,7 +74,9 @@ pub fn poisson_interval(count: usize) -> [f64; 2] {
     [root - 0.98, root + 0.98].map(|root| (root.max(0.0).powi(2) - 0.375).max(0.0))
 }
 
-fn exponential_statistic(times: &[f64]) -> f64 {
+/// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found, see
+/// [`OnRate::statistic`]; 0 of no times.
+pub fn exponential_statistic(times: &[f64]) -> f64 {
     if times.is_empty() {
         return 0.0;
     }

@@ -22,7 +22,7 @@ use crate::analysis::{self, Analysis};
 use crate::barrier;
 use crate::poses::{self, Poses};
 use crate::table::{self, Named, Values};
-use crate::{convert, dock, fault, pickle, workshop};
+use crate::{convert, dock, fault, kinetics, pickle, workshop};
 
 /// What a design was read from, what it is, and the problems that it poses.
 pub struct Content {
@@ -570,6 +570,47 @@ impl Design {
             real("gap_m2", |one| one.gap),
         ];
         table::structured(py, columns)
+    }
+
+    /// Where a shaken tile that is let go ends, and how soon: overdamped motion at kT.
+    ///
+    /// Parameters
+    /// ----------
+    /// start : array_like
+    ///     Pose (3,) at which it is let go (m, m, rad).
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// drag : float, optional
+    ///     Drag rate (1/s): the drag is this times the mass.
+    /// basin_energy : float, optional
+    ///     The tile is bound where its energy (J) is lower, in the basin of the bond or of one of
+    ///     its copies; half the bond's by default.
+    /// free_at : float, optional
+    ///     It is free where the centres are so far apart (m).
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `mean_exit_s`, `exits` (shares that are first bound and free), `diffusion_m2_s`, `mesh`
+    ///     (how far the two finest meshes differ).
+    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None))]
+    fn exits<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        kt: f64,
+        drag: f64,
+        basin_energy: Option<f64>,
+        free_at: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = kinetics::Asked {
+            kt,
+            drag,
+            basin_energy,
+            free_at,
+        };
+        let posed = (&self.content.design, &**self.content.problem(None));
+        kinetics::exits(py, posed, start, &asked)
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.

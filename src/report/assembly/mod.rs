@@ -40,6 +40,8 @@ pub struct Assembly<'a> {
     pub tried: Vec<Choice>,
     /// Rows and columns, if it is a lattice.
     pub lattice: Option<[usize; 2]>,
+    /// Which meetings are wrong.
+    pub rules: Rules,
     /// Tiles along a block's edge.
     pub proofread: usize,
     /// Of all random numbers.
@@ -90,14 +92,15 @@ impl Assembly<'_> {
 
     /// Of every two faces what holds them slid, where words have a pitch.
     pub(super) fn slides(&self) -> Vec<(usize, usize, Slid)> {
-        let Some(lags) = Built::lags(self.words) else {
+        let lags = Built::lags(self.words).filter(|_| self.rules.slides());
+        let Some(lags) = lags else {
             return Vec::new();
         };
         let matrix = &self.built.matrix;
         let faces = matrix.energies.len();
         let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| (i, j)));
         let of = |(i, j)| {
-            let slid = Slid::of(&lags, &Rules::default(), matrix.code(i), matrix.code(j));
+            let slid = Slid::of(&lags, &self.rules, matrix.code(i), matrix.code(j));
             (i, j, slid)
         };
         pairs.map(of).collect()
@@ -114,6 +117,7 @@ pub fn files(assembly: &Assembly, command: &str) -> Files {
     let remarks = text::remarks(assembly);
     add("assembly.yaml", rgrow::write(&engine, &remarks));
     add("assembly.tiles", xgrow::write(&engine, &remarks));
+    add("tileset.yaml", rgrow::write(&assembly.built.set, &[]));
     add("matrix.csv", matrix_csv(assembly));
     let slides = assembly.slides();
     add("slides.csv", slides_csv(assembly, &slides));

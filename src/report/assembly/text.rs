@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Assembly, verdict};
+use super::Assembly;
 use crate::assembly::Built;
+use crate::assembly::choice::Verdict;
 use crate::assembly::slides::Slid;
 use crate::units::{si, si_range};
 
@@ -152,17 +153,21 @@ pub fn summary(assembly: &Assembly) -> String {
     }
     if let Some(last) = assembly.tried.last() {
         let before = &assembly.tried[..assembly.tried.len() - 1];
-        let said = |choice: &crate::assembly::choice::Choice| {
-            format!("{}: {}", choice.places, verdict(choice.verdict))
-        };
-        let earlier: Vec<String> = before.iter().map(said).collect();
+        let refuted = before
+            .iter()
+            .filter(|it| it.verdict == Verdict::Refuted)
+            .count();
         line(format!(
             "words found with a gap of {:.3} on {} places{}",
             last.gap,
             last.places,
-            match earlier.is_empty() {
-                true => String::new(),
-                false => format!(" (shorter faces: {})", earlier.join(", ")),
+            match before.len() {
+                0 => String::new(),
+                all if all == refuted => "; on fewer places there are none, proved".to_owned(),
+                all => format!(
+                    "; fewer: {refuted} lengths proved impossible, {} open",
+                    all - refuted
+                ),
             }
         ));
     }

@@ -20,6 +20,8 @@ mod thumbnail;
 mod tree;
 mod word_charts;
 mod words;
+pub(in crate::report) mod yield_charts;
+mod yields;
 
 use serde::Serialize;
 use serde_json::Value;

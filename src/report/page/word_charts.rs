@@ -8,9 +8,9 @@ const OPEN: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" font-family=\"Noto
                     Arial, sans-serif\"";
 
 /// The plot area of the small charts (pixels): left, top, width, height.
-const AREA: [f64; 4] = [64.0, 20.0, 560.0, 260.0];
+pub(super) const AREA: [f64; 4] = [64.0, 20.0, 560.0, 260.0];
 
-fn chart(x_name: &str, y_name: &str, inner: &str) -> String {
+pub(super) fn chart(x_name: &str, y_name: &str, inner: &str) -> String {
     let [left, top, width, height] = AREA;
     let (w, h) = (left + width + 20.0, top + height + 56.0);
     format!(
@@ -28,7 +28,7 @@ fn chart(x_name: &str, y_name: &str, inner: &str) -> String {
     )
 }
 
-fn label(x: f64, y: f64, anchor: &str, text: &str) -> String {
+pub(super) fn label(x: f64, y: f64, anchor: &str, text: &str) -> String {
     format!(
         "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"12\" text-anchor=\"{anchor}\" \
          fill=\"#222\">{text}</text>"

@@ -1,7 +1,9 @@
 //! The commands on one design, and what every command has: help, mistakes, completions.
 
 mod analyse;
+mod assemble;
 mod barrier;
+mod bond;
 mod calibrate;
 mod completions;
 mod consistency;
@@ -50,7 +52,10 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "words",
         "crosstalk",
         "match",
+        "assemble",
         "rates",
+        "bond",
+        "yield",
         "init",
         "show",
         "make",

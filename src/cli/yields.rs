@@ -1,0 +1,166 @@
+//! `tilebind yield`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::dynamics::MotionSettings;
+use tilebind::report::json;
+use tilebind::report::page::Page;
+use tilebind::report::writer;
+use tilebind::report::yields as report;
+use tilebind::yields::attachment::Effort;
+use tilebind::yields::{Question, YieldError, yields};
+
+use super::figures::command_line;
+use super::options::{DesignOptions, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
+
+/// How many pairs are bound after a time on a shaken table, and at which shaking most are
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Half of the tiles are of the fixed tile's kind, half of the moving one's; each binds one partner at
+most. Attachment rates are counted in docking runs of shaken tiles, detachment rates follow by
+detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
+that has a temperature: contact that swallows energy, which shaking does not give back, has none.
+
+Examples:
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield"
+)]
+pub struct YieldCommand {
+    #[command(flatten)]
+    design: DesignOptions,
+
+    /// Tiles on the table, half of either kind
+    #[arg(long, value_name = "N", value_parser = tiles)]
+    tiles: usize,
+
+    /// How long the table is shaken (s)
+    #[arg(long, value_name = "S", value_parser = input::positive)]
+    time: f64,
+
+    /// Effective energy kT of the shaking (J); of several, the best and a schedule are found
+    #[arg(long, value_name = "E_J[,E_J...]", value_parser = input::positive,
+          value_delimiter = ',', required = true)]
+    kt: Vec<f64>,
+
+    /// Share of the table that tiles cover
+    #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = input::fraction)]
+    coverage: f64,
+
+    /// Docking runs for each kT
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = input::runs)]
+    runs: usize,
+
+    /// How long each docking run lasts (s)
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = input::positive)]
+    duration: f64,
+
+    /// Drag rate of the docking runs (1/s)
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = input::positive)]
+    drag: f64,
+
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = input::not_negative)]
+    restitution: f64,
+
+    /// Runs of the exact simulation by which the numbers are checked; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = input::runs_or_none)]
+    simulations: usize,
+
+    /// Folder for report.html, report.json, yield.csv, course.csv, rates.csv and pictures/
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    work: WorkOptions,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+/// Most tiles.
+const MOST_TILES: usize = 10_000;
+/// Most settings.
+const MOST_SETTINGS: usize = 20;
+
+impl YieldCommand {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        if self.kt.len() > MOST_SETTINGS {
+            let message = format!("--kt: at most {MOST_SETTINGS} energies are compared");
+            return Err(Failure::Usage(message));
+        }
+        let design = self.design.load()?;
+        if let Some(folder) = &self.out {
+            input::check_folder(folder)?;
+            input::check_folder(&folder.join(writer::PICTURES))?;
+        }
+        self.work.use_threads()?;
+        let question = self.question();
+        let progress = self.print.progress();
+        let found = yields(&design, &question, &progress).map_err(failure)?;
+        let value = report::json(&design, &question, &found);
+        let text = json::text(&value);
+        if let Some(folder) = &self.out {
+            let mut files = report::files(&question, &found);
+            files.push(("report.json".to_owned(), text.clone().into_bytes()));
+            let page = Page::of_yields(&design, &question, &found)
+                .made_by(&command_line())
+                .beside(files.iter().map(|(name, _)| name));
+            files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
+            interrupt::without(|| writer::write_each(folder, &files))?;
+        }
+        progress.finish();
+        self.print.results(&text, || {
+            let told = report::summary(&design, &question, &found);
+            match &self.out {
+                Some(folder) => format!(
+                    "{told}results in {}: report.html to look at; report.json, tables, pictures\n",
+                    folder.display()
+                ),
+                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
+            }
+        })
+    }
+
+    fn question(&self) -> Question {
+        Question {
+            kts: self.kt.clone(),
+            coverage: self.coverage,
+            tiles: self.tiles,
+            time: self.time,
+            effort: Effort {
+                runs: self.runs,
+                duration: self.duration,
+                motion: MotionSettings {
+                    drag: self.drag,
+                    restitution: self.restitution,
+                    ..MotionSettings::default()
+                },
+            },
+            simulations: self.simulations,
+            seed: self.work.seed,
+        }
+    }
+}
+
+fn failure(error: YieldError) -> Failure {
+    match error {
+        YieldError::Docking(error) => Failure::Usage(error.to_string()),
+        error => Failure::Run(error.to_string()),
+    }
+}
+
+fn tiles(text: &str) -> Result<usize, String> {
+    match input::count(text)? {
+        count @ 2..=MOST_TILES => Ok(count),
+        _ => Err(format!(
+            "a number of tiles from 2 to {MOST_TILES} is needed"
+        )),
+    }
+}

@@ -1,0 +1,156 @@
+//! The charts of a yield: over time, over the number of tiles and the coverage, over kT.
+
+use std::fmt::Write;
+
+use super::word_charts::{AREA, chart, label};
+use crate::units::si;
+use crate::yields::{Outcome, Question, Yields};
+
+/// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
+const COLOURS: [&str; 6] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+];
+
+/// The pictures: stem of the file, title, SVG.
+pub fn all(question: &Question, found: &Yields) -> Vec<(&'static str, &'static str, String)> {
+    let best = found.best();
+    let mut all = vec![
+        ("course", "Bound and trapped over time", course(best)),
+        (
+            "yield",
+            "Bound over number of tiles and coverage",
+            crowds(question, best),
+        ),
+    ];
+    if found.outcomes.len() > 1 {
+        all.push(("shaking", "Bound over kT", over_kt(found)));
+    }
+    all
+}
+
+/// A curve through points of the plot (shares of its width and height), with its name at the end.
+fn curve(points: &[[f64; 2]], colour: &str, dashes: &str, name: &str) -> String {
+    let [left, top, width, height] = AREA;
+    let places = points.iter().filter(|p| p[1].is_finite());
+    let places: Vec<String> = places
+        .map(|[x, y]| format!("{:.1},{:.1}", left + width * x, top + height * (1.0 - y)))
+        .collect();
+    let Some(last) = points.iter().rev().find(|p| p[1].is_finite()) else {
+        return String::new();
+    };
+    let at = [
+        left + width * last[0] - 4.0,
+        top + height * (1.0 - last[1]) - 5.0,
+    ];
+    format!(
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" \
+         stroke-dasharray=\"{dashes}\"/>{}",
+        places.join(" "),
+        label(at[0], at[1].max(top + 10.0), "end", name)
+    )
+}
+
+fn shares() -> String {
+    let [left, top, _, height] = AREA;
+    let tick = |k: i32| {
+        let y = top + height * (1.0 - f64::from(k) / 4.0);
+        label(left - 6.0, y + 4.0, "end", &format!("{} %", 25 * k))
+    };
+    (0..=4).map(tick).collect()
+}
+
+fn below(x: f64, text: &str) -> String {
+    let [left, top, width, height] = AREA;
+    label(left + width * x, top + height + 18.0, "middle", text)
+}
+
+/// Shares in the bond and in traps over the logarithm of time.
+fn course(outcome: &Outcome) -> String {
+    let times: Vec<f64> = outcome
+        .course
+        .iter()
+        .map(|point| point[0].log10())
+        .collect();
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let x = |log: f64| (log - first) / (last - first);
+    let line = |k: usize| -> Vec<[f64; 2]> {
+        let points = outcome.course.iter().zip(&times);
+        points.map(|(point, log)| [x(*log), point[k]]).collect()
+    };
+    let mut inner = shares();
+    for power in first.ceil() as i32..=last.floor() as i32 {
+        inner += &below(x(f64::from(power)), &si(10f64.powi(power), "s", 1));
+    }
+    inner += &curve(&line(1), COLOURS[0], "", "in the bond");
+    inner += &curve(&line(2), COLOURS[1], "6 4", "in traps");
+    chart("time", "share of all pairs", &inner)
+}
+
+/// Share in the bond over the logarithm of the number of tiles, a curve for each coverage.
+fn crowds(question: &Question, outcome: &Outcome) -> String {
+    let mut tiles: Vec<usize> = outcome.table.iter().map(|row| row.0).collect();
+    tiles.dedup();
+    let mut coverages: Vec<f64> = outcome.table.iter().map(|row| row.1).collect();
+    coverages.sort_by(f64::total_cmp);
+    coverages.dedup();
+    let most = (*tiles.last().unwrap_or(&2) as f64 / 2.0).ln().max(1e-9);
+    let x = |tiles: usize| (tiles as f64 / 2.0).ln() / most;
+    let mut inner = shares();
+    for count in &tiles {
+        inner += &below(x(*count), &count.to_string());
+    }
+    for (k, coverage) in coverages.iter().enumerate() {
+        let rows = outcome.table.iter().filter(|row| row.1 == *coverage);
+        let points: Vec<[f64; 2]> = rows.map(|row| [x(row.0), row.2]).collect();
+        let dashes = ["", "8 4", "2 3"][k / COLOURS.len() % 3];
+        let name = format!("{:.3} % covered", 100.0 * coverage);
+        let name = name.replace(".000", "");
+        inner += &curve(&points, COLOURS[k % COLOURS.len()], dashes, &name);
+    }
+    let name = format!("tiles (after {})", si(question.time, "s", 3));
+    chart(&name, "share of all pairs in the bond", &inner)
+}
+
+/// Share in the bond over kT, with its interval, and in traps.
+fn over_kt(found: &Yields) -> String {
+    let [left, top, width, height] = AREA;
+    let mut by_kt: Vec<&Outcome> = found.outcomes.iter().collect();
+    by_kt.sort_by(|a, b| a.kt.total_cmp(&b.kt));
+    let most = by_kt.iter().map(|outcome| outcome.kt).fold(0.0, f64::max);
+    let x = |kt: f64| 0.02 + 0.93 * kt / most;
+    let points = |of: &dyn Fn(&Outcome) -> f64| -> Vec<[f64; 2]> {
+        by_kt
+            .iter()
+            .map(|outcome| [x(outcome.kt), of(outcome)])
+            .collect()
+    };
+    let mut inner = shares();
+    for outcome in &by_kt {
+        inner += &below(x(outcome.kt), &si(outcome.kt, "J", 2));
+        let [low, high] = outcome.interval.map(|share| top + height * (1.0 - share));
+        let at = left + width * x(outcome.kt);
+        if low.is_finite() && high.is_finite() {
+            let _ = write!(
+                inner,
+                "<path d=\"M{at:.1},{low:.1}V{high:.1}\" stroke=\"{}\" stroke-width=\"4\" \
+                 opacity=\"0.4\"/>",
+                COLOURS[0]
+            );
+        }
+    }
+    inner += &curve(
+        &points(&|outcome| outcome.bound),
+        COLOURS[0],
+        "",
+        "in the bond",
+    );
+    inner += &curve(
+        &points(&|outcome| outcome.trapped),
+        COLOURS[1],
+        "6 4",
+        "in traps",
+    );
+    let equilibrium = points(&|outcome| outcome.equilibrium.unwrap_or(f64::NAN));
+    inner += &curve(&equilibrium, COLOURS[2], "2 3", "in the bond in the end");
+    chart("kT", "share of all pairs", &inner)
+}
