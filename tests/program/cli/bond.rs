@@ -12,7 +12,15 @@ fn design(file: &str) -> String {
 #[test]
 fn ln_k_is_depth_less_docking_cost() {
     let file = design(PAPER);
-    let found = json(&["bond", &file, "--kt", "3.0e-3", "--coverage", "0.3", "--json"]);
+    let found = json(&[
+        "bond",
+        &file,
+        "--kt",
+        "3.0e-3",
+        "--coverage",
+        "0.3",
+        "--json",
+    ]);
     let of = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key}"));
     assert!((of("ln_K") - (of("bond_kT") - of("docking_cost_kT"))).abs() < 1e-12);
     assert!((of("bond_kT") - 65.47 / 3.0).abs() < 0.01);
@@ -34,11 +42,27 @@ fn ln_k_is_depth_less_docking_cost() {
 fn what_is_wrong_with_a_shaking_is_told() {
     let file = design(PAPER);
     for (arguments, what) in [
-        (vec!["bond", &file, "--kt", "0", "--coverage", "0.3"], "--kt"),
-        (vec!["bond", &file, "--kt", "1e-3", "--coverage", "1.5"], "--coverage"),
+        (
+            vec!["bond", &file, "--kt", "0", "--coverage", "0.3"],
+            "--kt",
+        ),
+        (
+            vec!["bond", &file, "--kt", "1e-3", "--coverage", "1.5"],
+            "--coverage",
+        ),
         (vec!["bond", &file, "--kt", "1e-3"], "--coverage"),
-        (vec!["yield", &file, "--tiles", "1", "--time", "60", "--kt", "1e-3"], "--tiles"),
-        (vec!["yield", &file, "--tiles", "4", "--time", "60", "--kt", "1e-3,x"], "--kt"),
+        (
+            vec![
+                "yield", &file, "--tiles", "1", "--time", "60", "--kt", "1e-3",
+            ],
+            "--tiles",
+        ),
+        (
+            vec![
+                "yield", &file, "--tiles", "4", "--time", "60", "--kt", "1e-3,x",
+            ],
+            "--kt",
+        ),
     ] {
         let output = tilebind(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -52,8 +76,23 @@ fn a_yield_with_its_three_views() {
     let file = design(PAPER);
     let run = |threads: &str| {
         json(&[
-            "yield", &file, "--tiles", "6", "--time", "300", "--kt", "3e-3,6e-3", "--runs", "60",
-            "--duration", "3", "--simulations", "300", "--threads", threads, "--json",
+            "yield",
+            &file,
+            "--tiles",
+            "6",
+            "--time",
+            "300",
+            "--kt",
+            "3e-3,6e-3",
+            "--runs",
+            "60",
+            "--duration",
+            "3",
+            "--simulations",
+            "300",
+            "--threads",
+            threads,
+            "--json",
         ])
     };
     let found = run("1");
@@ -62,9 +101,14 @@ fn a_yield_with_its_three_views() {
         let share = |key: &str| setting[key].as_f64().unwrap_or_else(|| panic!("{key}"));
         let simulated = &setting["yield_simulated"];
         let [mean, error] = ["mean", "standard_error"].map(|key| simulated[key].as_f64().unwrap());
-        assert!((share("yield") - mean).abs() < 5.0 * error + 0.02, "{setting}");
+        assert!(
+            (share("yield") - mean).abs() < 5.0 * error + 0.02,
+            "{setting}"
+        );
         assert!((share("yield") - share("yield_difference_equations")).abs() < 0.15);
-        let [low, high] = numbers(&setting["yield_interval"])[..] else { panic!() };
+        let [low, high] = numbers(&setting["yield_interval"])[..] else {
+            panic!()
+        };
         assert!(low <= share("yield") && share("yield") <= high);
     }
     let mixture = &found["mixture"];
@@ -85,13 +129,31 @@ fn pairs_that_bind_and_part_tell_kt() {
     std::fs::write(&file, format!("bound_s,apart_s\n{rows}")).unwrap();
     let table = file.to_str().unwrap();
     let design = design(PAPER);
-    let found = json(&["calibrate", &design, "--bonds", table, "--area", "0.6163", "--json"]);
+    let found = json(&[
+        "calibrate",
+        &design,
+        "--bonds",
+        table,
+        "--area",
+        "0.6163",
+        "--json",
+    ]);
     let kt = found["kT_J"].as_f64().unwrap();
-    let [low, high] = numbers(&found["kT_interval_J"])[..] else { panic!() };
+    let [low, high] = numbers(&found["kT_interval_J"])[..] else {
+        panic!()
+    };
     assert!(low < kt && kt < high, "{found}");
     // 0.6163 m^2 for a tile of 0.1849 m^2 is 30 % coverage; all four faces of the fixed tile bind:
     // ln K + ln 4 = ln 4 there.
-    let bond = json(&["bond", &design, "--kt", &kt.to_string(), "--coverage", "0.3", "--json"]);
+    let bond = json(&[
+        "bond",
+        &design,
+        "--kt",
+        &kt.to_string(),
+        "--coverage",
+        "0.3",
+        "--json",
+    ]);
     let ln_k = bond["ln_K"].as_f64().unwrap();
     assert!(ln_k.abs() < 0.03, "{ln_k}");
     std::fs::write(&file, "bound_s,apart_s\n1,x\n").unwrap();
@@ -105,8 +167,18 @@ fn bound_tiles_come_loose_where_they_are_shaken_enough() {
     let file = design(PAPER);
     let rate = |kt: &str| {
         let found = json(&[
-            "dock", &file, "--from-bond", "--shaking", kt, "--drag", "20", "--runs", "12",
-            "--duration", "3", "--json",
+            "dock",
+            &file,
+            "--from-bond",
+            "--shaking",
+            kt,
+            "--drag",
+            "20",
+            "--runs",
+            "12",
+            "--duration",
+            "3",
+            "--json",
         ]);
         found["off_rate"]["rate_per_s"].as_f64().unwrap()
     };
