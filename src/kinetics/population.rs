@@ -268,7 +268,7 @@ impl PairRates {
             let all: f64 = rates.iter().sum();
             now += -(1.0 - rng.random::<f64>()).ln() / all;
             // Never, where nothing can happen.
-            if !(now < time) {
+            if now.is_nan() || now >= time {
                 return Some(numbers);
             }
             let mut rest = rng.random::<f64>() * all;
