@@ -26,8 +26,10 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`inspection`] | a design at a glance: its bond, the forces that hold it, what is wrong with it |
 //! | [`workshop`] | a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
@@ -97,6 +99,7 @@
 //! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
 //! dependencies state; a compiler that old has not been tried.
 
+pub mod assembly;
 pub mod calibration;
 pub mod cell;
 mod checksum;

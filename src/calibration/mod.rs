@@ -18,6 +18,7 @@ mod rows;
 
 use crate::configuration::Configuration;
 use crate::contact::Contact;
+use crate::design::Design;
 use crate::potential::shielding::{Shield, ShieldRule, Shields};
 use crate::potential::{MagnetModel, Potential, ShieldedPotential};
 use crate::tile::Tile;
@@ -60,7 +61,26 @@ pub struct Specimen<'a> {
     pub shields: &'a Shields,
 }
 
-impl Specimen<'_> {
+impl<'a> Specimen<'a> {
+    /// The tiles of a design, and the settings of a fit that begins with the design's own shield.
+    pub fn of(design: &'a Design, hold_out_every: usize) -> (Self, CalibrationSettings) {
+        let shields = &design.interaction.shields;
+        let known = shields.fixed.iter().chain(&shields.moving).flatten().next();
+        let defaults = CalibrationSettings::default();
+        let settings = CalibrationSettings {
+            hold_out_every,
+            start: known.copied().unwrap_or(defaults.start),
+            ..defaults
+        };
+        let specimen = Self {
+            model: design.interaction.model,
+            fixed: &design.pair.fixed,
+            moving: &design.pair.moving,
+            shields,
+        };
+        (specimen, settings)
+    }
+
     /// The tiles with `shield` on all shielded faces.
     fn shields(&self, shield: &Shield) -> Shields {
         let all = self.shields.fixed.iter().chain(&self.shields.moving);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::Settings;
 use tilebind::calibration::bonds::PairTimes;
-use tilebind::calibration::{self, CalibrationSettings, Specimen};
+use tilebind::calibration::{self, Specimen};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::kinetics::Bond;
 use tilebind::observer::Silent;
@@ -75,24 +75,7 @@ impl Calibrate {
             |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", table.display()));
         let text = input::text(table).map_err(|error| wrong(&error))?;
         let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
-        let specimen = Specimen {
-            model: design.interaction.model,
-            fixed: &design.pair.fixed,
-            moving: &design.pair.moving,
-            shields: &design.interaction.shields,
-        };
-        let known = design
-            .interaction
-            .shields
-            .fixed
-            .iter()
-            .chain(&design.interaction.shields.moving);
-        let defaults = CalibrationSettings::default();
-        let settings = CalibrationSettings {
-            hold_out_every: self.hold_out.into(),
-            start: known.flatten().next().copied().unwrap_or(defaults.start),
-            ..defaults
-        };
+        let (specimen, settings) = Specimen::of(&design, self.hold_out.into());
         let found =
             calibration::calibrate(&specimen, &rows, &settings).map_err(|error| wrong(&error))?;
         print(&if self.json {

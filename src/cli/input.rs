@@ -142,6 +142,14 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number of 0 or more is needed".to_owned())
 }
 
+/// A number below 0.
+pub fn negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x < 0.0)
+        .ok_or_else(|| "a number less than 0 is needed".to_owned())
+}
+
 /// A fraction greater than 0 and less than 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
     positive(text)

@@ -1,6 +1,7 @@
 //! The commands, a file each, and what they share.
 
 pub mod analyse;
+pub mod assemble;
 mod assessment;
 pub mod barrier;
 pub mod bond;
@@ -21,6 +22,7 @@ pub mod matching;
 mod memory;
 mod options;
 mod progress;
+pub mod rates;
 pub mod schema;
 pub mod show;
 mod style;

@@ -64,6 +64,11 @@ impl Place {
 }
 
 impl Place {
+    /// The place of a range of bytes of `text`.
+    pub fn of(text: &str, range: Range<usize>) -> Self {
+        Self::new(text, range.into())
+    }
+
     /// The line as it is shown, and the column in it: of a long line (a drawing can be one line) a
     /// part about the place.
     fn window(&self) -> Option<(String, usize)> {

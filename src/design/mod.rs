@@ -64,6 +64,7 @@ mod word_stage;
 pub use crate::potential::MagnetModel;
 pub use drawings::Drawing;
 pub use error::{DesignError, Place};
+pub(crate) use file::read_text;
 pub use magnet::{Strength, surface_field_share};
 pub use schema::{SCHEMA, STARTER};
 pub use starting::{Shape, Start, StartError};

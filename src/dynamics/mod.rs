@@ -26,6 +26,7 @@ mod body;
 pub mod check;
 mod collision;
 pub mod docking;
+pub mod exits;
 mod flight;
 mod force;
 mod settings;

@@ -7,7 +7,9 @@
 //! - [`calibration`] - fitted shields;
 //! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
+//! - [`assembly`] - tile sets whose glues are words;
 //! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
+//! - [`rates`] - exits and rates of overdamped motion;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal; [`inspection`] - a design at a glance;
 //! - [`workshop`] - drawings and a sheet to make the tiles by;
@@ -18,6 +20,7 @@
 //! - [`writer`] - all of it as [`files`] of one folder.
 
 pub mod arrays;
+pub mod assembly;
 mod assessments;
 pub mod bond;
 mod braille;
@@ -39,6 +42,7 @@ pub mod names;
 mod packing;
 pub mod page;
 pub mod plots;
+pub mod rates;
 pub mod release;
 pub mod summary;
 pub mod sweep;

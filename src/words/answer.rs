@@ -48,7 +48,7 @@ const MOST_OF_FRONTIER: usize = 1000;
 const MIDDLE: f64 = 0.5;
 /// Share of the work kept back for the words beyond a tie.
 const FOR_BEYOND: f64 = 0.1;
-/// Larger sets are not searched beyond a tie.
+/// Larger sets with a magnet in every place are not searched beyond a tie.
 const MOST_BEYOND: f64 = 5000.0;
 
 /// Answers a question. Words are searched by the energies of `task`; what they are worth is told in
@@ -141,9 +141,10 @@ fn of(found: Found, effort: &Effort) -> Answer {
 fn beyond(task: &Task, gap: f64, effort: &mut Effort) -> Option<Point> {
     let magnets = task.magnets as f64;
     let contacts = (1.0 - gap) * magnets;
-    let rest = task.lags.rest(task.magnets as u32) / task.lags.contact();
+    let rest = task.rest() / task.lags.contact();
     let tied = (contacts - contacts.round()).abs() < 1e-6 && rest > 0.0 && rest < 0.5;
-    let few = super::candidates::number(task.places, task.magnets) <= MOST_BEYOND;
+    let few = super::candidates::number(task.places, task.magnets) <= MOST_BEYOND
+        || task.magnets < task.places;
     if !tied || !few || task.rules.fault.is_some() || contacts.round() >= magnets {
         return None;
     }

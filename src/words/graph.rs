@@ -24,23 +24,24 @@ pub struct Graph<'a> {
 }
 
 impl<'a> Graph<'a> {
-    /// Of words that are sound by themselves.
-    pub fn new(task: &'a Task, words: Vec<Word>, limit: f64) -> Self {
+    /// Of words that are sound by themselves; held as a whole only if that takes no more than so much
+    /// work.
+    pub fn new(task: &'a Task, words: Vec<Word>, limit: f64, work: u64) -> Self {
         let mut graph = Self {
             task,
             words,
             limit,
             rows: Vec::new(),
         };
-        if graph.len() <= MOST_HELD {
+        if graph.len() <= MOST_HELD && graph.work_to_hold() <= work {
             graph.rows = graph.all_rows();
         }
         graph
     }
 
     /// The graph of some of its words, ascending.
-    pub fn among(&self, words: Vec<Word>) -> Self {
-        Self::new(self.task, words, self.limit)
+    pub fn among(&self, words: Vec<Word>, work: u64) -> Self {
+        Self::new(self.task, words, self.limit, work)
     }
 
     /// Number of vertices.
@@ -61,9 +62,13 @@ impl<'a> Graph<'a> {
     /// Units of work that holding it took.
     pub fn work(&self) -> u64 {
         match self.is_held() {
-            true => self.judgement() * (self.len() * self.len()) as u64 / 2,
+            true => self.work_to_hold(),
             false => 0,
         }
+    }
+
+    fn work_to_hold(&self) -> u64 {
+        self.judgement() * (self.len() * self.len()) as u64 / 2
     }
 
     /// Units of work that finding out whether two words go together counts as.

@@ -63,8 +63,8 @@ impl Bar {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lags {
     energies: Vec<f64>,
-    /// The sum of their magnitudes but for the first (J).
-    beside: f64,
+    /// The sum of the k largest magnitudes but for the first (J), those of either side apart.
+    beside: Vec<f64>,
 }
 
 impl Lags {
@@ -88,8 +88,16 @@ impl Lags {
     }
 
     fn of(energies: Vec<f64>) -> Self {
+        let either_side = energies[1..].iter().flat_map(|energy| [energy.abs(); 2]);
+        let mut magnitudes: Vec<f64> = either_side.collect();
+        magnitudes.sort_by(|a, b| b.total_cmp(a));
+        let mut sum = 0.0;
+        let largest = magnitudes.into_iter().map(|magnitude| {
+            sum += magnitude;
+            sum
+        });
         Self {
-            beside: energies[1..].iter().map(|energy| energy.abs()).sum(),
+            beside: std::iter::once(0.0).chain(largest).collect(),
             energies,
         }
     }
@@ -100,9 +108,10 @@ impl Lags {
     }
 
     /// The most (J) that all pairs but the facing ones add to the energy of two words, of which one
-    /// has so many magnets.
-    pub fn rest(&self, magnets: u32) -> f64 {
-        2.0 * f64::from(magnets) * self.beside
+    /// has so many magnets and the other so many `others`.
+    pub fn rest(&self, magnets: u32, others: u32) -> f64 {
+        let beside = self.beside.get(others as usize).or(self.beside.last());
+        f64::from(magnets) * beside.copied().unwrap_or_default()
     }
 
     /// J(d) (J) of magnets d places apart, either way.
@@ -132,15 +141,26 @@ impl Correlations {
     /// Of a word and of one read as it faces the first.
     pub fn new(word: super::Word, facing: super::Word) -> Self {
         let places = word.places();
-        let last = places as i32 - 1;
         let mut values = [0; 2 * MOST_PLACES];
-        for (value, lag) in values.iter_mut().zip(-last..=last) {
-            *value = word.correlation(facing, lag);
+        if (word.magnets() * facing.magnets()) as usize <= places {
+            // Few magnets: pair by pair.
+            for (k, pole) in word.poles() {
+                for (j, other) in facing.poles() {
+                    values[j + places - 1 - k] += pole * other;
+                }
+            }
+        } else {
+            let last = places as i32 - 1;
+            for (value, lag) in values.iter_mut().zip(-last..=last) {
+                *value = word.correlation(facing, lag);
+            }
         }
         Self { places, values }
     }
 
-    fn at(&self, lag: i32) -> i32 {
+    /// c of a lag of less than as many places as there are.
+    #[inline]
+    pub(super) fn at(&self, lag: i32) -> i32 {
         self.values[(lag + self.places as i32 - 1) as usize]
     }
 }

@@ -86,7 +86,7 @@ impl Task {
         match self.magnets == self.places {
             // Most pairs that conflict do so at once.
             true => 8 + one * meetings / 4,
-            false => 8 + 2 * one * meetings,
+            false => 8 + one * meetings,
         }
     }
 
@@ -98,7 +98,12 @@ impl Task {
     /// The deepest bond (J) that any word may have.
     fn deepest_bond(&self) -> f64 {
         let magnets = self.magnets as f64;
-        magnets * self.lags.contact() + self.lags.rest(self.magnets as u32)
+        magnets * self.lags.contact() + self.rest()
+    }
+
+    /// The most (J) that all pairs but the facing ones add to any energy.
+    fn rest(&self) -> f64 {
+        self.lags.rest(self.magnets as u32, self.magnets as u32)
     }
 
     /// An upper bound of the number of words with wrong attractions up to `limit` (J), from codes;
@@ -107,7 +112,7 @@ impl Task {
         if self.magnets < self.places {
             return usize::MAX;
         }
-        let rest = self.lags.rest(self.magnets as u32);
+        let rest = self.rest();
         let contacts = ((limit + rest) / self.lags.contact() + 1e-9)
             .floor()
             .max(-1.0);

@@ -154,10 +154,11 @@ impl Rules {
     pub fn within(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
         let same = u == v;
         let (places, magnets) = (u.places() as i32, u.magnets().min(v.magnets()));
+        let others = u.magnets().max(v.magnets());
         let full = magnets as i32 == places;
         // The facing magnets nearly always decide: so many are fine whatever the others add, and
         // more than so many are too many.
-        let (contact, rest) = (lags.contact(), lags.rest(magnets));
+        let (contact, rest) = (lags.contact(), lags.rest(magnets, others));
         let by_faults = self.fault.map_or(0, Fault::contacts);
         let fine = ((limit - rest) / contact - ROUNDED).floor() as i32 - by_faults;
         let most = ((limit + rest) / contact + ROUNDED).floor() as i32;
@@ -174,7 +175,9 @@ impl Rules {
                 let facing_alone = sign
                     * match full {
                         true => u.full_correlation(facing, s),
-                        false => u.correlation(facing, s),
+                        false => all_lags
+                            .get_or_insert_with(|| Correlations::new(u, facing))
+                            .at(s),
                     };
                 if facing_alone <= fine || Self::is_bond(way, s, same) {
                     return true;
@@ -239,6 +242,13 @@ impl Rules {
             Some(fault) => fault.least(lags, 1.0, [word, word], 0).0,
             None => lags.energy(&Correlations::new(word, word), 0),
         }
+    }
+
+    /// The energy (J) of two faces without faults, neither turned over, the second one `slide`
+    /// places farther along the first (counter-clockwise); the bond of a word and its mate too.
+    pub fn energy_at(&self, lags: &Lags, first: Word, second: Word, slide: i32) -> f64 {
+        let all = Correlations::new(first, second.mate());
+        -lags.energy(&all, -slide)
     }
 
     /// All energies (J) of wrong meetings of two faces without faults, the second a mate or not,

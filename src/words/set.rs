@@ -44,3 +44,12 @@ impl Judgement {
         })
     }
 }
+
+/// Letters of the words: A, B, ... Z, AA, ...
+pub fn name(number: usize) -> String {
+    let letter = char::from(b'A' + (number % 26) as u8);
+    match number / 26 {
+        0 => letter.to_string(),
+        rest => name(rest - 1) + &letter.to_string(),
+    }
+}

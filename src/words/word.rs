@@ -72,6 +72,16 @@ impl Word {
         (self.north >> k & 1) as i32 - (self.south >> k & 1) as i32
     }
 
+    /// The places that hold magnets, ascending, each with its pole.
+    pub(super) fn poles(self) -> impl Iterator<Item = (usize, i32)> {
+        let mut left = self.north | self.south;
+        std::iter::from_fn(move || {
+            let k = (left != 0).then(|| left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some((k, self.at(k)))
+        })
+    }
+
     /// The word that binds this one: reversed, its poles exchanged.
     pub fn mate(self) -> Self {
         self.negated().reversed()

@@ -184,9 +184,19 @@ fn planted(rng: &mut ChaCha8Rng) -> (Design, [usize; 2], f64) {
 
 #[test]
 fn a_planted_trap_is_found_or_completeness_is_not_claimed() {
+    plant(30);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn none_of_a_hundred_planted_traps_is_denied() {
+    plant(100);
+}
+
+fn plant(number_of_traps: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(14);
     let (mut found, mut claimed) = (0, 0);
-    for number in 0..100 {
+    for number in 0..number_of_traps {
         let (design, [fixed, moving], play) = planted(&mut rng);
         let problem = design.problem();
         let faces = problem.faces();
@@ -228,7 +238,7 @@ fn a_planted_trap_is_found_or_completeness_is_not_claimed() {
         );
     }
     assert!(
-        found > 60 && claimed > 60,
-        "found {found}, claimed {claimed} of 100"
+        found.min(claimed) > number_of_traps * 3 / 5,
+        "found {found}, claimed {claimed} of {number_of_traps}"
     );
 }

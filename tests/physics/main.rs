@@ -14,6 +14,7 @@ mod dipole_kernel;
 mod dipoles;
 mod dynamics;
 mod fixtures;
+mod kinetics;
 mod shield_factor;
 mod shielding;
 mod strength;

@@ -38,4 +38,4 @@ size=$(stat -c %s "$wheel")
 echo "python: $(basename "$wheel"), $((size / 1000)) kB"
 [ "$size" -le 12000000 ] || { echo "python: the wheel is larger than 12 MB"; exit 1; }
 "${install[@]}" --force-reinstall --no-deps "$wheel"
-"$python" -m pytest -q -p no:cacheprovider tests/python
+"$python" -m pytest -q -p no:cacheprovider --durations=8 tests/python

@@ -82,3 +82,31 @@ def test_outlines_fit(tab):
 
 def test_the_version_is_told():
     assert tilebind.__version__.count(".") == 2
+
+
+def test_files_for_the_workshop(design):
+    files = design.make(kerf=0.0002)
+    assert set(files) == {"fixed.dxf", "fixed.svg", "moving.dxf", "moving.svg", "sheet.md"}
+    assert b"OUTLINE" in files["fixed.dxf"] and b"mm" in files["sheet.md"]
+    with pytest.raises(ValueError, match="kerf"):
+        design.make(kerf=0.15)
+
+
+def test_shields_are_fitted_to_measurements(root):
+    pandas = pytest.importorskip("pandas")
+    true = Design.load(root / "shapes/shielded-backs.toml")
+    tables = true.to_dict()
+    bare = Design.from_dict({
+        **{key: value for key, value in tables.items() if key != "shield"},
+        "moving": {**tables["moving"], "faces": {"all": {"code": "NS"}}},
+        "fixed": {**tables["fixed"], "faces": {"all": {"code": "NS"}}},
+    })
+    poses = [[0.081 + 0.003 * k, 0.004 * k - 0.03, 0.5 * k] for k in range(40)]
+    poses = [pose for pose in poses if true.is_free(pose)]
+    assert len(poses) > 15
+    rows = [(*pose, iron, d.energy(pose)) for pose in poses for iron, d in ((1, true), (0, bare))]
+    table = pandas.DataFrame(rows, columns=["x_m", "y_m", "theta_rad", "iron", "energy_J"])
+    found = true.replace("shield.length", 0.02).calibrate(table)
+    assert found["shield"]["length_m"] == pytest.approx(0.03, rel=1e-3)
+    with pytest.raises(ValueError, match="hold_out"):
+        true.calibrate(table, hold_out=1)

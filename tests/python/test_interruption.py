@@ -24,6 +24,14 @@ JOBS = {
 }
 
 
+@pytest.fixture(autouse=True)
+def interruptions_are_heard():
+    """A shell lets what it starts in the background ignore them."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize("job", JOBS)
 def test_an_interruption_is_heeded(design, job):
     asked = []

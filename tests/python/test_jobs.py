@@ -192,3 +192,16 @@ def test_wrong_arguments_are_told(design):
     for wrong in ({"milestones": 0}, {"tolerance": -1.0}, {"settled": 2.0}, {"milestones": 10**12}):
         with pytest.raises(ValueError):
             design.analyse(**wrong)
+
+
+def test_shaken_tiles(design, analysis):
+    left = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75)
+    # Brownian motion step by step: 0.0176 +- 0.0004 m^2 over D, 0.405 +- 0.01 bound.
+    assert left["mean_exit_s"] * left["diffusion_m2_s"] == pytest.approx(0.0176, abs=0.0008)
+    assert left["exits"]["bound"] == pytest.approx(0.405, abs=0.02)
+    held = analysis.bond(3e-3, 0.3)
+    assert held["ln_K"] == pytest.approx(held["bond_kT"] - held["docking_cost_kT"])
+    with pytest.raises(ValueError, match="kt"):
+        design.exits([0.43, -0.04, 0], kt=-1)
+    with pytest.raises(ValueError, match="coverage"):
+        analysis.bond(3e-3, 30)

@@ -2,7 +2,7 @@
 
 mod asked;
 mod continuous;
-mod values;
+pub(super) mod values;
 
 use std::path::PathBuf;
 

@@ -74,8 +74,14 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
         }
         let mut shares = [l.splat(0.0); N];
         for pair in self.potential.sources.as_chunks::<TOGETHER>().0 {
-            let dx = b.sub([x; TOGETHER], b.rows(pair.map(|s| s.position[0])));
-            let dy = b.sub([y; TOGETHER], b.rows(pair.map(|s| s.position[1])));
+            let dx = b.sub(
+                [x; TOGETHER],
+                b.rows([pair[0].position[0], pair[1].position[0]]),
+            );
+            let dy = b.sub(
+                [y; TOGETHER],
+                b.rows([pair[0].position[1], pair[1].position[1]]),
+            );
             let r2 = b.mul_add(dx, dx, b.mul(dy, dy));
             let distance = b.mul(r2, b.reciprocal_sqrt(r2));
             let r = b.sub(distance, b.splat(self.reach));

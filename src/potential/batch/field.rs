@@ -65,16 +65,16 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
     let mut sums = [Sums::zero(l); N];
     for pair in sources.as_chunks::<TOGETHER>().0 {
         let position = [
-            b.rows(pair.map(|s| s.position[0])),
-            b.rows(pair.map(|s| s.position[1])),
+            b.rows([pair[0].position[0], pair[1].position[0]]),
+            b.rows([pair[0].position[1], pair[1].position[1]]),
         ];
         let moment = [
-            b.rows(pair.map(|s| s.moment[0])),
-            b.rows(pair.map(|s| s.moment[1])),
+            b.rows([pair[0].moment[0], pair[1].moment[0]]),
+            b.rows([pair[0].moment[1], pair[1].moment[1]]),
         ];
         let thrice = [
-            b.rows(pair.map(|s| s.thrice[0])),
-            b.rows(pair.map(|s| s.thrice[1])),
+            b.rows([pair[0].thrice[0], pair[1].thrice[0]]),
+            b.rows([pair[0].thrice[1], pair[1].thrice[1]]),
         ];
 
         let d = [b.sub(x, position[0]), b.sub(y, position[1])];

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
 use serde::{Deserialize, Serialize};
 use tilebind::dynamics::check::BarrierCheck;
+use tilebind::kinetics::bond::Shaking;
 use tilebind::landscape::map::{EnergyMap, Window};
 use tilebind::landscape::{Barrier, Completeness, Inventory, Place, Uncaptured, Uncertified};
 use tilebind::landscape::{CompletenessSettings, pathway};
@@ -24,7 +25,7 @@ use tilebind::{Analysis as Found, Configuration, Settings};
 use crate::design::{Content, Design};
 use crate::keywords::Keywords;
 use crate::table::{self, FREE};
-use crate::{convert, fault, job, pickle};
+use crate::{convert, fault, job, kinetics, pickle};
 
 /// The library's settings.
 fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<Settings> {
@@ -343,6 +344,25 @@ impl Analysis {
         fields.set_item("x", table::grid(py, grid.x.clone(), vec![grid.x.len()])?)?;
         fields.set_item("y", table::grid(py, grid.y.clone(), vec![grid.y.len()])?)?;
         convert::named(py, "LandscapeMap", &fields)
+    }
+
+    /// How strongly the bond and the traps hold shaken tiles.
+    ///
+    /// Parameters
+    /// ----------
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// coverage : float
+    ///     Share of the table that tiles cover.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `bond_kT`, `docking_cost_kT`, `ln_K`, `two_hold_one_does_not_J` and more.
+    fn bond<'py>(&self, py: Python<'py>, kt: f64, coverage: f64) -> PyResult<Bound<'py, PyAny>> {
+        let found = (&*self.found.problem, &self.found.inventory);
+        let shaking = Shaking { kt, coverage };
+        kinetics::bond(py, &self.content.design, found, shaking)
     }
 
     /// Which kinds of states merge at which energy.

@@ -16,12 +16,13 @@ use tilebind::report::{inspection, json};
 use tilebind::sweep::Source;
 use tilebind::tile::Tile;
 use tilebind::words::matching::matches;
+use tilebind::workshop::Making;
 
 use crate::analysis::{self, Analysis};
 use crate::barrier;
 use crate::poses::{self, Poses};
 use crate::table::{self, Named, Values};
-use crate::{convert, dock, fault, pickle};
+use crate::{convert, dock, fault, kinetics, pickle, workshop};
 
 /// What a design was read from, what it is, and the problems that it poses.
 pub struct Content {
@@ -569,6 +570,95 @@ impl Design {
             real("gap_m2", |one| one.gap),
         ];
         table::structured(py, columns)
+    }
+
+    /// Where a shaken tile that is let go ends, and how soon: overdamped motion at kT.
+    ///
+    /// Parameters
+    /// ----------
+    /// start : array_like
+    ///     Pose (3,) at which it is let go (m, m, rad).
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// drag : float, optional
+    ///     Drag rate (1/s): the drag is this times the mass.
+    /// basin_energy : float, optional
+    ///     The tile is bound where its energy (J) is lower, in the basin of the bond or of one of
+    ///     its copies; half the bond's by default.
+    /// free_at : float, optional
+    ///     It is free where the centres are so far apart (m).
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `mean_exit_s`, `exits` (shares that are first bound and free), `diffusion_m2_s`, `mesh`
+    ///     (how far the two finest meshes differ).
+    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None))]
+    fn exits<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        kt: f64,
+        drag: f64,
+        basin_energy: Option<f64>,
+        free_at: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = kinetics::Asked {
+            kt,
+            drag,
+            basin_energy,
+            free_at,
+        };
+        let posed = (&self.content.design, &**self.content.problem(None));
+        kinetics::exits(py, posed, start, &asked)
+    }
+
+    /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
+    ///
+    /// Parameters
+    /// ----------
+    /// kerf : float, optional
+    ///     Width of the cut (m); lines run half of it outside the parts.
+    /// clearance : float, optional
+    ///     By how much pockets are larger than their magnets on every side (m).
+    ///
+    /// Returns
+    /// -------
+    /// dict of str to bytes
+    ///     By their names: DXF and SVG in mm, a sheet in Markdown.
+    #[pyo3(signature = (*, kerf = 0.0, clearance = 1e-4))]
+    fn make<'py>(
+        &self,
+        py: Python<'py>,
+        kerf: f64,
+        clearance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        workshop::files(py, &self.content.design, &Making { kerf, clearance })
+    }
+
+    /// Fit the constants of soft-iron shields to measured forces or energies.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : pandas.DataFrame, str or os.PathLike
+    ///     The measurements or a CSV file of them: `x_m`, `y_m`, `theta_rad`, `iron` (1 with the
+    ///     shields in place, 0 without) and at least one of `energy_J`, `force_x_N`, `force_y_N`,
+    ///     `torque_Nm`.
+    /// hold_out : int, optional
+    ///     Of so many rows one is held out of the fit.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     The constants with their errors, and how well they tell what was held out.
+    #[pyo3(signature = (table, *, hold_out = 5))]
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        table: &Bound<'py, PyAny>,
+        hold_out: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        workshop::calibrated(py, &self.content.design, table, hold_out)
     }
 
     /// The design at a glance: its bond, the forces that hold it, what is wrong with it.

@@ -1,7 +1,8 @@
 //! tilebind for Python: the classes and functions of the package, each a thin view of the library.
 //!
 //! - [`design`] - a pair of tiles; [`poses`] - energies of many configurations;
-//! - [`analysis`], [`barrier`], [`many`] (comparisons and sweeps), [`dock`], [`words`] - the jobs;
+//! - [`analysis`], [`barrier`], [`many`] (comparisons and sweeps), [`dock`], [`words`], [`kinetics`],
+//!   [`workshop`] - the jobs;
 //! - [`job`] - long work: progress, ctrl-C, faults;
 //! - [`table`] - structured arrays; [`convert`] - values of Python as values of a design file;
 //! - [`fault`] - exceptions; [`pickle`] - results as bytes.
@@ -14,11 +15,13 @@ mod dock;
 mod fault;
 mod job;
 mod keywords;
+mod kinetics;
 mod many;
 mod pickle;
 mod poses;
 mod table;
 mod words;
+mod workshop;
 
 use pyo3::prelude::*;
 

@@ -121,7 +121,7 @@ fn words_toml(request: &Request, answer: &Answer) -> String {
 }
 
 /// The text of a set: its magnets, the tiles' side (m), and what each face and its mate hold.
-pub(super) fn set_toml(
+pub fn set_toml(
     headline: &str,
     list: &str,
     bar: &Bar,

@@ -7,12 +7,13 @@ mod text;
 use serde_json::{Value, json};
 
 pub use continuous::{Spaced, rounded, toml as spaced_toml};
-pub use files::files;
+pub use files::{files, set_toml};
 pub use text::{headline, meetings, summary};
 
 use super::json as layout;
 use super::values::positive_zero;
 use crate::words::frontier::Point;
+pub use crate::words::set::name;
 use crate::words::{Answer, Bar, Fault, Judgement, Lags, Meeting, Question, Shape, Task, Word};
 
 /// What is written, for the terminal.
@@ -49,15 +50,6 @@ impl Request {
     /// What a set of words is worth, by energies.
     pub(super) fn strongest(&self, u: Word, v: Word) -> Option<Meeting> {
         self.task.rules.strongest(&self.energies, u, v)
-    }
-}
-
-/// Letters of the words: A, B, ... Z, AA, ...
-pub fn name(number: usize) -> String {
-    let letter = char::from(b'A' + (number % 26) as u8);
-    match number / 26 {
-        0 => letter.to_string(),
-        rest => name(rest - 1) + &letter.to_string(),
     }
 }
 

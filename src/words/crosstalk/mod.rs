@@ -105,6 +105,17 @@ impl Stage {
         })
     }
 
+    /// The energies (J) of all pairs of magnets where the faces meet flush and aligned: of place k
+    /// of the first face and j of the second one, north poles out, at k times places + j.
+    pub fn flush(&self) -> Vec<f64> {
+        energies(&self.magnets, &self.pair.bound)
+    }
+
+    /// The problem of two tiles with these words.
+    pub fn problem_of(&self, first: Word, second: Word) -> Problem {
+        self.problem(&Couple { first, second })
+    }
+
     /// The crosstalk of words; bounds closer than `tolerance` (J) where it is given, from at most
     /// so many `cells`.
     pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {

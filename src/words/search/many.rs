@@ -1,7 +1,9 @@
 //! Sets of words where these are too many for their graph to be held.
 //!
-//! Words in random order are taken as they go with all before; then, in rounds, the set is improved
-//! among some of the words, as many as there is work to join.
+//! The weakest bond decides: of a deep one few words are left, of a weak one little is allowed to
+//! wrong meetings. So several are tried, each with a set of words taken in random order as they go
+//! with all before; then, in rounds, the largest set is improved among some of the words, as many as
+//! there is work to join.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -13,53 +15,99 @@ use super::super::graph::Graph;
 use super::super::local;
 use super::Search;
 
-/// Weakest bonds tried, and rounds at each.
-const BONDS: usize = 2;
+/// Weakest bonds tried first, each leaving this share of the words of the one before, and then
+/// twice those midway between the best one and its neighbours.
+const BONDS: usize = 12;
+const LEFT: f64 = 0.6;
+const HALVINGS: usize = 2;
+/// Share of the work that goes into these trials at most.
+const FOR_TRIALS: f64 = 0.4;
+/// Rounds of improvement.
 const ROUNDS: usize = 4;
 /// Most words of a round.
 const MOST: usize = 8000;
-/// Share of the work at a weakest bond that goes into the first set at most.
-const FOR_FIRST: f64 = 0.5;
+
+/// What a weakest bond came to.
+struct Trial {
+    /// Its place among [`Search::bonds`].
+    at: usize,
+    /// Vertices of its graph.
+    members: Vec<usize>,
+}
 
 impl Search<'_> {
     /// Searches a range of weakest bonds of which nothing will be proved.
     pub(super) fn among_many(&mut self, first: usize, last: usize) {
         let mut rng = ChaCha8Rng::seed_from_u64(self.effort.seed);
-        for step in (1..=BONDS).rev() {
-            let at = first + (last - first) * step / BONDS;
+        let mut work = self.effort.budget.share(FOR_TRIALS);
+        let mut trials: Vec<Trial> = Vec::new();
+        let number = BONDS + 2 * HALVINGS;
+        for k in 0..number {
+            let share = 1.0 / (number - k) as f64;
+            let at = match k {
+                0..BONDS => Some(self.leaving(first, last, LEFT.powi(k as i32))),
+                _ => beside_largest(&trials, k % 2 == 0),
+            };
+            let Some(at) = at.filter(|at| trials.iter().all(|trial| trial.at != *at)) else {
+                continue;
+            };
+            let mut part = work.share(share);
             let graph = self.graph(at..=at);
-            let mut part = self.effort.budget.share(1.0 / step as f64);
-            let mut members = self.taken(&graph, &mut rng, &mut part);
-            for round in 0..ROUNDS {
-                let mut work = part.share(1.0 / (ROUNDS - round) as f64);
-                self.improve(&graph, &mut members, &mut rng, &mut work);
-                part.give_back(&work);
-            }
-            self.effort.budget.give_back(&part);
+            let members = self.taken(&graph, &mut rng, &mut part);
+            work.give_back(&part);
             self.accept(&graph, &members);
+            trials.push(Trial { at, members });
+            trials.sort_by_key(|trial| trial.at);
         }
+        self.effort.budget.give_back(&work);
+        if let Some(largest) = largest(&trials) {
+            let Trial { at, members } = trials.swap_remove(largest);
+            self.improved(at, members, &mut rng);
+        }
+    }
+
+    /// The weakest bond of a range that leaves this share of its words.
+    fn leaving(&self, first: usize, last: usize, share: f64) -> usize {
+        let within = |bond: &f64| *bond >= self.bonds[last] && *bond <= self.bonds[first];
+        let bonds = self.words.iter().map(|(bond, _)| *bond);
+        let mut bonds: Vec<f64> = bonds.filter(within).collect();
+        let kept = ((bonds.len() as f64 * share) as usize).saturating_sub(1);
+        let (_, bond, _) = bonds.select_nth_unstable_by(kept, |a, b| b.total_cmp(a));
+        let bond = *bond;
+        self.bonds
+            .partition_point(|it| *it > bond)
+            .clamp(first, last)
+    }
+
+    /// Improves a set of words with what work is left.
+    fn improved(&mut self, at: usize, mut members: Vec<usize>, rng: &mut ChaCha8Rng) {
+        let graph = self.graph(at..=at);
+        for round in 0..ROUNDS {
+            let mut work = self.effort.budget.share(1.0 / (ROUNDS - round) as f64);
+            self.improve(&graph, &mut members, rng, &mut work);
+            self.effort.budget.give_back(&work);
+        }
+        self.accept(&graph, &members);
     }
 
     /// Words in random order, each that goes with all before.
     fn taken(&self, graph: &Graph, rng: &mut ChaCha8Rng, budget: &mut Budget) -> Vec<usize> {
         let mut order: Vec<usize> = (0..graph.len()).collect();
         order.shuffle(rng);
-        let mut part = budget.share(FOR_FIRST);
         let mut members: Vec<usize> = Vec::new();
         for vertex in order {
-            if part.is_spent() || members.len() >= self.enough {
+            if budget.is_spent() || members.len() >= self.enough {
                 break;
             }
             let against = members
                 .iter()
                 .position(|other| !graph.joined(vertex, *other));
             let looked = against.map_or(members.len(), |k| k + 1) as u64;
-            part.spend(8 + looked * graph.judgement());
+            budget.spend(8 + looked * graph.judgement());
             if against.is_none() {
                 members.push(vertex);
             }
         }
-        budget.give_back(&part);
         members
     }
 
@@ -81,7 +129,10 @@ impl Search<'_> {
         chosen.extend_from_slice(members);
         chosen.sort_unstable();
         chosen.dedup();
-        let some = graph.among(chosen.iter().map(|v| graph.words[*v]).collect());
+        let some = graph.among(
+            chosen.iter().map(|v| graph.words[*v]).collect(),
+            budget.left(),
+        );
         budget.spend(some.work());
         let place = |v: &usize| chosen.binary_search(v).ok();
         let known: Vec<usize> = members.iter().filter_map(place).collect();
@@ -90,4 +141,21 @@ impl Search<'_> {
             *members = found.iter().map(|k| chosen[*k]).collect();
         }
     }
+}
+
+/// The trial with most words; of several the one of the deepest bonds.
+fn largest(trials: &[Trial]) -> Option<usize> {
+    let size = |k: &usize| (trials[*k].members.len(), usize::MAX - k);
+    (0..trials.len()).max_by_key(size)
+}
+
+/// Midway between the weakest bond that gave most and its neighbour that was tried, the deeper or
+/// the weaker one.
+fn beside_largest(trials: &[Trial], deeper: bool) -> Option<usize> {
+    let largest = largest(trials)?;
+    let beside = match deeper {
+        true => trials.get(largest.checked_sub(1)?)?,
+        false => trials.get(largest + 1)?,
+    };
+    Some((trials[largest].at + beside.at) / 2)
 }

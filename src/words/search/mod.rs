@@ -11,6 +11,7 @@ mod symmetric;
 
 use std::ops::RangeInclusive;
 
+use rayon::prelude::*;
 use symmetric::symmetric;
 
 use super::budget::Budget;
@@ -76,7 +77,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     );
     let mut words: Vec<(f64, Word)> = first
         .words
-        .iter()
+        .par_iter()
         .map(|word| (task.rules.bond(&task.lags, *word), *word))
         .filter(|(bond, _)| *bond > 0.0)
         .collect();
@@ -203,9 +204,10 @@ impl<'a> Search<'a> {
         let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
         let limit = self.limit(deepest);
         let sound = |word| task.rules.within(&task.lags, word, word, limit);
-        let words = self.words.iter();
+        let words = self.words.par_iter();
         let words = words.filter(|(bond, word)| *bond >= weakest * (1.0 - SAME) && sound(*word));
-        Graph::new(task, words.map(|(_, word)| *word).collect(), limit)
+        let words = words.map(|(_, word)| *word).collect();
+        Graph::new(task, words, limit, self.effort.budget.left())
     }
 
     /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the

@@ -1,6 +1,7 @@
 //! The commands on one design, and what every command has: help, mistakes, completions.
 
 mod analyse;
+mod assemble;
 mod barrier;
 mod bond;
 mod calibrate;
@@ -12,6 +13,7 @@ mod excess;
 mod first_hour;
 mod kept;
 mod mistakes;
+mod rates;
 mod shields;
 mod starting;
 #[cfg(unix)]
@@ -50,6 +52,10 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "words",
         "crosstalk",
         "match",
+        "assemble",
+        "rates",
+        "bond",
+        "yield",
         "init",
         "show",
         "make",

@@ -21,6 +21,8 @@ fn analysed(design: &str, folder: &Path) -> (String, Value) {
         "20",
         "--complete-seconds",
         "0",
+        "--tolerance",
+        "2e-3",
     ];
     let output = tilebind(&[&["analyse", design, "--out", out], &quick[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

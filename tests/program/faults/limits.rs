@@ -16,7 +16,7 @@ fn writes_that_fail_at_some_byte_end_with_status_1_and_leave_whole_files() {
     for (name, more) in COMMANDS {
         let expected = undisturbed(name, more);
         let largest = expected.values().map(Vec::len).max().unwrap() as u64;
-        for blocks in [0, 1, 8, 64, largest / 512 - 1, largest / 512 + 1] {
+        for blocks in [0, 8, largest / 512 - 1, largest / 512 + 1] {
             let folder = tempfile::tempdir().unwrap();
             let out = folder.path().join("out");
             let output = after(&limited(blocks), &arguments(name, more, &out));

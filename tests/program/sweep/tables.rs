@@ -69,6 +69,8 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
         "0",
         "--certify-cells",
         "0",
+        "--complete-cells",
+        "0",
     ];
     let output = run(&[&designs[..], &vary, &few, &["--out", text(&out)]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

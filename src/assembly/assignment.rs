@@ -1,0 +1,98 @@
+//! Which word for which bond.
+//!
+//! Engines let a word of one bond meet the mate of another one on the same axis only, aligned. So
+//! among words of equal depth it matters which goes where, and whether a bond's east faces carry a
+//! word or its mate: exchanges are made as long as they lessen the sum of the weights of wrong
+//! meetings.
+
+use super::matrix::Matrix;
+use super::wiring::Wiring;
+use crate::words::Word;
+
+/// Depth of a bond in kT at which wrong meetings are weighed.
+const DEPTH: f64 = 8.0;
+/// Bonds whose depths differ by less than this share may take each other's words.
+const ALIKE: f64 = 0.05;
+/// Rounds of exchanges at most.
+const ROUNDS: usize = 12;
+
+/// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
+/// `all` for the strongest bonds, then exchanged.
+pub fn assign(all: &Matrix, wiring: &Wiring) -> Vec<Word> {
+    let (there, needed) = (all.words.len(), wiring.bonds.len());
+    let mut by_depth: Vec<usize> = (0..there).collect();
+    // Depths that differ in their last digits only are the same.
+    let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
+    by_depth.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
+    let mut by_strength: Vec<usize> = (0..needed).collect();
+    by_strength.sort_by(|a, b| {
+        wiring.bonds[*b]
+            .strength
+            .total_cmp(&wiring.bonds[*a].strength)
+    });
+    // Faces of bonds, then words that are left.
+    let mut faces = vec![0; needed];
+    for (bond, word) in by_strength.iter().zip(&by_depth) {
+        faces[*bond] = *word;
+    }
+    faces.extend(by_depth.iter().skip(needed));
+    let weights = Weights { all, wiring };
+    for _ in 0..ROUNDS {
+        let mut better = false;
+        for i in 0..needed {
+            let mut turned = faces.clone();
+            turned[i] = mate(faces[i], there);
+            better |= weights.take(&mut faces, turned, &[i]);
+            for k in i + 1..there {
+                let depths = [faces[i], faces[k]].map(|face| all.bond(face % there));
+                if (depths[0] / depths[1] - 1.0).abs() > ALIKE {
+                    continue;
+                }
+                let mut swapped = faces.clone();
+                swapped.swap(i, k);
+                let changed = if k < needed { &[i, k][..] } else { &[i] };
+                better |= weights.take(&mut faces, swapped, changed);
+            }
+        }
+        if !better {
+            break;
+        }
+    }
+    faces[..needed].iter().map(|face| all.code(*face)).collect()
+}
+
+fn mate(face: usize, words: usize) -> usize {
+    (face + words) % (2 * words)
+}
+
+struct Weights<'a> {
+    all: &'a Matrix,
+    wiring: &'a Wiring,
+}
+
+impl Weights<'_> {
+    /// Takes other faces if what changes by them becomes less.
+    fn take(&self, faces: &mut Vec<usize>, others: Vec<usize>, changed: &[usize]) -> bool {
+        let (before, after) = (self.of(faces, changed), self.of(&others, changed));
+        let better = after < before * (1.0 - 1e-9);
+        if better {
+            *faces = others;
+        }
+        better
+    }
+
+    /// Of the wrong meetings of some bonds.
+    fn of(&self, faces: &[usize], changed: &[usize]) -> f64 {
+        let (all, bonds) = (self.all, &self.wiring.bonds);
+        let meeting = |i: usize, j: usize| {
+            let energy = all.energies[faces[i]][mate(faces[j], all.words.len())];
+            let unit = all.bond(faces[i] % all.words.len()) / bonds[i].strength;
+            (-DEPTH * energy / unit).exp()
+        };
+        let with = |i: &usize| -> f64 {
+            let others = (0..bonds.len()).filter(|j| j != i && bonds[*j].axis == bonds[*i].axis);
+            others.map(|j| meeting(*i, j) + meeting(j, *i)).sum()
+        };
+        changed.iter().map(with).sum()
+    }
+}

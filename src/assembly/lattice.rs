@@ -1,0 +1,63 @@
+//! Lattices: every place a tile of its own, or all places the same tile.
+
+use super::{TileSet, TileType};
+
+/// Most tiles of a lattice.
+pub const MOST_TILES: usize = 1024;
+
+/// The words that a lattice of `rows` by `columns` tiles of their own needs:
+/// `m (n - 1) + n (m - 1)`, one for every two neighbours.
+pub fn words(rows: usize, columns: usize) -> usize {
+    rows * (columns - 1) + columns * (rows - 1)
+}
+
+/// The lattice in which every tile has its place: glues are used once. One bond holds a tile
+/// (tau 1).
+pub fn unique(rows: usize, columns: usize) -> TileSet {
+    let mut set = TileSet {
+        name: format!("lattice-{rows}x{columns}"),
+        tau: Some(1.0),
+        size: Some([rows + 4, columns + 4]),
+        seed: vec![(2, 2, 0)],
+        ..TileSet::default()
+    };
+    for row in 0..rows {
+        for column in 0..columns {
+            let name = |what: &str, row: usize, column: usize| format!("{what}{row}-{column}");
+            let glues = [
+                (row > 0).then(|| name("v", row, column)),
+                (column + 1 < columns).then(|| name("h", row, column + 1)),
+                (row + 1 < rows).then(|| name("v", row + 1, column)),
+                (column > 0).then(|| name("h", row, column)),
+            ];
+            let glues = glues.map(|name| name.map(|name| set.glue(&name, 1.0)));
+            set.tiles.push(TileType {
+                name: name("t", row, column),
+                glues,
+                stoic: 1.0,
+                color: None,
+            });
+        }
+    }
+    set
+}
+
+/// The lattice of one tile, on a canvas of so many rows and columns.
+pub fn homogeneous(rows: usize, columns: usize) -> TileSet {
+    let mut set = TileSet {
+        name: "homogeneous".to_owned(),
+        tau: Some(1.0),
+        size: Some([rows + 4, columns + 4]),
+        seed: vec![(2 + rows / 2, 2 + columns / 2, 0)],
+        ..TileSet::default()
+    };
+    let [v, h] = ["v", "h"].map(|name| Some(set.glue(name, 1.0)));
+    let glues = [v, h, v, h];
+    set.tiles.push(TileType {
+        name: "t".to_owned(),
+        glues,
+        stoic: 1.0,
+        color: None,
+    });
+    set
+}

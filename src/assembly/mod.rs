@@ -1,0 +1,236 @@
+//! From a pair of tiles to an assembly: tile sets whose glues are words.
+//!
+//! Models of tile assembly (Winfree's kTAM, and its abstract sister aTAM) know square tiles with a
+//! glue on each face, a matrix of strengths between glues, and two energies in kT: Gse, what a bond
+//! of strength 1 holds with, and Gmc, what it costs a tile to dock. Here every glue becomes a word
+//! of magnets and every strength an energy of two faces; what comes out runs in the engines `xgrow`
+//! and `rgrow` as it is. The growth is theirs.
+//!
+//! kTAM tiles do not turn, magnetic ones do. So a glue on the axis from west to east and the same
+//! glue on that from south to north are two [`wiring::Bond`]s, with a word each: the tile's east or
+//! north face carries the word, the other one's west or south face its mate.
+//!
+//! - [`TileSet`] - tiles, glues, strengths, seed; [`rgrow`], [`xgrow`] - as the engines write them;
+//! - [`wiring`] - which faces bind which: the words that are needed;
+//! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
+//! - [`growth`] - what grows without errors;
+//! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`slides`] - what engines leave out;
+//! - [`built`] - all of it for one shaking and one coverage of the table.
+
+mod assignment;
+pub mod built;
+pub mod choice;
+pub mod growth;
+pub mod lattice;
+pub mod matrix;
+pub mod proofread;
+pub mod rgrow;
+pub mod slides;
+pub mod square;
+pub mod wiring;
+pub mod xgrow;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use crate::design::{DesignError, Place};
+
+pub use built::{Built, Shaking};
+pub use wiring::{Axis, Wiring};
+
+/// North, east, south and west: the order of a tile's glues.
+pub const SIDES: [&str; 4] = ["north", "east", "south", "west"];
+
+/// A tile of a set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TileType {
+    /// Its name; the engines call nameless ones by their numbers from 1.
+    pub name: String,
+    /// Glues, by their places in [`TileSet::glues`], in the order of [`SIDES`]; `None` for a face
+    /// that holds nothing.
+    pub glues: [Option<usize>; 4],
+    /// Its share of the tiles on the table, against that of a usual tile.
+    pub stoic: f64,
+    /// As the engines name it.
+    pub color: Option<String>,
+}
+
+/// A glue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Glue {
+    /// Its name.
+    pub name: String,
+    /// With what it holds itself, in Gse.
+    pub strength: f64,
+}
+
+/// A tile set, as models of tile assembly have it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TileSet {
+    /// What it is called.
+    pub name: String,
+    /// Its tiles.
+    pub tiles: Vec<TileType>,
+    /// Its glues.
+    pub glues: Vec<Glue>,
+    /// Two different glues and with what they hold each other, in Gse.
+    pub links: Vec<(usize, usize, f64)>,
+    /// Tiles that are there from the beginning: row (from the north), column (from the west), tile.
+    pub seed: Vec<(usize, usize, usize)>,
+    /// Rows and columns of the canvas.
+    pub size: Option<[usize; 2]>,
+    /// Least strength that holds a tile.
+    pub tau: Option<f64>,
+    /// Gse in kT.
+    pub gse: Option<f64>,
+    /// Gmc in kT.
+    pub gmc: Option<f64>,
+}
+
+/// A tile set may have so many tiles, and so many glues.
+pub const MOST: usize = 4096;
+
+impl TileSet {
+    /// Reads a file: YAML or JSON of rgrow, or `.tiles` of xgrow, whatever its name.
+    ///
+    /// # Errors
+    /// Where it cannot be read or is no tile set.
+    pub fn load(path: &Path) -> Result<Self, DesignError> {
+        let file = path.display().to_string();
+        let text = crate::design::read_text(path).map_err(|error| DesignError {
+            file: file.clone(),
+            place: None,
+            message: format!("cannot read the tile set: {error}"),
+            help: "check the path; shipped tile sets are in shapes/assemblies/".to_owned(),
+            also: Vec::new(),
+        })?;
+        Self::parse(&text, &file)
+    }
+
+    /// Reads a tile set from the text of its file.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn parse(text: &str, file: &str) -> Result<Self, DesignError> {
+        let mut set = match text.contains("tile edges=") && text.contains("num tile types=") {
+            true => xgrow::read(text, file)?,
+            false => rgrow::read(text, file)?,
+        };
+        let stem = Path::new(file).file_stem();
+        set.name = stem.map_or(file.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        set.check(text, file)?;
+        Ok(set)
+    }
+
+    /// With what a glue of an east or north face holds one of a west or south face, in Gse.
+    pub fn strength(&self, a: usize, b: usize) -> f64 {
+        if a == b {
+            return self.glues[a].strength;
+        }
+        let same = |link: &&(usize, usize, f64)| [(a, b), (b, a)].contains(&(link.0, link.1));
+        let link = self.links.iter().rev().find(same);
+        link.map_or(0.0, |link| link.2)
+    }
+
+    /// All strengths at once, by glue and glue.
+    pub fn strengths(&self) -> Vec<Vec<f64>> {
+        let n = self.glues.len();
+        let mut table = vec![vec![0.0; n]; n];
+        for (a, b, strength) in &self.links {
+            table[*a][*b] = *strength;
+            table[*b][*a] = *strength;
+        }
+        for (a, glue) in self.glues.iter().enumerate() {
+            table[a][a] = glue.strength;
+        }
+        table
+    }
+
+    /// The least strength that holds a tile; 2, as is usual, where the set does not say.
+    pub fn tau(&self) -> f64 {
+        self.tau.unwrap_or(2.0)
+    }
+
+    /// The place of a glue of this name, which is added if it is new.
+    pub fn glue(&mut self, name: &str, strength: f64) -> usize {
+        let known = self.glues.iter().position(|glue| glue.name == name);
+        known.unwrap_or_else(|| {
+            let name = name.to_owned();
+            self.glues.push(Glue { name, strength });
+            self.glues.len() - 1
+        })
+    }
+
+    /// What is wrong with a set that is well written.
+    fn check(&self, text: &str, file: &str) -> Result<(), DesignError> {
+        let wrong = |needle: &str, message: String, help: &str| {
+            Err(fault(text, file, needle, message, help))
+        };
+        if self.tiles.is_empty() {
+            return wrong("", "it has no tiles".to_owned(), "list them under `tiles`");
+        }
+        if self.tiles.len() > MOST || self.glues.len() > MOST {
+            let message = format!("it has more than {MOST} tiles or glues");
+            return wrong("", message, "split the set");
+        }
+        for (i, tile) in self.tiles.iter().enumerate() {
+            if self.tiles[..i].iter().any(|other| other.name == tile.name) {
+                let message = format!("the tile `{}` is there twice", tile.name);
+                return wrong(&tile.name, message, "give every tile a name of its own");
+            }
+            if !(tile.stoic.is_finite() && tile.stoic >= 0.0) {
+                let message = format!("the tile `{}` has a share of {}", tile.name, tile.stoic);
+                return wrong(&tile.name, message, "a share (stoic) is a number from 0 on");
+            }
+        }
+        let strengths = self.glues.iter().map(|glue| glue.strength);
+        let mut numbers = strengths
+            .chain(self.links.iter().map(|link| link.2))
+            .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
+        if numbers.any(|x| !x.is_finite()) {
+            return wrong(
+                "",
+                "a strength is no number".to_owned(),
+                "write it as 1 or 0.5",
+            );
+        }
+        for (row, column, tile) in &self.seed {
+            let [rows, columns] = self.size.unwrap_or([usize::MAX; 2]);
+            if *tile >= self.tiles.len() || *row >= rows || *column >= columns {
+                let message = format!("the seed at {row}, {column} is no tile on the canvas");
+                return wrong("seed", message, "write seed: [row, column, tile]");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A fault at the place where a text gives something the name `needle`, or first has it.
+pub(crate) fn fault(
+    text: &str,
+    file: &str,
+    needle: &str,
+    message: String,
+    help: &str,
+) -> DesignError {
+    let named = |before: &str, after: &str| {
+        let at = text.find(&format!("{before}{needle}{after}"))?;
+        Some(at + before.len())
+    };
+    let at = match needle {
+        "" => None,
+        _ => named("name: ", ",")
+            .or_else(|| named("name: \"", "\""))
+            .or_else(|| named("\"name\": \"", "\""))
+            .or_else(|| text.find(needle)),
+    };
+    DesignError {
+        file: file.to_owned(),
+        place: at.map(|at| Box::new(Place::of(text, at..at + needle.len()))),
+        message,
+        help: help.to_owned(),
+        also: Vec::new(),
+    }
+}

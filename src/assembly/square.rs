@@ -1,0 +1,178 @@
+//! Squares by counting: N x N tiles from O(log N) kinds of them.
+//!
+//! After Rothemund and Winfree, *The program-size complexity of self-assembled squares* (STOC
+//! 2000): a binary counter of n = O(log N) bits along the west edge and one along the south edge
+//! count until they overflow, and one tile fills what lies between. A counter goes to and fro: a line
+//! of increments from its least bit to its highest one, a line of copies back. The highest bit of a
+//! line of increments begins the next line unless it overflows, so from the value c there are
+//! 2 (2^n - c) lines, the first one included; where their number is odd, one of caps is added.
+
+use super::{TileSet, TileType};
+
+/// The least side; and the largest, which a canvas holds.
+pub const SIDES: [usize; 2] = [8, 512];
+
+/// Bits of the two counters.
+fn bits(side: usize) -> usize {
+    let lines = side.div_ceil(2);
+    (usize::BITS - (lines - 1).leading_zeros()).max(2) as usize
+}
+
+/// The set for a square of `side` tiles a side.
+pub fn counted(side: usize) -> TileSet {
+    let n = bits(side);
+    let mut set = TileSet {
+        name: format!("square-{side}"),
+        tau: Some(2.0),
+        size: Some([side + 4; 2]),
+        seed: vec![(side + 1, 2, 0)],
+        ..TileSet::default()
+    };
+    // The west counter's lines are rows; the south one's are columns, its copy in the diagonal.
+    let corner = Counter {
+        prefix: "w",
+        side: "fill-e",
+        n,
+        lines: side,
+        transposed: false,
+    };
+    let along = Counter {
+        prefix: "s",
+        side: "fill-n",
+        n,
+        lines: side - n,
+        transposed: true,
+    };
+    corner.add(&mut set, [None, Some("s-first")]);
+    along.add(&mut set, [Some("s-first"), None]);
+    let fill = [along.side, corner.side].map(|name| Some(set.glue(name, 1.0)));
+    let glues = [fill[0], fill[1], fill[0], fill[1]];
+    set.tiles.push(tile("fill", glues));
+    set
+}
+
+/// A counter; words as if it counted northwards, highest bit in the west.
+struct Counter {
+    prefix: &'static str,
+    /// The glue of its outer side.
+    side: &'static str,
+    n: usize,
+    lines: usize,
+    transposed: bool,
+}
+
+fn tile(name: &str, glues: [Option<usize>; 4]) -> TileType {
+    TileType {
+        name: name.to_owned(),
+        glues,
+        stoic: 1.0,
+        color: None,
+    }
+}
+
+impl Counter {
+    /// Adds its tiles; its first tile stands on the one strong glue, and its first line ends with
+    /// the other.
+    fn add(&self, set: &mut TileSet, [first, last]: [Option<&str>; 2]) {
+        let (n, p) = (self.n, self.prefix);
+        let capped = self.lines % 2 == 1;
+        let start = (1_usize << n) - self.lines / 2;
+        let strong = |name: String| Some((name, 2.0));
+        let weak = |name: String| Some((name, 1.0));
+        // The ends of a line have glues of their own, so that no other tile takes their places.
+        let bit = |b: usize| weak(format!("{p}-{b}"));
+        let high = |b: usize| weak(format!("{p}-high-{b}"));
+        let least = |b: usize| weak(format!("{p}-least-{b}"));
+        let begin = |end: &str, b: usize| strong(format!("{p}-{end}-{b}"));
+        let outer = || weak(self.side.to_owned());
+        for k in 0..n {
+            let b = start >> (n - 1 - k) & 1;
+            let link = |k: usize| strong(format!("{p}-line-{k}"));
+            let west = (k > 0).then(|| link(k)).flatten();
+            let south = first
+                .filter(|_| k == 0)
+                .and_then(|name| strong(name.to_owned()));
+            let is_least = k == n - 1;
+            let east = match (is_least, last) {
+                (false, _) => link(k + 1),
+                (true, Some(name)) => strong(name.to_owned()),
+                (true, None) => outer(),
+            };
+            let north = match k {
+                0 => high(b),
+                _ if is_least => begin("up", b),
+                _ => bit(b),
+            };
+            self.tile(set, &format!("{p}-first-{k}"), [north, east, south, west]);
+        }
+        let carry = |c: usize| weak(format!("{p}-carry-{c}"));
+        let copy = || weak(format!("{p}-copy"));
+        for b in 0..2 {
+            let name = |what: &str| format!("{p}-{what}-{b}");
+            self.tile(
+                set,
+                &name("flip"),
+                [least(1 - b), outer(), begin("up", b), carry(b)],
+            );
+            self.tile(
+                set,
+                &name("copy-high"),
+                [high(b), copy(), begin("back", b), None],
+            );
+            self.tile(
+                set,
+                &name("copy-least"),
+                [begin("up", b), outer(), least(b), copy()],
+            );
+            if n > 2 {
+                self.tile(set, &name("copy"), [bit(b), copy(), bit(b), copy()]);
+            }
+            for c in 0..2 {
+                let (sum, over) = (b ^ c, b & c);
+                if n > 2 {
+                    let name = format!("{p}-add-{b}{c}");
+                    self.tile(set, &name, [bit(sum), carry(c), bit(b), carry(over)]);
+                }
+                let north = match over {
+                    0 => begin("back", sum),
+                    _ => capped.then(|| begin("cap", 0)).flatten(),
+                };
+                self.tile(
+                    set,
+                    &format!("{p}-high-{b}{c}"),
+                    [north, carry(c), high(b), None],
+                );
+            }
+        }
+        if capped {
+            let cap = || weak(format!("{p}-cap"));
+            self.tile(
+                set,
+                &format!("{p}-cap-high"),
+                [None, cap(), begin("cap", 0), None],
+            );
+            self.tile(
+                set,
+                &format!("{p}-cap-least"),
+                [None, outer(), least(0), cap()],
+            );
+            if n > 2 {
+                self.tile(
+                    set,
+                    &format!("{p}-cap-middle"),
+                    [None, cap(), bit(0), cap()],
+                );
+            }
+        }
+    }
+
+    fn tile(&self, set: &mut TileSet, name: &str, glues: [Option<(String, f64)>; 4]) {
+        let [n, e, s, w] = glues.map(|glue| glue.map(|(name, strength)| set.glue(&name, strength)));
+        let glues = if self.transposed {
+            [e, n, w, s]
+        } else {
+            [n, e, s, w]
+        };
+        set.tiles.push(tile(name, glues));
+    }
+}

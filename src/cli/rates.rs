@@ -1,0 +1,243 @@
+//! `tilebind rates`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::design::Design;
+use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
+use tilebind::dynamics::{Body, MotionSettings};
+use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
+use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
+use tilebind::observer::Observer;
+use tilebind::report::{json, rates as report, writer};
+use tilebind::{Configuration, Problem, Settings, pipeline};
+
+use super::options::{DesignOptions, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt, memory, print};
+
+/// Part of the bond's energy below which a tile counts as bound, and part of the way up to its
+/// lowest barrier to which the basin of a state reaches.
+const BASIN: f64 = 0.5;
+/// Barriers of states with rates are at least so many kT high.
+const LEAST_BARRIER: f64 = 2.0;
+
+/// Mean exit times after which a moving tile is given up.
+const PATIENCE: f64 = 30.0;
+
+/// Print how fast shaken tiles bind, come off and change between states
+#[derive(Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
+reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
+(x, y, theta) that is refined where it matters. Without --start: rates between the bond, the deepest
+traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
+beside every number.
+
+kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
+energy; tiles that glide far between knocks, or whose knocks take what shaking does not give back,
+have none.
+
+Examples:
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --out target/rates
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
+  tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
+    --basin-energy -0.03 --free-at 0.75 --json"
+)]
+pub struct Rates {
+    #[command(flatten)]
+    design: DesignOptions,
+
+    /// Effective energy of shaking (J)
+    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    kt: f64,
+
+    /// Drag rate (1/s): the drag is this times the mass
+    #[arg(long, value_name = "RATE", default_value_t = 50.0, value_parser = input::positive)]
+    drag: f64,
+
+    /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = input::pose)]
+    start: Option<Configuration>,
+
+    /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
+    /// [default: half the bond's energy; without --start half way up to its lowest barrier]
+    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = input::negative)]
+    basin_energy: Option<f64>,
+
+    /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
+    #[arg(long, value_name = "R", value_parser = input::length)]
+    free_at: Option<f64>,
+
+    /// Kinds of traps with rates, the deepest first
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = input::count_or_none,
+          conflicts_with = "start")]
+    traps: usize,
+
+    /// Folder for rates.csv and occupation.csv
+    #[arg(long, value_name = "DIR", conflicts_with = "start")]
+    out: Option<PathBuf>,
+
+    /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
+    /// that of overdamped motion
+    #[arg(long, value_name = "N", requires = "start", value_parser = input::runs)]
+    check: Option<usize>,
+
+    /// Share of the approach velocity that a knock gives back, in --check
+    #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
+          value_parser = input::not_negative)]
+    restitution: f64,
+
+    #[command(flatten)]
+    work: WorkOptions,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+impl Rates {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        let design = self.design.load()?;
+        self.work.use_threads()?;
+        match self.start {
+            Some(start) => self.exit(&design, start),
+            None => self.table(&design),
+        }
+    }
+
+    fn exit(&self, design: &Design, start: Configuration) -> Result<(), Failure> {
+        input::doubt_pose(design, &start);
+        let problem = design.problem();
+        let half = || BASIN * problem.energy(&design.pair.bound);
+        let basin = self.basin_energy.unwrap_or_else(half);
+        let asked = ExitSettings::new(self.kt, start, basin, self.free_at(design));
+        let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {
+            ExitError::Unsolved(_) => Failure::Run(error.to_string()),
+            _ => Failure::Usage(error.to_string()),
+        })?;
+        let motion = report::Motion::new(design, self.kt, self.drag);
+        let mean = found.finest().time / motion.diffusion;
+        let checked = self.check.map(|runs| {
+            let runs = self.runs(&asked, runs, mean);
+            self.let_go(&problem, &Body::of_tile(&design.pair.moving), &runs)
+        });
+        let checked = checked.transpose()?;
+        print(&if self.print.json {
+            let mut entry = report::exit_entry(&asked, &motion, &found);
+            if let Some(runs) = &checked {
+                entry["check"] = report::check_entry(&motion, &found, runs);
+            }
+            json::text(&entry)
+        } else {
+            let text = report::exit_summary(design, &asked, &motion, &found);
+            let check = checked.map(|runs| report::check_summary(&motion, &found, &runs));
+            text + &check.unwrap_or_default()
+        })
+    }
+
+    fn runs(&self, asked: &ExitSettings, runs: usize, mean: f64) -> ExitRunSettings {
+        ExitRunSettings {
+            start: asked.start,
+            basin_energy: asked.basin_energy,
+            free_at: asked.free_at,
+            runs,
+            seed: self.work.seed,
+            longest: PATIENCE * mean,
+        }
+    }
+
+    /// Tiles that really move.
+    fn let_go(
+        &self,
+        problem: &Problem,
+        body: &Body,
+        asked: &ExitRunSettings,
+    ) -> Result<ExitRuns, Failure> {
+        let motion = MotionSettings {
+            drag: self.drag,
+            restitution: self.restitution,
+            friction: 0.0,
+            walls: false,
+            shaking: Some(self.kt),
+            ..MotionSettings::default()
+        };
+        exits(problem, *body, &motion, asked).map_err(|error| Failure::Usage(error.to_string()))
+    }
+
+    fn free_at(&self, design: &Design) -> f64 {
+        self.free_at.unwrap_or(design.space().free_distance)
+    }
+
+    fn table(&self, design: &Design) -> Result<(), Failure> {
+        if let Some(folder) = &self.out {
+            input::check_folder(folder)?;
+        }
+        let settings = self.survey();
+        memory::check(settings.milestones, None, 1)?;
+        let progress = self.print.progress();
+        let analysis = pipeline::analyse(design, &settings, &progress);
+        progress.stage("rates", 0.9);
+        let places = self.places(&analysis);
+        let basins = places.iter().map(|place| Basin {
+            at: place.at,
+            below: place.below,
+        });
+        let asked = RateSettings::new(self.kt, basins.collect(), self.free_at(design));
+        let found = rates(&analysis.problem, &asked).map_err(|error| match error {
+            RatesError::Unsolved(_) => Failure::Run(error.to_string()),
+            _ => Failure::Usage(error.to_string()),
+        })?;
+        progress.finish();
+        let motion = report::Motion::new(design, self.kt, self.drag);
+        let table = report::Table {
+            design,
+            asked: &asked,
+            motion: &motion,
+            places: &places,
+            found: &found,
+        };
+        if let Some(folder) = &self.out {
+            let files = [
+                ("rates.csv", table.rates_csv().into_bytes()),
+                ("occupation.csv", table.occupation_csv().into_bytes()),
+            ];
+            interrupt::without(|| writer::write_each(folder, &files))?;
+        }
+        self.print
+            .results(&json::text(&table.entry()), || table.summary())
+    }
+
+    /// States and their lowest barriers are needed, and no proofs.
+    fn survey(&self) -> Settings {
+        let mut settings = Settings {
+            seed: self.work.seed,
+            far_starts: 0,
+            certify_seconds: 0.0,
+            ..Settings::default()
+        };
+        settings.completeness.seconds = 0.0;
+        settings
+    }
+
+    /// The bond and the deepest traps that hold at this kT.
+    fn places(&self, analysis: &pipeline::Analysis) -> Vec<report::Place> {
+        let inventory = &analysis.inventory;
+        let named = inventory.kinds().zip(inventory.names());
+        let held = named.filter_map(|(kind, name)| {
+            let state = kind.first();
+            let barrier = analysis.escape(state.id)?.forward();
+            let holds = kind.is_bond() || barrier >= LEAST_BARRIER * self.kt;
+            let below = self.basin_energy.filter(|_| kind.is_bond());
+            holds.then(|| report::Place {
+                name: format!("{} {name}", if kind.is_bond() { "bond" } else { "trap" }),
+                at: state.configuration,
+                energy: state.energy,
+                below: below.unwrap_or(state.energy + BASIN * barrier),
+                copies: kind.copies(),
+            })
+        });
+        held.take(1 + self.traps).collect()
+    }
+}

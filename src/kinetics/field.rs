@@ -1,0 +1,233 @@
+//! A mesh at one temperature, and how it is refined.
+
+use std::cmp::Reverse;
+
+use nalgebra::Vector3;
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::mesh::{Chart, Element, Integrator, Nodes, Octree, gradients, shapes};
+use super::sets;
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+
+/// First cells from the centre to the end of the chart.
+const FIRST: f64 = 32.0;
+/// Size (m) of the cells that hold a seed at most.
+const SEED: f64 = 4e-3;
+/// Size (m) to which they are divided where no energy near the seed's has been met in them, ...
+const LEAST_SEED: f64 = 2e-4;
+/// ... which is one that is higher by so many kT at most.
+const NEAR: f64 = 2.0;
+/// Share of the estimated error in the cells that are divided.
+const DIVIDED: f64 = 0.7;
+/// The level of the barriers is taken anew where it has moved by so many kT.
+const MOVED: f64 = 2.0;
+
+/// A mesh with what is integrated over its cells at one temperature.
+pub(super) struct Field<'a> {
+    pub mesh: Octree,
+    pub kt: f64,
+    problem: &'a Problem,
+    integrator: Integrator<'a>,
+}
+
+/// Functions on a mesh that has been refined since.
+pub(super) type Earlier = (Nodes, Vec<Vec<f64>>);
+
+impl<'a> Field<'a> {
+    /// Out to `radius` (m) at kT (J), with loads counted from the energy `ground` (J) on and small
+    /// cells about the `seeds`.
+    pub fn new(
+        problem: &'a Problem,
+        kt: f64,
+        radius: f64,
+        ground: f64,
+        seeds: &[Configuration],
+    ) -> Self {
+        let chart = Chart::new(problem, radius, radius / FIRST);
+        let mut field = Self {
+            mesh: Octree::new(chart, problem.space.rho),
+            kt,
+            problem,
+            integrator: Integrator::new(problem, kt, 0.0, ground),
+        };
+        field.evaluate();
+        loop {
+            let size = |id: &usize| field.mesh.chart.size(field.mesh.leaves[*id].level)[0];
+            let mut large = Vec::new();
+            for q in seeds {
+                let held = field.mesh.holding(q);
+                let lowest = |id: &usize| sets::lowest(&field.mesh, *id);
+                let met = held.iter().map(lowest).fold(f64::INFINITY, f64::min);
+                let is_met = met < problem.energy(q) + NEAR * kt;
+                let least = if is_met { SEED } else { LEAST_SEED };
+                large.extend(held.into_iter().filter(|id| size(id) > least));
+            }
+            if large.is_empty() {
+                return field;
+            }
+            for id in large {
+                field.mesh.divide(id);
+            }
+            field.evaluate();
+        }
+    }
+
+    /// Integrates over the cells that are new.
+    fn evaluate(&mut self) {
+        let is_new = |id: &usize| {
+            let leaf = &self.mesh.leaves[*id];
+            leaf.live && !leaf.blocked && !leaf.seen
+        };
+        let new: Vec<usize> = (0..self.mesh.leaves.len()).filter(is_new).collect();
+        let integrate = |&id: &usize| {
+            self.integrator
+                .integrate(&self.mesh.chart, &self.mesh.leaves[id])
+        };
+        let found: Vec<_> = new.par_iter().map(integrate).collect();
+        for (id, (element, blocked)) in new.into_iter().zip(found) {
+            let leaf = &mut self.mesh.leaves[id];
+            leaf.seen = true;
+            leaf.element = element;
+            leaf.blocked = blocked;
+        }
+    }
+
+    /// The energy (J) about which weights are kept in bounds.
+    pub fn level(&self) -> f64 {
+        self.integrator.level
+    }
+
+    /// U (J) at a configuration.
+    pub fn energy_at(&self, q: &Configuration) -> f64 {
+        self.problem.energy(q)
+    }
+
+    /// The energy (J) from which loads are counted.
+    pub fn ground(&self) -> f64 {
+        self.integrator.ground
+    }
+
+    /// Has weights kept in bounds about another energy (J), unless it is much the same.
+    pub fn set_level(&mut self, level: f64) {
+        if (level - self.integrator.level).abs() > MOVED * self.kt {
+            self.integrator.level = level;
+            for leaf in &mut self.mesh.leaves {
+                leaf.seen = false;
+            }
+            self.evaluate();
+        }
+    }
+
+    /// Divides the cells with the largest shares of an estimated error.
+    pub fn refine(&mut self, shares: &[f64]) {
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by_key(|&id| Reverse(OrderedFloat(shares[id])));
+        let mut left = DIVIDED * shares.iter().sum::<f64>();
+        let first = |id: &usize| {
+            let divided = left > 0.0;
+            left -= shares[*id];
+            divided
+        };
+        let marked: Vec<usize> = order.into_iter().take_while(first).collect();
+        for id in marked {
+            self.mesh.divide(id);
+        }
+        self.evaluate();
+    }
+
+    /// The integral of w grad f . grad f of a function (rad).
+    pub fn energy(&self, nodes: &Nodes, values: &[f64]) -> f64 {
+        let of = |(id, _, element): (usize, _, &Element)| -> f64 {
+            let own = nodes.of(id, values);
+            element
+                .times(&own)
+                .iter()
+                .zip(own)
+                .map(|(a, b)| a * b)
+                .sum()
+        };
+        self.mesh.live().map(of).sum()
+    }
+
+    /// The estimated errors of functions' energies by cells, each relative to the function's energy
+    /// and added up, and the largest of the functions' own sums.
+    ///
+    /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient against
+    /// the continuous one that comes of averaging it at the corners.
+    pub fn errors(&self, nodes: &Nodes, functions: &[Vec<f64>]) -> (Vec<f64>, f64) {
+        let mut shares = vec![0.0; self.mesh.leaves.len()];
+        let mut largest: f64 = 0.0;
+        for values in functions {
+            let energy = self.energy(nodes, values).max(f64::MIN_POSITIVE);
+            let mut sum = 0.0;
+            for (id, error) in self.gradient_errors(nodes, values) {
+                shares[id] += error / energy;
+                sum += error / energy;
+            }
+            largest = largest.max(sum);
+        }
+        (shares, largest)
+    }
+
+    fn gradient_errors(&self, nodes: &Nodes, values: &[f64]) -> Vec<(usize, f64)> {
+        let mut averages = vec![(Vector3::zeros(), 0.0); nodes.len()];
+        for (id, _, element) in self.mesh.live() {
+            for (corner, &node) in nodes.corners[id].iter().enumerate() {
+                let (sum, weight) = &mut averages[node as usize];
+                *sum += self.slope(nodes, values, id, corner) * element.weight;
+                *weight += element.weight;
+            }
+        }
+        let error = |(id, _, element): (usize, _, &Element)| {
+            let corners = nodes.corners[id].iter().enumerate();
+            let squares = corners.map(|(corner, &node)| {
+                let (sum, weight) = averages[node as usize];
+                (self.slope(nodes, values, id, corner) - sum / weight).norm_squared()
+            });
+            (id, element.weight * squares.sum::<f64>() / 8.0)
+        };
+        self.mesh.live().map(error).collect()
+    }
+
+    /// The gradient (1/m) at a corner of a cell.
+    fn slope(&self, nodes: &Nodes, values: &[f64], id: usize, corner: usize) -> Vector3<f64> {
+        let leaf = &self.mesh.leaves[id];
+        let part = std::array::from_fn(|i| (corner >> i & 1) as f64);
+        let values = nodes.of(id, values);
+        let [dr, dphi, dtheta] = self.mesh.chart.size(leaf.level);
+        let r = self
+            .mesh
+            .chart
+            .coordinates(leaf.low.map(|units| units as f64))[0]
+            + dr / 2.0;
+        let slopes = gradients(part).into_iter().zip(values);
+        let by: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
+        by.component_div(&Vector3::new(dr, r * dphi, self.mesh.rho * dtheta))
+    }
+
+    /// Functions on an earlier mesh, as good as they are on this one.
+    pub fn carry_over(&self, nodes: &Nodes, (old, functions): &Earlier) -> Vec<Vec<f64>> {
+        let mut carried = vec![vec![0.0; nodes.len()]; functions.len()];
+        for (id, leaf, _) in self.mesh.live() {
+            let mut ancestor = Some(id);
+            while let Some(cell) = ancestor.filter(|&cell| !old.know(cell)) {
+                ancestor = self.mesh.leaves[cell].parent.map(|parent| parent as usize);
+            }
+            let Some(ancestor) = ancestor else { continue };
+            let large = &self.mesh.leaves[ancestor];
+            for (number, &node) in nodes.corners[id].iter().enumerate() {
+                let place = leaf.corner(number);
+                let aside = |i: usize| (place[i] - large.low[i]) as f64;
+                let part = std::array::from_fn(|i| aside(i) / large.size() as f64);
+                let shapes = shapes(part);
+                for (new, values) in carried.iter_mut().zip(functions) {
+                    let values = old.of(ancestor, values);
+                    new[node as usize] = shapes.iter().zip(values).map(|(s, v)| s * v).sum();
+                }
+            }
+        }
+        carried
+    }
+}

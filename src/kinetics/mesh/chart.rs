@@ -1,0 +1,148 @@
+//! Polar coordinates of the configurations, folded by the pair's symmetries.
+
+use std::f64::consts::TAU;
+
+use crate::cell::Cell;
+use crate::configuration::Configuration;
+use crate::problem::{Problem, Symmetry};
+
+/// Halvings of a first cell, at most.
+pub(in crate::kinetics) const DEEPEST: u8 = 12;
+/// Smallest units in a first cell.
+pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
+
+/// Places in a mesh: (r, phi, theta) in its smallest units.
+pub(in crate::kinetics) type Place = [i64; 3];
+
+/// The configurations with centres at most `radius` apart, in the coordinates (r, phi, theta) with
+/// x = r cos phi, y = r sin phi, of which only one of all that are equivalent under the symmetries
+/// of the pair is kept: phi in one turn of the fixed tile onto itself and theta in one of the moving
+/// tile. Going once round in phi turns theta on by the same turn.
+#[derive(Clone, Debug)]
+pub(in crate::kinetics) struct Chart {
+    /// Where r (m), phi and theta (rad) begin: so that the bond, which contact holds by edges, lies
+    /// on sides of cells.
+    origin: [f64; 3],
+    /// First cells along r, phi and theta.
+    pub(in crate::kinetics) cells: [i64; 3],
+    /// Their size (m, rad, rad).
+    step: [f64; 3],
+    /// First cells in theta by which a turn in phi turns theta on.
+    shift: i64,
+    /// How many configurations the chart shows as one.
+    copies: usize,
+}
+
+impl Chart {
+    /// Of the configurations of a problem out to `radius` (m), in first cells of about `size` (m).
+    pub fn new(problem: &Problem, radius: f64, size: f64) -> Self {
+        let of_fixed = |s: &&Symmetry| s.moving == 0.0;
+        let of_moving = |s: &&Symmetry| s.fixed == 0.0;
+        let fixed = problem.symmetries.iter().filter(of_fixed).count();
+        let moving = problem.symmetries.iter().filter(of_moving).count();
+        let bound = problem.pair.as_ref().map(|pair| pair.bound);
+        let bound = bound.unwrap_or(Configuration::new(radius / 2.0, 0.0, 0.0));
+        let periods = [fixed, moving].map(|n| TAU / n as f64);
+        let lever = bound.x.hypot(bound.y).clamp(0.2 * radius, radius);
+        let count = |length: f64| (length / size).round().max(2.0) as i64;
+        // A turn of the fixed tile has to be a whole number of cells in theta.
+        let whole = (fixed / greatest_common_divisor(fixed, moving)) as i64;
+        let along_theta = count(periods[1] * problem.space.rho);
+        let along_theta = (along_theta + whole - 1) / whole * whole;
+        let outside = (radius - lever).max(radius / 8.0);
+        let along_r = outside / count(outside) as f64;
+        let cells = [
+            (radius / along_r).floor() as i64,
+            count(periods[0] * lever),
+            along_theta,
+        ];
+        Self {
+            origin: [
+                radius - along_r * cells[0] as f64,
+                bound.y.atan2(bound.x),
+                bound.theta,
+            ],
+            cells,
+            step: [
+                along_r,
+                periods[0] / cells[1] as f64,
+                periods[1] / cells[2] as f64,
+            ],
+            shift: moving as i64 * along_theta / fixed as i64,
+            copies: fixed * moving,
+        }
+    }
+
+    /// How many configurations the chart shows as one.
+    pub(in crate::kinetics) fn copies(&self) -> usize {
+        self.copies
+    }
+
+    /// Size of a cell of this level (m, rad, rad).
+    pub(in crate::kinetics) fn size(&self, level: u8) -> [f64; 3] {
+        self.step.map(|step| step / f64::from(1u32 << level))
+    }
+
+    /// (r, phi, theta) of a place (m, rad, rad).
+    pub(in crate::kinetics) fn coordinates(&self, place: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| self.origin[i] + self.step[i] * place[i] / UNITS as f64)
+    }
+
+    /// The place of a configuration, folded, in smallest units.
+    pub(in crate::kinetics) fn place(&self, q: &Configuration) -> [f64; 3] {
+        let raw = [q.x.hypot(q.y), q.y.atan2(q.x), q.theta];
+        let at = |i: usize| (raw[i] - self.origin[i]) / self.step[i] * UNITS as f64;
+        let mut place: [f64; 3] = std::array::from_fn(at);
+        let period = self.period();
+        let turns = (place[1] / period[1]).floor();
+        place[1] -= turns * period[1];
+        place[2] -= turns * (self.shift * UNITS) as f64;
+        place[2] = place[2].rem_euclid(period[2]);
+        place
+    }
+
+    fn period(&self) -> [f64; 3] {
+        self.cells.map(|n| (n * UNITS) as f64)
+    }
+
+    /// A whole place, folded; `None` beyond the ends of r, the outer one included where `closed` is
+    /// false.
+    pub(in crate::kinetics) fn fold(&self, place: Place, closed: bool) -> Option<Place> {
+        let [r, phi, theta] = place;
+        let period = self.cells.map(|n| n * UNITS);
+        let is_inside = (0..period[0]).contains(&r) || (closed && r == period[0]);
+        let turns = phi.div_euclid(period[1]);
+        let turned = theta - turns * self.shift * UNITS;
+        let folded = [r, phi.rem_euclid(period[1]), turned.rem_euclid(period[2])];
+        is_inside.then_some(folded)
+    }
+
+    /// A box of configurations around the mesh's cell with this lower corner.
+    pub(in crate::kinetics) fn around(&self, low: Place, level: u8) -> Cell {
+        let size = self.size(level);
+        let [r, phi, theta] = self.coordinates(low.map(|units| units as f64));
+        let middle = [
+            r + size[0] / 2.0,
+            phi + size[1] / 2.0,
+            theta + size[2] / 2.0,
+        ];
+        let (sin, cos) = middle[1].sin_cos();
+        let arc = (r + size[0]) * size[1] / 2.0;
+        let sagitta = arc * size[1] / 4.0;
+        let half = |radial: f64, across: f64| {
+            radial.abs() * size[0] / 2.0 + across.abs() * arc + sagitta + 1e-12
+        };
+        Cell {
+            centre: Configuration::new(middle[0] * cos, middle[0] * sin, middle[2]),
+            half: [half(cos, sin), half(sin, cos), size[2] / 2.0 + 1e-12],
+        }
+    }
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
+}

@@ -1,0 +1,165 @@
+//! An octree over the folded configurations.
+
+use std::collections::HashMap;
+
+use super::chart::{Chart, DEEPEST, Place, UNITS};
+use super::element::Element;
+use crate::configuration::Configuration;
+
+/// A cell of the octree.
+#[derive(Clone, Debug)]
+pub(in crate::kinetics) struct Leaf {
+    /// Its lower corner.
+    pub low: Place,
+    /// How often it was halved.
+    pub level: u8,
+    /// Whether it has not been divided.
+    pub live: bool,
+    /// What is integrated over it; `None` where no configuration is free.
+    pub element: Option<Box<Element>>,
+    /// Whether contact proves that none is.
+    pub blocked: bool,
+    /// The cell it is a part of.
+    pub parent: Option<u32>,
+    /// Whether it has been looked at.
+    pub seen: bool,
+}
+
+impl Leaf {
+    fn new(low: Place, level: u8, blocked: bool, parent: Option<u32>) -> Self {
+        Self {
+            low,
+            level,
+            live: true,
+            element: None,
+            blocked,
+            seen: false,
+            parent,
+        }
+    }
+
+    /// Its size in smallest units.
+    pub fn size(&self) -> i64 {
+        UNITS >> self.level
+    }
+
+    /// A corner; bit i of its number says whether it is the upper one along coordinate i.
+    pub fn corner(&self, number: usize) -> Place {
+        std::array::from_fn(|i| self.low[i] + if number >> i & 1 == 1 { self.size() } else { 0 })
+    }
+}
+
+/// The cells, and which of them lies where.
+pub(in crate::kinetics) struct Octree {
+    pub chart: Chart,
+    pub leaves: Vec<Leaf>,
+    /// Radius of gyration (m).
+    pub rho: f64,
+    index: HashMap<(u8, Place), u32>,
+}
+
+impl Octree {
+    /// The first cells.
+    pub fn new(chart: Chart, rho: f64) -> Self {
+        let [n, m, l] = chart.cells;
+        let mut mesh = Self {
+            chart,
+            leaves: Vec::new(),
+            rho,
+            index: HashMap::new(),
+        };
+        for i in 0..n {
+            for j in 0..m {
+                for k in 0..l {
+                    mesh.add(Leaf::new([i * UNITS, j * UNITS, k * UNITS], 0, false, None));
+                }
+            }
+        }
+        mesh
+    }
+
+    fn add(&mut self, leaf: Leaf) {
+        self.index
+            .insert((leaf.level, leaf.low), self.leaves.len() as u32);
+        self.leaves.push(leaf);
+    }
+
+    /// The undivided cell that holds the unit cell with this lower corner.
+    pub fn find(&self, place: Place) -> Option<usize> {
+        let place = self.chart.fold(place, false)?;
+        (0..=DEEPEST).find_map(|level| {
+            let low = place.map(|units| units & !((UNITS >> level) - 1));
+            self.index.get(&(level, low)).map(|&id| id as usize)
+        })
+    }
+
+    /// The undivided cells that a configuration lies in or on the side of.
+    pub fn holding(&self, q: &Configuration) -> Vec<usize> {
+        let place = self.chart.place(q);
+        // A hair's breadth, in smallest units.
+        const HAIR: f64 = 1e-3;
+        let mut found: Vec<usize> = (0..8)
+            .filter_map(|corner| {
+                let side = |i: usize| if corner >> i & 1 == 1 { HAIR } else { -HAIR };
+                self.find(std::array::from_fn(|i| (place[i] + side(i)).floor() as i64))
+            })
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// Divides a cell, and first those beside it that would be more than twice as large as its
+    /// parts.
+    pub fn divide(&mut self, id: usize) {
+        let (low, level) = (self.leaves[id].low, self.leaves[id].level);
+        if !self.leaves[id].live || level >= DEEPEST {
+            return;
+        }
+        let size = self.leaves[id].size();
+        for number in 0..27 {
+            let aside = [number % 3, number / 3 % 3, number / 9].map(|side| side as i64 - 1);
+            let beside = std::array::from_fn(|i| low[i] + aside[i] * size);
+            if let Some(other) = self.find(beside)
+                && self.leaves[other].level < level
+            {
+                self.divide(other);
+            }
+        }
+        let leaf = &mut self.leaves[id];
+        leaf.live = false;
+        leaf.element = None;
+        let blocked = leaf.blocked;
+        self.index.remove(&(level, low));
+        for number in 0..8 {
+            let part = std::array::from_fn(|i| low[i] + (number >> i & 1) * size / 2);
+            self.add(Leaf::new(part, level + 1, blocked, Some(id as u32)));
+        }
+    }
+
+    /// The undivided cells that hold free configurations, with their numbers.
+    pub fn live(&self) -> impl Iterator<Item = (usize, &Leaf, &Element)> {
+        let live = self.leaves.iter().enumerate().filter(|(_, leaf)| leaf.live);
+        live.filter_map(|(id, leaf)| Some((id, leaf, leaf.element.as_deref()?)))
+    }
+
+    /// For each cell those that share a face with it.
+    pub fn neighbours(&self) -> Vec<Vec<u32>> {
+        let mut beside = vec![Vec::new(); self.leaves.len()];
+        for (id, leaf, _) in self.live() {
+            let half = leaf.size() / 2;
+            for face in 0..6 {
+                let mut place = leaf.low.map(|low| low + half);
+                let (axis, upper) = (face / 2, face % 2 == 1);
+                place[axis] = leaf.low[axis] + if upper { leaf.size() } else { -1 };
+                if let Some(other) = self.find(place)
+                    && self.leaves[other].element.is_some()
+                {
+                    beside[id].push(other as u32);
+                    beside[other].push(id as u32);
+                }
+            }
+        }
+        beside
+    }
+}

@@ -1,0 +1,78 @@
+//! What shaken tiles do: exits from a pose, and how strongly bond and traps hold.
+
+use pyo3::prelude::*;
+use tilebind::design::Design;
+use tilebind::kinetics::bond::{Bond, Shaking, traps};
+use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
+use tilebind::landscape::Inventory;
+use tilebind::problem::Problem;
+use tilebind::report::bond::BondReport;
+use tilebind::report::{json, rates};
+
+use crate::{barrier, convert, fault, job};
+
+/// What is asked of a tile that is let go; `None` for the program's defaults.
+pub struct Asked {
+    /// Effective energy of shaking (J).
+    pub kt: f64,
+    /// Drag rate (1/s).
+    pub drag: f64,
+    /// The tile is bound below this energy (J).
+    pub basin_energy: Option<f64>,
+    /// It is free where the centres are so far apart (m).
+    pub free_at: Option<f64>,
+}
+
+/// The share of the bond's energy below which a tile is bound by default.
+const BASIN: f64 = 0.5;
+
+/// Mean exit time and exits of a tile that is let go at a pose.
+pub fn exits<'py>(
+    py: Python<'py>,
+    (design, problem): (&Design, &Problem),
+    start: &Bound<'py, PyAny>,
+    asked: &Asked,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("kt", Some(asked.kt))?;
+    fault::positive("drag", Some(asked.drag))?;
+    fault::positive("free_at", asked.free_at)?;
+    let start = barrier::pose(start)?;
+    let bound = &design.pair.bound;
+    let basin = asked
+        .basin_energy
+        .unwrap_or_else(|| BASIN * problem.energy(bound));
+    let free_at = asked.free_at.unwrap_or(design.space().free_distance);
+    let settings = ExitSettings::new(asked.kt, start, basin, free_at);
+    let found = job::quietly(py, || exit(problem, bound, &settings))?;
+    let found = found.map_err(|error| match error {
+        ExitError::Unsolved(_) => fault::run(error),
+        _ => fault::value(error),
+    })?;
+    let motion = rates::Motion::new(design, asked.kt, asked.drag);
+    let entry = json::text(&rates::exit_entry(&settings, &motion, &found));
+    convert::json(py, &entry)
+}
+
+/// Depths, docking costs and ln K of the bond and the traps of an analysis.
+pub fn bond<'py>(
+    py: Python<'py>,
+    design: &Design,
+    (problem, inventory): (&Problem, &Inventory),
+    shaking: Shaking,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("kt", Some(shaking.kt))?;
+    if !(shaking.coverage > 0.0 && shaking.coverage < 1.0) {
+        return Err(fault::value(format!(
+            "coverage = {}: a share between 0 and 1",
+            shaking.coverage
+        )));
+    }
+    let entry = job::quietly(py, || {
+        let bond = Bond::new(problem, inventory)?;
+        let traps = traps(problem, inventory, shaking.kt);
+        let shallow = inventory.kinds().count() - 1 - traps.len();
+        let report = BondReport::new(design, problem, &bond, &traps, shallow, shaking);
+        Ok::<_, tilebind::kinetics::BondError>(json::text(&report.json()))
+    })?;
+    convert::json(py, &entry.map_err(fault::run)?)
+}

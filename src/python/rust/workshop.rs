@@ -1,0 +1,64 @@
+//! Between a design and the workshop: files to make tiles by, and constants from measurements.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use tilebind::calibration::{self, Specimen};
+use tilebind::design::Design;
+use tilebind::report;
+use tilebind::workshop::Making;
+
+use crate::{convert, fault, job};
+
+/// Lengths above this are meant in millimetres (m).
+const LONGEST: f64 = 0.01;
+
+/// The files for the workshop by their names.
+pub fn files<'py>(
+    py: Python<'py>,
+    design: &Design,
+    making: &Making,
+) -> PyResult<Bound<'py, PyDict>> {
+    for (name, length) in [("kerf", making.kerf), ("clearance", making.clearance)] {
+        if !(0.0..=LONGEST).contains(&length) {
+            return Err(fault::value(format!(
+                "{name} = {length} m: from 0 to {LONGEST} m"
+            )));
+        }
+    }
+    let files = py.detach(|| report::workshop::files(design, making));
+    let named = PyDict::new(py);
+    for (name, content) in files.map_err(fault::value)? {
+        named.set_item(name, PyBytes::new(py, &content))?;
+    }
+    Ok(named)
+}
+
+/// A calibration from a table of measurements.
+pub fn calibrated<'py>(
+    py: Python<'py>,
+    design: &Design,
+    table: &Bound<'py, PyAny>,
+    hold_out: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    if !(2..=usize::from(u16::MAX)).contains(&hold_out) {
+        return Err(fault::value(format!("hold_out = {hold_out}: at least 2")));
+    }
+    let rows = calibration::read_rows(&text(table)?).map_err(fault::value)?;
+    let found = job::quietly(py, || {
+        let (specimen, settings) = Specimen::of(design, hold_out);
+        calibration::calibrate(&specimen, &rows, &settings)
+    })?;
+    let found = found.map_err(fault::value)?;
+    convert::json(py, &report::calibration::json(design, &found))
+}
+
+/// A table as CSV: of a frame, or of the file of that name.
+fn text(table: &Bound<'_, PyAny>) -> PyResult<String> {
+    if table.hasattr("to_csv")? {
+        let keywords = PyDict::new(table.py());
+        keywords.set_item("index", false)?;
+        return table.call_method("to_csv", (), Some(&keywords))?.extract();
+    }
+    let path: std::path::PathBuf = table.extract()?;
+    Ok(std::fs::read_to_string(path)?)
+}

@@ -1,0 +1,205 @@
+//! Designs of every two tiles that meet, and the sheet for the workshop.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use super::Assembly;
+use crate::assembly::growth::Met;
+use crate::assembly::{Axis, SIDES};
+use crate::potential::MagnetModel;
+use crate::report::markdown::markdown_table;
+use crate::units::si;
+
+/// Names and texts of the designs of every two tiles that meet in what grows.
+pub(super) fn all(assembly: &Assembly) -> Vec<(String, String)> {
+    let mut names = BTreeSet::new();
+    let met = assembly.built.grown.meetings().into_keys();
+    let bound = met.filter(|met| bond_of(assembly, met).is_some());
+    bound
+        .map(|met| {
+            let plain = name(assembly, &met);
+            let mut name = plain.clone();
+            let mut number = 2;
+            // Letters that file names do not have may make two names one.
+            while !names.insert(name.to_lowercase()) {
+                name = format!("{plain}-{number}");
+                number += 1;
+            }
+            let text = design(assembly, &met, &name);
+            (name, text)
+        })
+        .collect()
+}
+
+fn bond_of(assembly: &Assembly, (first, axis, second): &Met) -> Option<usize> {
+    let [out, back] = axis.sides();
+    let built = assembly.built;
+    let bonds = [(*first, out), (*second, back)]
+        .map(|(tile, side)| built.wiring.of(&built.set, tile, side));
+    bonds[0].filter(|_| bonds[0] == bonds[1])
+}
+
+fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
+    let tiles = &assembly.built.set.tiles;
+    let plain = |name: &str| -> String {
+        name.chars()
+            .map(|c| {
+                if c.is_ascii_alphanumeric() || c == '-' {
+                    c
+                } else {
+                    '_'
+                }
+            })
+            .collect()
+    };
+    let side = SIDES[axis.sides()[0]];
+    format!(
+        "{}-{side}-{}",
+        plain(&tiles[*first].name),
+        plain(&tiles[*second].name)
+    )
+}
+
+fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
+    let (first, axis, second) = *met;
+    let stage = &assembly.words.stage;
+    let like = assembly.design.unwrap_or(stage);
+    let magnet = assembly.magnet();
+    let tile = &stage.pair.fixed;
+    let [length, width, thickness] = magnet.size;
+    let tiles = &assembly.built.set.tiles;
+    let [out, back] = axis.sides().map(|side| SIDES[side]);
+    let described = format!(
+        "{}: the {out} face of {} meets the {back} face of {}",
+        assembly.built.set.name, tiles[first].name, tiles[second].name
+    );
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let [wide, high] = like.table.map(|size| size.max(stage.table[0]));
+    let mut text = format!(
+        "name = {}\ndescription = {}\n\n[table]\nsize = [{wide:?}, {high:?}]\n\n[magnet]\nsize = \
+         [{length:?}, {width:?}, {thickness:?}]\nmoment = {:?}\n",
+        quoted(name),
+        quoted(&described),
+        magnet.moment
+    );
+    let _ = writeln!(text, "pitch = {:?}", stage.pitch.unwrap_or(width));
+    let inset = assembly.inset();
+    if inset > 0.0 {
+        let _ = writeln!(text, "inset = {inset:?}");
+    }
+    for (role, number, like) in [
+        ("fixed", first, &like.pair.fixed),
+        ("moving", second, &like.pair.moving),
+    ] {
+        let _ = write!(
+            text,
+            "\n[{role}]\nside = {:?}\nthickness = {:?}\nmass = {:?}\n\n[{role}.faces]\n",
+            tile.faces[0].length(),
+            like.thickness,
+            like.mass
+        );
+        for (side, name) in SIDES.iter().enumerate() {
+            if let Some(face) = assembly.built.face(number, side) {
+                let _ = writeln!(text, "{name} = {}", entry(assembly, face));
+            }
+        }
+    }
+    let _ = write!(text, "\n[target]\nfixed = \"{out}\"\nmoving = \"{back}\"\n");
+    if stage.interaction.model == MagnetModel::Cuboid {
+        text += "\n[potential]\nmodel = \"cuboid\"\n";
+    }
+    text
+}
+
+/// A face of a design.
+fn entry(assembly: &Assembly, face: usize) -> String {
+    let word = assembly.built.matrix.code(face);
+    if assembly.words.places.is_none() {
+        return format!("{{ code = \"{word}\" }}");
+    }
+    let magnets = assembly.magnets(word);
+    let one = |(at, pole): &(f64, char)| format!("{{ at = {at:?}, pole = \"{pole}\" }}");
+    format!(
+        "{{ magnets = [{}] }}",
+        magnets.iter().map(one).collect::<Vec<_>>().join(", ")
+    )
+}
+
+/// Which magnets on which face of which tile, and how many of each.
+pub(super) fn sheet(assembly: &Assembly) -> String {
+    let built = assembly.built;
+    let (set, grown) = (&built.set, &built.grown);
+    let counts = grown.counts(set.tiles.len());
+    let magnet = assembly.magnet();
+    let [length, width, thickness] = magnet.size.map(|x| (1e5 * x).round() / 100.0);
+    let magnets = |tile: usize| -> usize {
+        let faces = (0..4).filter_map(|side| built.face(tile, side));
+        faces
+            .map(|face| built.matrix.code(face).magnets() as usize)
+            .sum()
+    };
+    let tiles: usize = counts.iter().sum();
+    let all: usize = counts
+        .iter()
+        .enumerate()
+        .map(|(tile, count)| count * magnets(tile))
+        .sum();
+    let mut text = format!(
+        "# {}: to be made\n\n{tiles} tiles with {all} magnets of {length} x {width} x {thickness} mm \
+         (magnetised along the first, {} each){}.\n\nTiles are squares of {} seen from above; a code is \
+         read counter-clockwise along its face, N for a north pole out, S for a south pole, . for an \
+         empty place, places {} apart, the middle of the code in the middle of the face. `tilebind make` \
+         draws the tiles of any file in `designs/` for a cutter.\n\n## Tiles\n\n",
+        set.name,
+        si(magnet.moment, "A m2", 4),
+        if grown.complete {
+            ""
+        } else {
+            ", of which the assembly can have more: these are the first"
+        },
+        si(assembly.words.stage.pair.fixed.faces[0].length(), "m", 4),
+        si(assembly.words.stage.pitch.unwrap_or_default(), "m", 4),
+    );
+    let head = [
+        "tile",
+        "how many",
+        "magnets each",
+        "north",
+        "east",
+        "south",
+        "west",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (number, tile) in set.tiles.iter().enumerate() {
+        let face = |side| match built.face(number, side) {
+            Some(face) => format!("{} {}", assembly.face(face), built.matrix.code(face)),
+            None => "empty".to_owned(),
+        };
+        let mut row = vec![
+            tile.name.clone(),
+            counts[number].to_string(),
+            magnets(number).to_string(),
+        ];
+        row.extend((0..4).map(face));
+        rows.push(row);
+    }
+    text += &markdown_table(&rows);
+    text += "\n## Words\n\n";
+    let head = ["word", "code", "mate", "axis", "bond"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (word, bond) in built.wiring.bonds.iter().enumerate() {
+        let code = built.matrix.words[word];
+        rows.push(vec![
+            assembly.face(word),
+            code.to_string(),
+            code.mate().to_string(),
+            match bond.axis {
+                Axis::Horizontal => "word east, mate west",
+                Axis::Vertical => "word north, mate south",
+            }
+            .to_owned(),
+            si(built.matrix.bond(word), "J", 4),
+        ]);
+    }
+    text + &markdown_table(&rows)
+}

@@ -1,0 +1,216 @@
+//! `tilebind assemble`.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{json, tilebind};
+use crate::folder::contents;
+use crate::program::{stderr, stdout};
+
+const COUNTER: &str = "shapes/assemblies/binary-counter.yaml";
+
+fn text(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).expect("it is written")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn built(arguments: &[&str], out: &Path) -> Value {
+    let out = out.to_str().unwrap();
+    let common = ["--kt", "5e-3", "--coverage", "0.1", "--json", "--out", out];
+    json(&[&["assemble"][..], arguments, &common].concat())
+}
+
+/// The rows of a table by their first cells.
+fn rows(csv: &str) -> Vec<Vec<&str>> {
+    csv.lines().map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn the_matrix_is_what_energy_says_of_two_faces() {
+    let folder = tempfile::tempdir().unwrap();
+    for model in ["dipole", "cuboid"] {
+        let out = folder.path().join(model);
+        built(&[COUNTER, "--length", "8", "--model", model], &out);
+        let table = text(&out, "matrix.csv");
+        let rows = rows(&table);
+        for (first, second) in [(1, 1), (1, 7), (2, 9), (7, 12), (5, 11)] {
+            let design = format!(
+                "name = \"two\"\n[table]\nsize = [3.0, 3.0]\n[magnet]\nsize = [0.01, 0.01, 0.003]\n\
+                 remanence = 1.2\npitch = 0.04\n[fixed]\nside = 0.32\nthickness = 0.013\nmass = \
+                 0.1\n[fixed.faces]\nnorth = {{ code = \"{}\" }}\n[moving]\nside = 0.32\nthickness = \
+                 0.013\nmass = 0.1\n[moving.faces]\nsouth = {{ code = \"{}\" }}\n[target]\nfixed = \
+                 \"north\"\nmoving = \"south\"\n[potential]\nmodel = \"{model}\"\n",
+                rows[first][1], rows[second][1]
+            );
+            let file = folder.path().join("two.toml");
+            std::fs::write(&file, design).unwrap();
+            let energy = json(&["energy", file.to_str().unwrap(), "--pose", "0,0.32,0"]);
+            let (own, its): (f64, f64) = (
+                rows[first][second + 1].parse().unwrap(),
+                number(&energy[0]["energy_J"]),
+            );
+            assert!(
+                (own - its).abs() <= 1e-9 * its.abs().max(1e-3),
+                "{own} {its}"
+            );
+        }
+    }
+}
+
+#[test]
+fn both_engines_get_the_same_strengths() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let report = built(&[COUNTER, "--length", "8"], out);
+    let (gse, kt) = (number(&report["Gse"]), number(&report["kt_J"]));
+    assert!((gse - number(&report["bond_J"]) / kt).abs() < 1e-9 * gse);
+    let [yaml, tiles] = ["assembly.yaml", "assembly.tiles"].map(|name| text(out, name));
+    for line in [
+        format!("Gse: {gse:?}"),
+        format!("Gmc: {:?}", number(&report["Gmc"])),
+    ] {
+        assert!(yaml.contains(&line), "{line}");
+        assert!(tiles.contains(&line.replace(": ", "=")), "{line}");
+    }
+    let table = text(out, "matrix.csv");
+    let rows = rows(&table);
+    // Every two of twelve faces once, at their energy.
+    let links: Vec<&str> = tiles
+        .lines()
+        .filter(|line| line.starts_with("g("))
+        .collect();
+    assert_eq!(links.len(), 12 * 11 / 2);
+    for link in links {
+        let (at, strength) = link[2..].split_once(")=").unwrap();
+        let (a, b) = at.split_once(',').unwrap();
+        let energy: f64 = rows[a.parse::<usize>().unwrap()][b.parse::<usize>().unwrap() + 1]
+            .parse()
+            .unwrap();
+        let strength: f64 = strength.parse().unwrap();
+        assert!((strength * gse + energy / kt).abs() < 1e-9, "{link}");
+        let name = |k: &str| rows[k.parse::<usize>().unwrap()][0];
+        assert!(
+            yaml.contains(&format!(
+                "- [\"{}\", \"{}\", {strength:?}]",
+                name(a),
+                name(b)
+            )),
+            "{link}"
+        );
+    }
+}
+
+#[test]
+fn a_lattice_is_written_as_designs_whose_bonds_the_matrix_knows() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let report = built(
+        &[
+            "lattice",
+            "--lattice",
+            "3x3",
+            "--length",
+            "6",
+            "--gap",
+            "0",
+            "--shape",
+            "shared",
+        ],
+        out,
+    );
+    assert_eq!(report["tile_set"]["words_needed"], 12);
+    assert_eq!(report["grown"]["tiles"], 9);
+    let designs = contents(&out.join("designs"));
+    assert_eq!(designs.len(), 12);
+    let deepest = report["bonds"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|bond| number(&bond["energy_J"]));
+    let deepest = deepest.fold(0.0, f64::min);
+    for (name, _) in designs {
+        let design = out.join("designs").join(name);
+        let shown = json(&["show", design.to_str().unwrap(), "--json"]);
+        let energy = number(&shown["bound"]["energy_J"]);
+        // Magnets of other faces add a few percent of a contact.
+        assert!(
+            energy < 0.0 && energy > deepest * 1.03,
+            "{energy} {deepest}"
+        );
+    }
+    let sheet = text(out, "sheet.md");
+    assert!(sheet.contains("9 tiles with 144 magnets"), "{sheet}");
+}
+
+#[test]
+fn the_first_line_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let run = |kt: &str| {
+        let arguments = [
+            "assemble",
+            COUNTER,
+            "--length",
+            "8",
+            "--kt",
+            kt,
+            "--coverage",
+            "0.1",
+            "--out",
+            out,
+        ];
+        let output = tilebind(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output).lines().next().unwrap().to_owned()
+    };
+    assert!(run("0.1").contains("nothing grows"));
+    assert!(run("5e-3").contains("hold a tile and weaker ones do not"));
+    assert!(run("1e-3").contains("anything grows"));
+}
+
+#[test]
+fn nonsense_is_refused_with_the_mend() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let common = [
+        "--kt",
+        "5e-3",
+        "--coverage",
+        "0.1",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    for arguments in [
+        &["lattice"][..],
+        &["square"],
+        &["square", "--side", "2"],
+        &["lattice", "--lattice", "3"],
+        &["lattice", "--lattice", "1x1"],
+        &["lattice", "--lattice", "100000x100000"],
+        &[COUNTER, "--lattice", "3x3"],
+        &[COUNTER, "--side", "3"],
+        &[COUNTER, "--proofread", "0"],
+        &[COUNTER, "--length", "2"],
+        &[COUNTER, "--length", "99"],
+        &[COUNTER, "--words", "missing.toml"],
+        &[COUNTER, "shapes/tab-20mm.svg"],
+        &["missing.yaml"],
+        &["Cargo.toml"],
+    ] {
+        let output = tilebind(&[&["assemble"][..], arguments, &common].concat());
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+        assert!(
+            !stderr(&output).is_empty() && !out.exists(),
+            "{arguments:?}"
+        );
+    }
+}

@@ -1,0 +1,68 @@
+//! `tilebind rates` on the paper's tile.
+
+use super::{json, tilebind};
+use crate::program::{stderr, stdout};
+
+const SLID: [&str; 8] = [
+    "rates",
+    "shapes/paper-tile.toml",
+    "--kt",
+    "3.037e-3",
+    "--start",
+    "0.43,-0.04,0",
+    "--free-at",
+    "0.75",
+];
+
+#[test]
+fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
+    let entry = json(
+        &[
+            &SLID[..],
+            &["--drag", "50", "--basin-energy", "-0.03", "--json"],
+        ]
+        .concat(),
+    );
+    let number = |path: &str| entry.pointer(path).and_then(|x| x.as_f64()).unwrap();
+    // kT / (50 /s 0.1 kg)
+    let diffusion = number("/diffusion_m2_s");
+    assert!((diffusion - 6.074e-4).abs() < 1e-9);
+    assert!((number("/mean_exit_s") * diffusion - 0.0176).abs() < 0.0004);
+    assert!((number("/exits/bound") - 0.405).abs() < 0.01);
+    assert!((number("/exits/bound") + number("/exits/free") - 1.0).abs() < 1e-12);
+    assert!(entry["mean_exit_bounds_s"].is_null());
+    assert_eq!(
+        (number("/basin_energy_J"), number("/free_at_m")),
+        (-0.03, 0.75)
+    );
+
+    let text = stdout(&tilebind(&[&SLID[..], &["--drag", "100"]].concat()));
+    for told in [
+        "paper-tile",
+        "bound first",
+        "0.7500 m",
+        "-32.73 mJ",
+        "100 /s",
+    ] {
+        assert!(text.contains(told), "{told} in\n{text}");
+    }
+}
+
+#[test]
+fn a_start_in_the_bond_is_refused_with_what_mends_it() {
+    let output = tilebind(&[
+        "rates",
+        "shapes/paper-tile.toml",
+        "--kt",
+        "3e-3",
+        "--start",
+        "0.43,0,0",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("--basin-energy"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(stdout(&output).is_empty());
+}
