@@ -4,23 +4,27 @@ use super::frame::Frame;
 use crate::interruption;
 use crate::problem::Problem;
 
-/// Abscissas and weights of Gauss' rule of eight points on [-1, 1] (Abramowitz and Stegun, table
-/// 25.4).
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+/// Abscissas and weights of Gauss' rule of seven points on [-1, 1] (Abramowitz and Stegun, table
+/// 25.4); the eighth energy of a batch is that at the panel's end.
+const GAUSS: [(f64, f64); 7] = [
+    (-0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
+    (-0.741_531_185_599_394_5, 0.279_705_391_489_276_6),
+    (-0.405_845_151_377_397_2, 0.381_830_050_505_118_9),
+    (0.0, 0.417_959_183_673_469_4),
+    (0.405_845_151_377_397_2, 0.381_830_050_505_118_9),
+    (0.741_531_185_599_394_5, 0.279_705_391_489_276_6),
+    (0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
 ];
-const POINTS: usize = 8;
-/// The exponent may change by this much over a panel: eight points then err by less than 1e-9.
-const RANGE: f64 = 5.0;
+/// The exponent may change by this much over a panel: seven points then err by less than 1e-7.
+const RANGE: f64 = 4.0;
 /// Panels are halved so often at most.
 const DEEPEST: u32 = 12;
 /// Beyond this exponent a weight is nothing.
 const NOTHING: f64 = 60.0;
 /// Halvings by which the end of the basin is found.
-const BISECTIONS: usize = 24;
+const BISECTIONS: usize = 14;
+/// What weighs less than this share of a line is left out.
+const LEAST: f64 = 1e-7;
 /// Shortest first panel, as a share of the longest line.
 const SHORTEST: f64 = 1e-7;
 /// Gaps looked at for the lowest energy on a line, each double the one before.
@@ -35,6 +39,13 @@ pub struct Weight {
     pub level: f64,
     /// kT (J).
     pub kt: f64,
+}
+
+impl Weight {
+    /// The weight of an energy (J), below the level or not.
+    fn at(&self, energy: f64) -> f64 {
+        (-(energy - self.lowest) / self.kt).exp()
+    }
 }
 
 /// Lines of configurations along which the gap opens.
@@ -93,49 +104,61 @@ impl Lines<'_> {
         let longest = self.reach / 16.0;
         let mut length = decay.clamp(SHORTEST * self.reach, longest);
         let is_inside = |gap: f64| self.energies(at, [gap])[0] < weight.level;
-        let (mut low, mut inside, mut sum) = (start, energy < weight.level, 0.0);
+        let (mut low, mut before, mut sum) = (start, energy, 0.0);
         while low < end {
             let high = (low + length).min(end);
-            let inside_next = is_inside(high);
-            let edge = (inside != inside_next).then(|| bisected(low, high, &is_inside));
-            sum += match (inside, inside_next) {
-                (false, false) => 0.0,
-                (false, true) => self.panel(at, [edge.unwrap_or(low), high], weight, 0),
-                (true, _) => self.panel(at, [low, edge.unwrap_or(high)], weight, 0),
-            };
-            if inside && !inside_next {
+            let whole = self.panel(at, [low, high], weight, 0);
+            let (was_inside, inside) = (before < weight.level, whole.end < weight.level);
+            if was_inside && inside {
+                sum += whole.sum;
+            } else if was_inside != inside && weight.at(weight.level) * length > LEAST * sum {
+                let edge = bisected(low, high, is_inside);
+                let part = if inside { [edge, high] } else { [low, edge] };
+                sum += self.panel(at, part, weight, 0).sum;
+            } else if was_inside || inside {
+                sum += whole.sum;
+            }
+            let falls = whole.end > before && weight.at(whole.end) * self.reach < LEAST * sum;
+            if falls || (was_inside && !inside) {
                 break;
             }
-            (low, inside) = (high, inside_next);
+            (low, before) = (high, whole.end);
             length = (2.0 * length).min(longest);
         }
         sum
     }
 
-    /// Gauss' rule (m) over a panel, halved where the exponent changes too much.
-    fn panel(&self, at: [f64; 2], [low, high]: [f64; 2], weight: &Weight, depth: u32) -> f64 {
+    /// Gauss' rule over a panel, halved where the exponent changes too much.
+    fn panel(&self, at: [f64; 2], [low, high]: [f64; 2], weight: &Weight, depth: u32) -> Panel {
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
-        let gaps: [f64; POINTS] = std::array::from_fn(|k| {
-            let x = GAUSS[k % 4].0;
-            middle + if k < 4 { -x } else { x } * half
-        });
-        let exponents = self
-            .energies(at, gaps)
-            .map(|u| (u - weight.lowest) / weight.kt);
-        let least = exponents.into_iter().fold(f64::INFINITY, f64::min);
-        let most = exponents.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        if least < NOTHING && most - least > RANGE && depth < DEEPEST {
+        let gaps: [f64; 8] =
+            std::array::from_fn(|k| GAUSS.get(k).map_or(high, |point| middle + half * point.0));
+        let energies = self.energies(at, gaps);
+        let least = energies.into_iter().fold(f64::INFINITY, f64::min);
+        let most = energies.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let is_nothing = (least - weight.lowest) / weight.kt > NOTHING;
+        if !is_nothing && most - least > RANGE * weight.kt && depth < DEEPEST {
             let parts = [[low, middle], [middle, high]];
-            return parts
-                .map(|part| self.panel(at, part, weight, depth + 1))
-                .iter()
-                .sum();
+            let [a, b] = parts.map(|part| self.panel(at, part, weight, depth + 1));
+            return Panel {
+                sum: a.sum + b.sum,
+                ..b
+            };
         }
-        let terms = exponents.iter().enumerate();
-        half * terms
-            .map(|(k, exponent)| GAUSS[k % 4].1 * (-exponent).exp())
-            .sum::<f64>()
+        let terms = GAUSS.iter().zip(energies);
+        let sum: f64 = terms.map(|(point, u)| point.1 * weight.at(u)).sum();
+        Panel {
+            sum: half * sum,
+            end: energies[7],
+        }
     }
+}
+
+struct Panel {
+    /// The integral (m).
+    sum: f64,
+    /// U at its end (J).
+    end: f64,
 }
 
 /// Where between two gaps (m) a line crosses the basin's end.

@@ -82,7 +82,11 @@ pub fn schedule(settings: &[Chain], values: &[f64], time: f64, slots: usize) -> 
     }
 }
 
-/// The optimum of the linear program.
+/// Probabilities below this are left out of the linear program.
+const LEAST: f64 = 1e-12;
+
+/// The optimum of the linear program. Probability may be lost in it, which never pays where no value
+/// is negative, so that it starts from a program that nothing is wrong with.
 fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
     let n = values.len();
     let mut problem = Problem::new(OptimizationDirection::Maximize);
@@ -102,7 +106,7 @@ fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
     for state in 0..n {
         let here: Vec<_> = (0..steps.len()).map(|k| (at(0, k, state), 1.0)).collect();
         let start = if state == 0 { 1.0 } else { 0.0 };
-        problem.add_constraint(here.as_slice(), ComparisonOp::Eq, start);
+        problem.add_constraint(here.as_slice(), ComparisonOp::Le, start);
     }
     for slot in 1..slots {
         for to in 0..n {
@@ -110,12 +114,12 @@ fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
             for (k, step) in steps.iter().enumerate() {
                 for from in 0..n {
                     let p = step[(from, to)];
-                    if p > 0.0 {
+                    if p > LEAST {
                         terms.push((at(slot - 1, k, from), -p));
                     }
                 }
             }
-            problem.add_constraint(terms.as_slice(), ComparisonOp::Eq, 0.0);
+            problem.add_constraint(terms.as_slice(), ComparisonOp::Le, 0.0);
         }
     }
     let solution = problem.solve().ok()?.into_solution().ok()?;

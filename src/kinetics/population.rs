@@ -103,6 +103,9 @@ impl PairRates {
     /// The bond, and all traps as one state that holds and lets go as they do together in
     /// equilibrium.
     pub fn lumped(&self) -> Self {
+        if self.len() <= 2 {
+            return self.clone();
+        }
         let traps = 1..self.len();
         let on: f64 = self.on[traps.clone()].iter().sum();
         // Occupation against free tiles, kappa / k.
@@ -268,7 +271,7 @@ impl PairRates {
             let all: f64 = rates.iter().sum();
             now += -(1.0 - rng.random::<f64>()).ln() / all;
             // Never, where nothing can happen.
-            if !(now < time) {
+            if now.is_nan() || now >= time {
                 return Some(numbers);
             }
             let mut rest = rng.random::<f64>() * all;

@@ -18,11 +18,11 @@ const GAUSS: [(f64, f64); 5] = [
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
-/// A rectangle at the minimum is divided until a line in it weighs at least this share of the
-/// minimum's own.
-const SEEN: f64 = 0.2;
-/// ... or it is this small a share of the whole.
-const SMALLEST: f64 = 1e-6;
+/// A line whose weight has fallen to this share of the minimum's is the measure of how far the well
+/// spreads.
+const FALLEN: f64 = 0.2;
+/// A slide (m) or tilt (rad) that is no play: contact is not known better.
+const NO_PLAY: f64 = 1e-8;
 /// Most rectangles.
 const MOST: usize = 4_000;
 
@@ -81,13 +81,8 @@ impl<'a> Well<'a> {
         Integral {
             basin: &self.basin,
             weight,
-            peak: self.line([0.0, 0.0], &weight),
         }
         .adapt(tolerance)
-    }
-
-    fn line(&self, at: [f64; 2], weight: &Weight) -> f64 {
-        line(&self.basin, at, weight)
     }
 }
 
@@ -102,32 +97,49 @@ fn line(basin: &Basin, at: [f64; 2], weight: &Weight) -> f64 {
 struct Integral<'a> {
     basin: &'a Basin<'a>,
     weight: Weight,
-    /// What the minimum's own line weighs (m).
-    peak: f64,
 }
 
-/// A rectangle of slides and tilts.
+/// From 0 to an end of the slide or the tilt, spread so that what is near the minimum takes as much
+/// room as what is far: `x = end sinh(u range) / sinh(range)`.
+#[derive(Clone, Copy, Debug)]
+struct Spread {
+    end: f64,
+    range: f64,
+}
+
+impl Spread {
+    /// The place at u from 0 to 1, and by how much it moves with u.
+    fn place(&self, u: f64) -> [f64; 2] {
+        let unit = self.end / self.range.sinh();
+        let (sinh, cosh) = ((u * self.range).sinh(), (u * self.range).cosh());
+        [unit * sinh, (unit * self.range * cosh).abs()]
+    }
+}
+
+/// A rectangle of spread slides and tilts, on one side of the minimum each.
 #[derive(Clone, Copy)]
 struct Rectangle {
+    spreads: [Spread; 2],
     sides: [[f64; 2]; 2],
     value: f64,
     /// How far the sum of the four parts was from the whole, shared among them.
     error: f64,
-    /// Whether it has been divided enough to see the minimum.
-    sees: bool,
 }
 
 impl Integral<'_> {
     fn adapt(&self, tolerance: f64) -> Estimate {
-        let ends = self.basin.extent();
-        let halves = [0, 1].map(|k| [[ends[k][0], 0.0], [0.0, ends[k][1]]]);
-        let smallest = [0, 1].map(|k| SMALLEST * (ends[k][1] - ends[k][0]));
-        let quarters = (0..4).map(|k| [halves[0][k % 2], halves[1][k / 2]]);
-        let mut leaves: Vec<Rectangle> = quarters
-            .map(|sides| Rectangle {
-                error: f64::INFINITY,
-                ..self.rectangle(sides)
-            })
+        let Some(spreads) = self.spreads() else {
+            return Estimate::default();
+        };
+        let halves = [[0.0, 0.5], [0.5, 1.0]];
+        let whole = (0..16).map(|k: usize| {
+            let spreads = [spreads[0][k % 2], spreads[1][k / 2 % 2]];
+            (spreads, [halves[k / 4 % 2], halves[k / 8]])
+        });
+        let whole: Vec<_> = whole.collect();
+        let mut leaves: Vec<Rectangle> = whole
+            .par_iter()
+            .map(|(spreads, sides)| self.rectangle(*spreads, *sides))
             .collect();
         loop {
             let total = sum(&leaves, |leaf| leaf.value);
@@ -139,42 +151,34 @@ impl Integral<'_> {
                     error,
                 };
             }
-            let chosen = self.worst(&mut leaves, error, &smallest);
-            if chosen == 0 {
-                return Estimate {
-                    value: total,
-                    error,
-                };
-            }
-            let split = leaves.split_off(leaves.len() - chosen);
+            leaves.sort_by_key(|leaf| OrderedFloat(leaf.error));
+            let split = leaves.split_off(leaves.len() - worst(&leaves, error));
             let parts: Vec<[Rectangle; 4]> =
                 split.par_iter().map(|leaf| self.divided(leaf)).collect();
             leaves.extend(parts.into_iter().flatten());
         }
     }
 
-    /// Brings those rectangles to the end that are to be divided next: those that do not see the
-    /// minimum, and the worst that make up most of the error. How many.
-    fn worst(&self, leaves: &mut [Rectangle], error: f64, smallest: &[f64; 2]) -> usize {
-        let is_small =
-            |leaf: &Rectangle| (0..2).all(|k| leaf.sides[k][1] - leaf.sides[k][0] <= smallest[k]);
-        let key = |leaf: &Rectangle| match is_small(leaf) {
-            true => 0.0,
-            false if !leaf.sees => f64::INFINITY,
-            false => leaf.error,
-        };
-        leaves.sort_by_key(|leaf| OrderedFloat(key(leaf)));
-        let mut rest = 0.9 * error;
-        let mut count = 0;
-        for leaf in leaves.iter().rev() {
-            let worth = key(leaf);
-            if worth == 0.0 || (worth.is_finite() && rest <= 0.0) {
-                break;
+    /// To either side along slide and tilt; `None` where the minimum has no play along one of them.
+    fn spreads(&self) -> Option<[[Spread; 2]; 2]> {
+        let peak = line(self.basin, [0.0, 0.0], &self.weight);
+        let spread = |axis: usize, end: f64| {
+            let at = |x: f64| match axis {
+                0 => [x, 0.0],
+                _ => [0.0, x],
+            };
+            let mut scale = end;
+            while line(self.basin, at(scale), &self.weight) < FALLEN * peak && scale.abs() > NO_PLAY
+            {
+                scale /= 2.0;
             }
-            rest -= worth;
-            count += 1;
-        }
-        count
+            let range = (end / scale).asinh().max(1e-3);
+            (Spread { end, range }, scale.abs() > NO_PLAY)
+        };
+        let ends = self.basin.extent();
+        let found = [0, 1].map(|axis| ends[axis].map(|end| spread(axis, end)));
+        let has_play = found.iter().all(|sides| sides.iter().any(|side| side.1));
+        has_play.then(|| found.map(|sides| sides.map(|side| side.0)))
     }
 
     fn divided(&self, leaf: &Rectangle) -> [Rectangle; 4] {
@@ -183,7 +187,7 @@ impl Integral<'_> {
             [[low, middle], [middle, high]]
         });
         let mut parts: [Rectangle; 4] =
-            std::array::from_fn(|k| self.rectangle([a[k % 2], b[k / 2]]));
+            std::array::from_fn(|k| self.rectangle(leaf.spreads, [a[k % 2], b[k / 2]]));
         let off = (sum(&parts, |part| part.value) - leaf.value).abs() / 4.0;
         for part in &mut parts {
             part.error = off;
@@ -191,28 +195,40 @@ impl Integral<'_> {
         parts
     }
 
-    fn rectangle(&self, sides: [[f64; 2]; 2]) -> Rectangle {
+    /// Gauss' rule over a rectangle; of the error nothing is known yet.
+    fn rectangle(&self, spreads: [Spread; 2], sides: [[f64; 2]; 2]) -> Rectangle {
         let place = |k: usize, x: f64| {
             let [low, high] = sides[k];
-            (low + high) / 2.0 + (high - low) / 2.0 * x
+            spreads[k].place((low + high) / 2.0 + (high - low) / 2.0 * x)
         };
-        let (mut value, mut heaviest) = (0.0, 0.0f64);
+        let mut value = 0.0;
         for (x, wx) in GAUSS {
+            let [slide, by_slide] = place(0, x);
             for (y, wy) in GAUSS {
-                let line = line(self.basin, [place(0, x), place(1, y)], &self.weight);
-                heaviest = heaviest.max(line);
-                value += wx * wy * line;
+                let [tilt, by_tilt] = place(1, y);
+                let line = line(self.basin, [slide, tilt], &self.weight);
+                value += wx * wy * by_slide * by_tilt * line;
             }
         }
         let area = (sides[0][1] - sides[0][0]) * (sides[1][1] - sides[1][0]);
-        let at_minimum = sides.iter().all(|[low, high]| *low <= 0.0 && 0.0 <= *high);
         Rectangle {
+            spreads,
             sides,
             value: value * area / 4.0,
-            error: 0.0,
-            sees: !at_minimum || heaviest >= SEEN * self.peak,
+            error: f64::INFINITY,
         }
     }
+}
+
+/// How many of the worst, which come last, make up most of the error; all of which nothing is known.
+fn worst(leaves: &[Rectangle], error: f64) -> usize {
+    let mut rest = 0.9 * error;
+    let chosen = leaves.iter().rev().take_while(|leaf| {
+        let take = leaf.error.is_infinite() || (error.is_finite() && rest > 0.0);
+        rest -= if error.is_finite() { leaf.error } else { 0.0 };
+        take && leaf.error > 0.0
+    });
+    chosen.count()
 }
 
 fn sum(leaves: &[Rectangle], of: impl Fn(&Rectangle) -> f64) -> f64 {

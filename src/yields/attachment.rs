@@ -90,7 +90,6 @@ pub fn count(
             ..effort.motion.clone()
         },
         threshold: None,
-        ..DockingSettings::default()
     };
     let docking = docking::dock(problem, &settings, &|| ())?;
     Ok(tally(problem, inventory, &docking))

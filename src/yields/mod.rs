@@ -76,6 +76,8 @@ pub struct StateRates {
     pub on_interval: [f64; 2],
     /// Detachments a second, by detailed balance.
     pub off: f64,
+    /// The constant of association (m^2).
+    pub constant: f64,
     /// Depth over kT.
     pub depth: f64,
     /// ln K at the coverage asked for.
@@ -95,7 +97,7 @@ pub struct Outcome {
     pub attached: Attachments,
     /// Share of all possible pairs that are in the bond at the end.
     pub bound: f64,
-    /// The same for the ends of the interval of the bond's attachment rate, all rates scaled alike.
+    /// The same for the ends of the interval of the bond's attachment rate.
     pub interval: [f64; 2],
     /// Share that are in traps at the end.
     pub trapped: f64,
@@ -207,6 +209,7 @@ fn state(
         on,
         on_interval: attached.interval(count),
         off: on / constant,
+        constant,
         depth: docking.depth,
         ln_k: docking.ln_k(1.0),
     })
@@ -227,13 +230,11 @@ fn outcome(
     let share = |time: f64| shares(&rates, crowd, time);
     let [bound, trapped] = share(time);
     let bond = &states[0];
-    // All rates scaled alike are time scaled.
+    // Where none attached, the rate may still be above 0.
     let at_end = |on: f64| {
-        if bond.on > 0.0 {
-            share(time * on / bond.on)[0]
-        } else {
-            0.0
-        }
+        let mut other = rates.clone();
+        (other.on[0], other.off[0]) = (on, on / bond.constant);
+        shares(&other, crowd, time)[0]
     };
     let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
     let course = (0..TIMES).map(|k| {

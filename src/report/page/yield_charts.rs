@@ -28,25 +28,28 @@ pub fn all(question: &Question, found: &Yields) -> Vec<(&'static str, &'static s
     all
 }
 
-/// A curve through points of the plot (shares of its width and height), with its name at the end.
-fn curve(points: &[[f64; 2]], colour: &str, dashes: &str, name: &str) -> String {
+/// A curve through points of the plot (shares of its width and height), and its line in the key, the
+/// k-th from the top right.
+fn curve(points: &[[f64; 2]], k: usize, name: &str) -> String {
     let [left, top, width, height] = AREA;
     let places = points.iter().filter(|p| p[1].is_finite());
     let places: Vec<String> = places
         .map(|[x, y]| format!("{:.1},{:.1}", left + width * x, top + height * (1.0 - y)))
         .collect();
-    let Some(last) = points.iter().rev().find(|p| p[1].is_finite()) else {
-        return String::new();
-    };
-    let at = [
-        left + width * last[0] - 4.0,
-        top + height * (1.0 - last[1]) - 5.0,
-    ];
+    let style = format!(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"",
+        COLOURS[k % COLOURS.len()],
+        ["", "6 4", "2 3"][k % 3]
+    );
+    let (right, y) = (left + width, top + 10.0 + 16.0 * k as f64);
     format!(
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" \
-         stroke-dasharray=\"{dashes}\"/>{}",
+        "<polyline points=\"{}\" {style}/><rect x=\"{:.1}\" y=\"{:.1}\" width=\"190\" \
+         height=\"16\" fill=\"#fff\" opacity=\"0.8\"/><path d=\"M{:.1},{y:.1}h28\" {style}/>{}",
         places.join(" "),
-        label(at[0], at[1].max(top + 10.0), "end", name)
+        right - 190.0,
+        y - 8.0,
+        right - 28.0,
+        label(right - 34.0, y + 4.0, "end", name)
     )
 }
 
@@ -81,8 +84,8 @@ fn course(outcome: &Outcome) -> String {
     for power in first.ceil() as i32..=last.floor() as i32 {
         inner += &below(x(f64::from(power)), &si(10f64.powi(power), "s", 1));
     }
-    inner += &curve(&line(1), COLOURS[0], "", "in the bond");
-    inner += &curve(&line(2), COLOURS[1], "6 4", "in traps");
+    inner += &curve(&line(1), 0, "in the bond");
+    inner += &curve(&line(2), 1, "in traps");
     chart("time", "share of all pairs", &inner)
 }
 
@@ -102,10 +105,8 @@ fn crowds(question: &Question, outcome: &Outcome) -> String {
     for (k, coverage) in coverages.iter().enumerate() {
         let rows = outcome.table.iter().filter(|row| row.1 == *coverage);
         let points: Vec<[f64; 2]> = rows.map(|row| [x(row.0), row.2]).collect();
-        let dashes = ["", "8 4", "2 3"][k / COLOURS.len() % 3];
-        let name = format!("{:.3} % covered", 100.0 * coverage);
-        let name = name.replace(".000", "");
-        inner += &curve(&points, COLOURS[k % COLOURS.len()], dashes, &name);
+        let name = format!("{} % covered", (1e3 * coverage).round() / 10.0);
+        inner += &curve(&points, k, &name);
     }
     let name = format!("tiles (after {})", si(question.time, "s", 3));
     chart(&name, "share of all pairs in the bond", &inner)
@@ -138,19 +139,9 @@ fn over_kt(found: &Yields) -> String {
             );
         }
     }
-    inner += &curve(
-        &points(&|outcome| outcome.bound),
-        COLOURS[0],
-        "",
-        "in the bond",
-    );
-    inner += &curve(
-        &points(&|outcome| outcome.trapped),
-        COLOURS[1],
-        "6 4",
-        "in traps",
-    );
+    inner += &curve(&points(&|outcome| outcome.bound), 0, "in the bond");
+    inner += &curve(&points(&|outcome| outcome.trapped), 1, "in traps");
     let equilibrium = points(&|outcome| outcome.equilibrium.unwrap_or(f64::NAN));
-    inner += &curve(&equilibrium, COLOURS[2], "2 3", "in the bond in the end");
+    inner += &curve(&equilibrium, 2, "in the bond in the end");
     chart("kT", "share of all pairs", &inner)
 }
