@@ -201,6 +201,9 @@ fn beside(
                 .iter()
                 .all(|other| task.rules.within(&task.lags, *word, *other, limit))
     });
+    // More than enough to choose from, and a graph that is held whole.
+    let step = words.len().div_ceil(MOST_BESIDE).max(1);
+    let words: Vec<Word> = words.into_iter().step_by(step).collect();
     let graph = Graph::new(task, words, limit, effort.budget.left());
     effort.budget.spend(graph.work());
     let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
