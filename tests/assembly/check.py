@@ -67,12 +67,10 @@ def mate(glue):
 class Grown:
     """A file grown once."""
 
-    def __init__(self, path, plain=False, size=SIZE, wall=60, **over):
+    def __init__(self, path, plain=False, size=SIZE, wall=60):
         self.tiles = rgrow.rgrow.TileSet.from_file(str(path))
         text = pathlib.Path(path).read_text()
         names, edges = read(text)
-        for key, value in over.items():
-            setattr(self.tiles, key, value)
         system, state = self.tiles.create_system_and_state()
         system.evolve(state, size_max=size, for_wall_time=wall)
         self.canvas = np.array(state.canvas_view)

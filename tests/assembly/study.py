@@ -48,14 +48,14 @@ def runs(path, size, often, **more):
     return done, len(done) / often
 
 
-def measured(path, report, often, plain=False, **over):
+def measured(path, report, often, plain=False):
     """Errors a tile with its standard error, tiles a docking time, and the share that got there."""
     size = whole(report)
-    done, share = runs(path, size, often, plain=plain, **over)
+    done, share = runs(path, size, often, plain=plain)
     if not done:
         return None, None, None, share
     errors, spread = mean(it.errors / it.count for it in done)
-    gmc = over.get("gmc", report["Gmc"])
+    gmc = report["Gmc"]
     speed, _ = mean(it.count / (it.time * 1e6 * np.exp(-gmc)) for it in done)
     return errors, spread, speed, share
 
@@ -68,7 +68,7 @@ def ideal_like(name, report, folder, often):
     text = (SETS / f"{name}.yaml").read_text()
     path = folder / "like.yaml"
     path.write_text(text + f"Gse: {report['Gse']}\nGmc: {report['Gmc']}\n")
-    return measured(path, report, often, plain=True, gmc=report["Gmc"])
+    return measured(path, report, often, plain=True)
 
 
 def builds(program, folder, out, often):
