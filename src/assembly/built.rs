@@ -19,18 +19,10 @@ use super::matrix::Matrix;
 use super::wiring::{Wiring, WiringError};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
+use crate::kinetics::bond::Shaking;
 use crate::kinetics::corner;
 use crate::words::crosstalk::Stage;
 use crate::words::{Lags, Word};
-
-/// How the table is shaken, and what is on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shaking {
-    /// kT (J), an effective energy.
-    pub kt: f64,
-    /// Share of the table that loose tiles of all kinds cover together.
-    pub coverage: f64,
-}
 
 /// A tile set with its words and energies.
 #[derive(Clone, Debug)]
@@ -82,7 +74,7 @@ pub const MOST_GROWN: usize = 2500;
 const MARGIN: i32 = 4;
 
 impl Built {
-    /// A set with the words of a file, see [`assign`].
+    /// A set built with words: each goes where wrong meetings weigh least.
     ///
     /// # Errors
     /// Where that is impossible.

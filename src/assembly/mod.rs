@@ -37,7 +37,7 @@ use std::path::Path;
 
 use crate::design::{DesignError, Place};
 
-pub use built::{Built, Shaking};
+pub use built::Built;
 pub use wiring::{Axis, Wiring};
 
 /// North, east, south and west: the order of a tile's glues.

@@ -2,7 +2,9 @@
 
 use super::choice::{self, Asked, Verdict};
 use super::growth::{Grown, grow};
-use super::{Axis, Built, Shaking, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
+use crate::kinetics::bond::Shaking;
+
+use super::{Axis, Built, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
 use crate::design::WordSet;
 use crate::words::{Bar, Rules};
 

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::assembly::choice::{self, Asked, Choice, Verdict};
-use tilebind::assembly::{Built, Shaking, TileSet, Wiring, lattice, proofread, square};
+use tilebind::assembly::{Built, TileSet, Wiring, lattice, proofread, square};
 use tilebind::design::{Design, MagnetModel, WordSet};
+use tilebind::kinetics::bond::Shaking;
 use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::report::{words, writer};
 use tilebind::words::{Bar, Rules, Shape, Word};
