@@ -29,7 +29,8 @@ fn ln_k_is_depth_less_docking_cost() {
     let cost = -(density * volume * 4.0 / std::f64::consts::TAU).ln();
     assert!((of("docking_cost_kT") - cost).abs() < 1e-9);
     let closed = found["bond"]["closed_form_error"].as_f64().unwrap();
-    assert!(closed < 0.0 && closed > -0.15, "{closed}");
+    // Its error grows with kT: 6 % at a hundredth of the depth.
+    assert!(closed < -0.2 && closed > -0.35, "{closed}");
     // One holds up to kT = bond / 21, two up to bond / 8.5.
     let window = numbers(&found["two_hold_one_does_not_J"]);
     let depths = window.iter().map(|kt| 65.47e-3 / kt).collect::<Vec<_>>();

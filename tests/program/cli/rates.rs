@@ -40,7 +40,7 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     for told in [
         "paper-tile",
         "bound first",
-        "0.7500 m",
+        "750.0 mm apart",
         "-32.73 mJ",
         "100 /s",
     ] {
