@@ -65,7 +65,8 @@ fn shortened(command: &str) -> String {
         "compare" | "sweep" => {
             " --milestones 300 --far-starts 10 --certify-cells 300 --complete-cells 0 --quiet"
         }
-        "yield" => " --runs 8 --simulations 10 --quiet",
+        "yield" if words.contains(&"--runs") => " --quiet",
+        "yield" => " --runs 8 --quiet",
         _ => "",
     };
     format!("tilebind {}{quick}", short.join(" "))
