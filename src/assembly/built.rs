@@ -90,11 +90,7 @@ impl Built {
         if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
             return Err(BuiltError::Loose(chosen[loose]));
         }
-        let least = wiring
-            .bonds
-            .iter()
-            .map(|bond| bond.strength)
-            .fold(f64::INFINITY, f64::min);
+        let least = wiring.least_strength();
         let depth = |bond: &usize| matrix.bond(*bond) / wiring.bonds[*bond].strength;
         let weakest = (0..needed).filter(|bond| wiring.bonds[*bond].strength == least);
         let weakest = weakest

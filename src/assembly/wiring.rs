@@ -77,6 +77,12 @@ pub enum WiringError {
 }
 
 impl Wiring {
+    /// The strength (in Gse) of the weakest bond.
+    pub fn least_strength(&self) -> f64 {
+        let strengths = self.bonds.iter().map(|bond| bond.strength);
+        strengths.fold(f64::INFINITY, f64::min)
+    }
+
     /// The bonds of a set.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use tilebind::Settings;
-use tilebind::kinetics::bond::{Bond, Shaking, traps};
+use tilebind::kinetics::bond::Shaking;
 use tilebind::pipeline;
 use tilebind::report::bond::BondReport;
 use tilebind::report::json;
@@ -48,15 +48,12 @@ impl BondCommand {
         let progress = self.print.progress();
         let settings = Settings::without_proofs(self.work.seed);
         let analysis = pipeline::analyse(&design, &settings, &progress);
-        let found = Bond::new(&analysis.problem, &analysis.inventory);
-        let bond = found.map_err(|error| Failure::Run(error.to_string()))?;
-        let traps = traps(&analysis.problem, &analysis.inventory, self.kt);
-        let shallow = analysis.inventory.kinds().count() - 1 - traps.len();
         let shaking = Shaking {
             kt: self.kt,
             coverage: self.coverage,
         };
-        let report = BondReport::new(&design, &analysis.problem, &bond, &traps, shallow, shaking);
+        let found = BondReport::new(&design, &analysis.problem, &analysis.inventory, shaking);
+        let report = found.map_err(|error| Failure::Run(error.to_string()))?;
         progress.finish();
         let text = json::text(&report.json());
         self.print.results(&text, || report.summary())

@@ -6,7 +6,7 @@ use clap::Args;
 use tilebind::design::Design;
 use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
-use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
+use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use tilebind::landscape::Place as End;
 use tilebind::observer::Observer;
@@ -111,7 +111,7 @@ impl Rates {
     fn exit(&self, design: &Design, start: Configuration) -> Result<(), Failure> {
         input::doubt_pose(design, &start);
         let problem = design.problem();
-        let half = || BASIN * problem.energy(&design.pair.bound);
+        let half = || half_bond(&problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
         let asked = ExitSettings::new(self.kt, start, basin, self.free_at(design));
         let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {
@@ -212,14 +212,10 @@ impl Rates {
 
     /// States and their lowest barriers are needed, and no proofs.
     fn survey(&self) -> Settings {
-        let mut settings = Settings {
-            seed: self.work.seed,
-            far_starts: 0,
-            certify_seconds: 0.0,
-            ..Settings::default()
-        };
-        settings.completeness.seconds = 0.0;
-        settings
+        Settings {
+            milestones: Settings::default().milestones,
+            ..Settings::without_proofs(self.work.seed)
+        }
     }
 
     /// The bond and the deepest traps that hold at this kT.

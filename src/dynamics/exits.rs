@@ -1,10 +1,9 @@
 //! Exits of moving tiles: how long a shaken tile takes from a start to one of two ends.
 
-use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::docking::stream;
-use super::trajectory::normal;
+use super::trajectory::thermal_velocity;
 use super::{Body, Motion, MotionSettings, SettingsError, Simulation};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -53,11 +52,9 @@ pub fn exits(
     let kt = motion.shaking.unwrap_or(0.0);
     let one = |number: usize| {
         let mut rng = stream(asked.seed, number);
-        let spread = Vector3::new(body.mass, body.mass, body.inertia).map(|m| (kt / m).sqrt());
-        let velocity = spread.map(|spread| spread * normal(&mut rng));
         let start = Motion {
             configuration: asked.start,
-            velocity,
+            velocity: thermal_velocity(&body, kt, &mut rng),
         };
         let mut before = 0.0;
         let mut kinetic = 0.0;
@@ -82,15 +79,20 @@ pub fn exits(
         .filter(|run| run.0.is_some())
         .map(|run| run.1)
         .collect();
-    let n = times.len() as f64;
-    let mean = times.iter().sum::<f64>() / n;
-    let variance = times.iter().map(|time| (time - mean).powi(2)).sum::<f64>() / (n - 1.0);
     let all: f64 = runs.iter().map(|run| run.1).sum();
     let kinetic: f64 = runs.iter().map(|run| run.2).sum();
     Ok(ExitRuns {
         ends: [count(Some(0)), count(Some(1))],
         given_up: count(None),
-        time: [mean, (variance / n).sqrt()],
+        time: mean_and_error(&times),
         warmth: kinetic / all / (1.5 * kt),
     })
+}
+
+/// The mean of a sample and its standard error; the one is NaN of none, the other of one.
+pub fn mean_and_error(sample: &[f64]) -> [f64; 2] {
+    let n = sample.len() as f64;
+    let mean = sample.iter().sum::<f64>() / n;
+    let variance = sample.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    [mean, (variance / n).sqrt()]
 }

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::body::{Motion, Phase};
+use super::body::{Body, Motion, Phase};
 use super::collision::Collision;
 use super::flight;
 use super::force::Forces;
@@ -241,6 +241,11 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             self.phase.velocity[i] = self.phase.velocity[i] * decay + spread * normal(rng);
         }
     }
+}
+
+/// A velocity (m/s, m/s, rad/s) of a body in equilibrium at kT (J).
+pub(super) fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    body.masses().map(|mass| (kt / mass).sqrt() * normal(rng))
 }
 
 /// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).

@@ -44,6 +44,11 @@ impl ExitSettings {
     }
 }
 
+/// Half the bond's energy (J), below which a tile is bound where nothing else is asked.
+pub fn half_bond(problem: &Problem, bound: &Configuration) -> f64 {
+    0.5 * problem.energy(bound)
+}
+
 /// What one mesh says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshExit {

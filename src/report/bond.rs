@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use super::terminal::write_table;
 use super::values::{pose, positive_zero};
 use crate::design::Design;
-use crate::kinetics::bond::{Bond, Docking, Hold, Shaking, TOLERANCE};
+use crate::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use crate::landscape::Inventory;
 use crate::problem::Problem;
 use crate::units::si;
 
@@ -96,25 +97,28 @@ impl Held {
 }
 
 impl<'a> BondReport<'a> {
-    /// Integrates what is reported; `shallow` kinds of traps are left out of `traps`.
+    /// Integrates over the bond and the traps of an inventory.
+    ///
+    /// # Errors
+    /// Where there is no bond.
     pub fn new(
         design: &'a Design,
         problem: &Problem,
-        bond: &Bond,
-        traps: &[Hold],
-        shallow: usize,
+        inventory: &Inventory,
         shaking: Shaking,
-    ) -> Self {
-        let holds = std::iter::once(bond.hold()).chain(traps);
-        Self {
+    ) -> Result<Self, BondError> {
+        let bond = Bond::new(problem, inventory)?;
+        let traps = traps(problem, inventory, shaking.kt);
+        let holds = std::iter::once(bond.hold()).chain(&traps);
+        Ok(Self {
             design,
             shaking,
-            shallow,
+            shallow: inventory.kinds().count() - 1 - traps.len(),
             holds: holds
                 .map(|hold| Held::new(problem, hold, &shaking))
                 .collect(),
             window: bond.window(shaking.coverage),
-        }
+        })
     }
 
     /// What `--json` prints.

@@ -1,7 +1,7 @@
 //! Docking experiments as JSON, CSV and a summary.
 
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::inspection::pole;
 use super::json;
@@ -74,11 +74,7 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
         "free": proportion(&docking.free),
         "traps": traps,
         "time_to_bind_s": times(docking),
-        "on_rate": {
-            "attachments": rate.attachments, "time_s": rate.time, "rate_per_s": rate.rate,
-            "interval_per_s": rate.interval, "statistic": rate.statistic,
-            "critical": OnRate::CRITICAL, "exponential": rate.is_exponential(),
-        },
+        "on_rate": rate_entry("attachments", &rate),
         // Both are of the paper's tile, and null for any other.
         "paper_figure_6": is_paper_tile(design).then(|| json!({
             "claim": PAPER_CHANCE, "orientation_rad": orientation, "speed_m_per_s": speed,
@@ -98,6 +94,15 @@ pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
         })),
         "timing": timing(docking),
     }))
+}
+
+/// A rate, with the number of what was counted under its name.
+pub(super) fn rate_entry(events: &str, rate: &OnRate) -> Value {
+    json!({
+        events: rate.attachments, "time_s": rate.time, "rate_per_s": rate.rate,
+        "interval_per_s": rate.interval, "statistic": rate.statistic,
+        "critical": OnRate::CRITICAL, "exponential": rate.is_exponential(),
+    })
 }
 
 /// Whether both tiles are the paper's: straight squares of 43 cm with four magnets of 0.2865 A m^2,

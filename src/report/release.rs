@@ -2,9 +2,10 @@
 
 use serde_json::json;
 
+use super::docking::rate_entry;
 use super::json;
 use crate::design::Design;
-use crate::dynamics::docking::{DockingSettings, OnRate, Release, off_rate};
+use crate::dynamics::docking::{DockingSettings, Release, off_rate};
 use crate::units::si;
 
 /// The off-rate, and everything that reproduces it.
@@ -24,11 +25,7 @@ pub fn json(design: &Design, settings: &DockingSettings, releases: &[Release]) -
                 "shaking_J": motion.shaking, "fans": motion.fans.len(),
             },
         },
-        "off_rate": {
-            "detachments": rate.attachments, "time_s": rate.time, "rate_per_s": rate.rate,
-            "interval_per_s": rate.interval, "statistic": rate.statistic,
-            "critical": OnRate::CRITICAL, "exponential": rate.is_exponential(),
-        },
+        "off_rate": rate_entry("detachments", &rate),
         "times_s": releases.iter().filter(|it| it.left).map(|it| it.time).collect::<Vec<_>>(),
     }))
 }

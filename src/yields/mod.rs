@@ -10,6 +10,7 @@ pub mod attachment;
 
 use crate::design::Design;
 use crate::dynamics::docking::{DockingError, stream};
+use crate::dynamics::exits::mean_and_error;
 use crate::kinetics::bond::{Bond, BondError, Hold, Shaking, TOLERANCE, traps};
 use crate::kinetics::mixture::{self, Mixture};
 use crate::kinetics::population::{Crowd, MOST_PAIRS, PairRates};
@@ -308,10 +309,7 @@ fn simulated(rates: &PairRates, crowd: &Crowd, question: &Question) -> Option<[f
         })
         .collect();
     let shares = shares.filter(|shares| shares.len() > 1)?;
-    let n = runs as f64;
-    let mean = shares.iter().sum::<f64>() / n;
-    let variance = shares.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    Some([mean, (variance / n).sqrt()])
+    Some(mean_and_error(&shares))
 }
 
 /// The best schedule of the settings, for as many tiles as asked for but at most six.

@@ -1,11 +1,9 @@
 //! The off-rate: how soon bound tiles come loose.
 
-use nalgebra::Vector3;
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::{DockingError, DockingSettings, MatchRule, OnRate, STEPS_BETWEEN_LOOKS, stream};
+use crate::dynamics::trajectory::thermal_velocity;
 use crate::dynamics::{Body, Motion, Simulation, Snapshot};
 use crate::problem::Problem;
 
@@ -31,16 +29,15 @@ pub fn releases(
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Release>, DockingError> {
     let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
-    let simulation = Simulation::new(problem, Body::of_tile(&pair.moving), &settings.motion)?;
+    let body = Body::of_tile(&pair.moving);
+    let simulation = Simulation::new(problem, body, &settings.motion)?;
     let rule = MatchRule::new(problem, settings.threshold)?;
     let kt = settings.motion.shaking.unwrap_or(0.0);
-    let masses = Vector3::new(pair.moving.mass, pair.moving.mass, pair.moving.inertia());
     let release = |index: usize| {
         let mut rng = stream(settings.seed, index);
-        let velocity = masses.map(|mass| (kt / mass).sqrt() * normal(&mut rng));
         let start = Motion {
             configuration: pair.bound,
-            velocity,
+            velocity: thermal_velocity(&body, kt, &mut rng),
         };
         let (mut steps, mut matched_last, mut is_matched) = (0, 0.0, true);
         let mut look = |snapshot: &Snapshot| {
@@ -78,10 +75,4 @@ pub fn releases(
 /// taken one after the other, as for attachment.
 pub fn off_rate(releases: &[Release]) -> OnRate {
     OnRate::of_events(releases.iter().map(|release| (release.time, release.left)))
-}
-
-/// A normal number (Box and Muller).
-fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let [u, v] = [rng.random::<f64>(), rng.random::<f64>()];
-    (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
 }

@@ -2,8 +2,8 @@
 
 use pyo3::prelude::*;
 use tilebind::design::Design;
-use tilebind::kinetics::bond::{Bond, Shaking, traps};
-use tilebind::kinetics::exit::{ExitError, ExitSettings, exit};
+use tilebind::kinetics::bond::Shaking;
+use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
@@ -23,9 +23,6 @@ pub struct Asked {
     pub free_at: Option<f64>,
 }
 
-/// The share of the bond's energy below which a tile is bound by default.
-const BASIN: f64 = 0.5;
-
 /// Mean exit time and exits of a tile that is let go at a pose.
 pub fn exits<'py>(
     py: Python<'py>,
@@ -40,7 +37,7 @@ pub fn exits<'py>(
     let bound = &design.pair.bound;
     let basin = asked
         .basin_energy
-        .unwrap_or_else(|| BASIN * problem.energy(bound));
+        .unwrap_or_else(|| half_bond(problem, bound));
     let free_at = asked.free_at.unwrap_or(design.space().free_distance);
     let settings = ExitSettings::new(asked.kt, start, basin, free_at);
     let found = job::quietly(py, || exit(problem, bound, &settings))?;
@@ -68,11 +65,8 @@ pub fn bond<'py>(
         )));
     }
     let entry = job::quietly(py, || {
-        let bond = Bond::new(problem, inventory)?;
-        let traps = traps(problem, inventory, shaking.kt);
-        let shallow = inventory.kinds().count() - 1 - traps.len();
-        let report = BondReport::new(design, problem, &bond, &traps, shallow, shaking);
-        Ok::<_, tilebind::kinetics::BondError>(json::text(&report.json()))
+        let report = BondReport::new(design, problem, inventory, shaking);
+        report.map(|report| json::text(&report.json()))
     })?;
     convert::json(py, &entry.map_err(fault::run)?)
 }

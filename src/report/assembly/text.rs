@@ -44,12 +44,7 @@ pub(crate) fn slid(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Opti
 /// grow as kT^(5/2), as at a flush edge.
 pub fn window(built: &Built) -> Option<[f64; 2]> {
     let tau = built.set.tau();
-    let less = built
-        .wiring
-        .bonds
-        .iter()
-        .map(|bond| bond.strength)
-        .fold(f64::INFINITY, f64::min);
+    let less = built.wiring.least_strength();
     // ln K of bonds of a strength; it falls with kT.
     let ln_k = |strength: f64, kt: f64| {
         let gmc = built.gmc - 2.5 * (kt / built.shaking.kt).ln();
@@ -79,12 +74,7 @@ pub fn headline(assembly: &Assembly) -> String {
     let built = assembly.built;
     let (set, n) = (&built.set, built.wiring.bonds.len());
     let (gse, gmc, tau) = (built.gse(), built.gmc, set.tau());
-    let less = built
-        .wiring
-        .bonds
-        .iter()
-        .map(|bond| bond.strength)
-        .fold(f64::INFINITY, f64::min);
+    let less = built.wiring.least_strength();
     let verdict = match () {
         () if gmc > tau * gse => "too hard: nothing holds, so nothing grows",
         () if tau > less && gmc < (tau - less) * gse => {
