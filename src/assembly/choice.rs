@@ -5,7 +5,7 @@
 //! included, attract by at most (1 - gap) of the weakest bond of strength 1.
 
 use crate::words::budget::Budget;
-use crate::words::candidates::Candidates;
+use crate::words::candidates::{Candidates, number};
 use crate::words::graph::Graph;
 use crate::words::search::{self, Effort};
 use crate::words::{Bar, Constraints, Lags, Rules, Task, Word, local};
@@ -49,14 +49,33 @@ pub struct Choice {
     pub verdict: Verdict,
     /// The words, strongest first; as many as were found.
     pub words: Vec<Word>,
-    /// How many words of each strength there can be at most, as far as is known.
-    pub upper: Vec<usize>,
+    /// What is known of each strength, the strongest first.
+    pub classes: Vec<Class>,
+}
+
+/// Words of one strength.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// Magnets of a word.
+    pub magnets: usize,
+    /// Words needed.
+    pub needed: usize,
+    /// Words found, beside those of the stronger classes.
+    pub found: usize,
+    /// There are no more than so many, whatever the other classes are; `usize::MAX` where nothing is
+    /// known. Bounds are asked for only where too few were found.
+    pub upper: usize,
 }
 
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
-/// Weaker words to choose from at most.
-const MOST_BESIDE: usize = 3000;
+/// The clock ends work that takes so many times longer than it should.
+const LATE: f64 = 30.0;
+/// Share of the work left for bounds, where there are several strengths.
+const FOR_BOUNDS: f64 = 0.3;
+/// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
+const MOST_JUDGED: usize = 1 << 16;
+const LEAST_BESIDE: usize = 256;
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 
@@ -68,14 +87,15 @@ impl Asked {
     }
 }
 
-/// Words for a face of so many places; `demand` as [`super::Wiring::demand`] gives it.
-pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
+/// Words for a face of so many places, with the gap asked for or the widest that is reached: all
+/// trials, of which the last one is the answer. `demand` as [`super::Wiring::demand`] gives it.
+pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choice> {
     let weakest = demand.last().map_or(1.0, |last| last.0);
     let strongest = demand.first().map_or(1.0, |first| first.0);
     let unit = asked.magnets(places, weakest, strongest);
     let trial = |gap: f64, trials: f64| {
         let seconds = asked.seconds / trials;
-        let budget = Budget::seconds(seconds, Budget::deadline(3.0 * seconds));
+        let budget = Budget::seconds(seconds, Budget::deadline(LATE * seconds));
         let mut effort = Effort {
             seed: asked.seed,
             budget,
@@ -83,34 +103,39 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Choice {
         at_gap(demand, places, gap, asked, &mut effort)
     };
     if let Some(gap) = asked.gap {
-        return trial(gap, 1.0);
+        return vec![trial(gap, 1.0)];
     }
     // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
     let (mut low, mut high) = (0, unit);
-    let trials = f64::from(usize::BITS - unit.leading_zeros());
-    let (mut best, mut last) = (None, None);
+    let count = f64::from(usize::BITS - unit.leading_zeros());
+    let mut trials: Vec<Choice> = Vec::new();
     while low < high {
         let contacts = (low + high) / 2;
-        let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, trials);
-        if choice.verdict == Verdict::Found {
-            high = contacts;
-            best = Some(choice);
-        } else {
-            low = contacts + 1;
-            last = Some(choice);
+        let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, count);
+        match choice.verdict {
+            Verdict::Found => high = contacts,
+            _ => low = contacts + 1,
         }
+        trials.push(choice);
     }
-    best.or(last).unwrap_or_else(|| trial(0.0, 1.0))
+    // What was found with the widest gap, else what failed with the narrowest one.
+    let last = |choice: &Choice| match choice.verdict {
+        Verdict::Found => (true, choice.gap),
+        _ => (false, -choice.gap),
+    };
+    trials.sort_by(|a, b| {
+        let (a, b) = (last(a), last(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    trials
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
 pub fn shortest(demand: &[(f64, usize)], asked: &Asked, most: usize) -> Vec<Choice> {
     let mut tried = Vec::new();
-    for places in 1..=most {
-        let choice = choose(demand, places, asked);
-        let found = choice.verdict == Verdict::Found;
-        tried.push(choice);
-        if found {
+    for places in asked.magnets.unwrap_or(1)..=most {
+        tried.extend(choose(demand, places, asked));
+        if tried.last().is_some_and(|it: &Choice| it.verdict == Verdict::Found) {
             break;
         }
     }
@@ -139,48 +164,103 @@ fn at_gap(
     effort: &mut Effort,
 ) -> Choice {
     let strongest = demand.first().map_or(1.0, |first| first.0);
-    let weakest = demand.last().map_or(1.0, |last| last.0);
+    let class = |(strength, needed): &(f64, usize)| Class {
+        magnets: asked.magnets(places, *strength, strongest),
+        needed: *needed,
+        found: 0,
+        upper: usize::MAX,
+    };
     let mut choice = Choice {
         places,
         gap,
         verdict: Verdict::Found,
         words: Vec::new(),
-        upper: Vec::new(),
+        classes: demand.iter().map(class).collect(),
     };
-    let unit = asked.magnets(places, weakest, strongest) as f64;
-    for (part, (strength, needed)) in demand.iter().enumerate() {
-        let of_class = asked.magnets(places, *strength, strongest);
-        let task = task(asked, places, of_class);
-        // The gap is of the weakest bond.
-        let own_gap = 1.0 - (1.0 - gap) * unit / of_class as f64;
-        if part == 0 {
+    let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
+    // Of several strengths bounds are searched apart.
+    let several = demand.len() > 1;
+    let mut proof = Effort {
+        seed: effort.seed,
+        budget: effort.budget.share(if several { FOR_BOUNDS } else { 0.0 }),
+    };
+    for part in 0..demand.len() {
+        let Class { magnets, needed, .. } = choice.classes[part];
+        let task = task(asked, places, magnets);
+        let words = if part == 0 {
+            // The gap is of the weakest bond.
+            let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
             let mut share = Effort {
                 seed: effort.seed,
                 budget: effort.budget.share(1.0 / demand.len() as f64),
             };
-            let found = search::largest(&task, own_gap, *needed, &mut share);
+            let found = search::largest(&task, own_gap, needed, &mut share);
             effort.budget.give_back(&share.budget);
-            choice.upper.push(found.upper);
-            choice.words.extend(found.words.iter().take(*needed));
+            if !several {
+                choice.classes[0].upper = found.upper;
+            }
+            found.words
         } else {
             let limit = (1.0 - gap) * unit * WEAKER * task.lags.contact();
-            let seen = beside(&task, &choice.words, limit, *needed, unit, effort);
-            choice.upper.push(usize::MAX);
-            choice.words.extend(seen);
-        }
-        let wanted: usize = demand[..=part].iter().map(|class| class.1).sum();
-        if choice.words.len() < wanted {
-            // Of several strengths the weakest bond is known to a few percent only.
-            let refuted = demand.len() == 1 && choice.upper[part] < *needed;
-            choice.verdict = if refuted {
-                Verdict::Refuted
-            } else {
-                Verdict::Open
-            };
-            return choice;
+            beside(&task, &choice.words, limit, needed, unit, effort)
+        };
+        choice.words.extend(words.iter().take(needed));
+        choice.classes[part].found = words.len().min(needed);
+        if words.len() < needed {
+            if several {
+                bound(&mut choice, asked, &mut proof);
+            }
+            let refuted = choice.classes.iter().any(|it| it.upper < it.needed);
+            choice.verdict = if refuted { Verdict::Refuted } else { Verdict::Open };
+            break;
         }
     }
     choice
+}
+
+/// Bounds the classes, each as if it stood alone: no wrong meeting among its words attracts by more
+/// than (1 - gap) of the weakest bond, of which no more is known here than that it lies below the
+/// deepest one that a word of the weakest class may have.
+fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
+    let last = choice.classes.len() - 1;
+    let reach = |task: &Task, sign: f64| {
+        let magnets = task.magnets as u32;
+        f64::from(magnets) * task.lags.contact() + sign * task.lags.rest(magnets, magnets)
+    };
+    let deepest = reach(&task(asked, choice.places, choice.classes[last].magnets), 1.0);
+    for part in (0..=last).rev() {
+        let class = &mut choice.classes[part];
+        let task = task(asked, choice.places, class.magnets);
+        let own_gap = match part == last {
+            true => choice.gap,
+            false => 1.0 - (1.0 - choice.gap) * deepest / reach(&task, -1.0),
+        };
+        // Of many words with empty places nothing can be proved.
+        let hopeless = class.magnets < choice.places && !few(&task);
+        if hopeless || !(0.0..=1.0).contains(&own_gap) {
+            continue;
+        }
+        let mut share = Effort {
+            seed: effort.seed,
+            budget: effort.budget.share(1.0 / (part + 1) as f64),
+        };
+        class.upper = search::largest(&task, own_gap, class.needed, &mut share).upper;
+        effort.budget.give_back(&share.budget);
+        if class.upper < class.needed {
+            return;
+        }
+    }
+}
+
+/// Whether there are few enough words to look at them all.
+fn few(task: &Task) -> bool {
+    number(task.places, task.magnets) <= 4.0 * MOST_JUDGED as f64
+}
+
+/// Words from all over a list: at most so many, or [`LEAST_BESIDE`] if that is more.
+fn thinned(words: Vec<Word>, most: usize) -> Vec<Word> {
+    let step = words.len().div_ceil(most.clamp(LEAST_BESIDE, MOST_JUDGED));
+    words.into_iter().step_by(step.max(1)).collect()
 }
 
 /// Words of a weaker class beside those that are there.
@@ -193,18 +273,20 @@ fn beside(
     effort: &mut Effort,
 ) -> Vec<Word> {
     let least = unit * WEAKER * task.lags.contact();
-    let work = effort.budget.left() / 2;
-    let all = Candidates::new(task, limit, effort.seed, work);
-    let mut words = all.words;
+    let all = match few(task) {
+        true => Candidates::new(task, limit, effort.seed, u64::MAX),
+        false => Candidates::sampled(task, limit, effort.seed, 2 * MOST_JUDGED),
+    };
+    let mut words = thinned(all.words, MOST_JUDGED);
     words.retain(|word| {
         task.rules.bond(&task.lags, *word) >= least
             && there
                 .iter()
                 .all(|other| task.rules.within(&task.lags, *word, *other, limit))
     });
-    // More than enough to choose from, and a graph that is held whole.
-    let step = words.len().div_ceil(MOST_BESIDE).max(1);
-    let words: Vec<Word> = words.into_iter().step_by(step).collect();
+    // No more than can be joined with half the work.
+    let pairs = effort.budget.left() / task.judgement();
+    let words = thinned(words, (pairs as f64).sqrt() as usize);
     let graph = Graph::new(task, words, limit, effort.budget.left());
     effort.budget.spend(graph.work());
     let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);

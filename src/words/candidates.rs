@@ -34,38 +34,53 @@ impl Candidates {
     pub fn new(task: &Task, limit: f64, seed: u64, work: u64) -> Self {
         let number = number(task.places, task.magnets);
         let complete = number <= MOST_ENUMERATED && number * task.judgement() as f64 <= work as f64;
-        let sampled = (work / (JUDGED * task.judgement())).clamp(2 * CHUNK as u64, SAMPLE) as usize;
-        let sound = |word: &Word| {
-            let (lags, rules) = (&task.lags, &task.rules);
-            (!task.exchangeable() || *word <= word.mate())
-                && task.constraints.allow(lags, rules, *word)
-                && rules.within(lags, *word, *word, limit)
-        };
-        let mut words: Vec<Word> = match (complete, task.magnets) {
-            (true, magnets) if magnets == task.places => (0..1u64 << task.places)
+        if !complete {
+            let count = (work / (JUDGED * task.judgement())).clamp(2 * CHUNK as u64, SAMPLE);
+            return Self::sampled(task, limit, seed, count as usize);
+        }
+        let words: Vec<Word> = match task.magnets == task.places {
+            true => (0..1u64 << task.places)
                 .into_par_iter()
                 .map(|set| Word::new(set, !set, task.places))
-                .filter(sound)
+                .filter(|word| sound(task, limit, word))
                 .collect(),
-            (true, _) => places_of(task.places, task.magnets)
+            false => places_of(task.places, task.magnets)
                 .into_par_iter()
                 .flat_map_iter(|places| with_poles(places, task.places))
-                .filter(sound)
-                .collect(),
-            (false, _) => (0..sampled / CHUNK)
-                .into_par_iter()
-                .flat_map_iter(|chunk| drawn(task, seed, chunk))
-                .map(|word| match task.exchangeable() {
-                    true => word.min(word.mate()),
-                    false => word,
-                })
-                .filter(sound)
+                .filter(|word| sound(task, limit, word))
                 .collect(),
         };
+        Self::ordered(words, complete)
+    }
+
+    /// Those of about `count` words drawn at random.
+    pub fn sampled(task: &Task, limit: f64, seed: u64, count: usize) -> Self {
+        let words = (0..count / CHUNK)
+            .into_par_iter()
+            .flat_map_iter(|chunk| drawn(task, seed, chunk))
+            .map(|word| match task.exchangeable() {
+                true => word.min(word.mate()),
+                false => word,
+            })
+            .filter(|word| sound(task, limit, word))
+            .collect();
+        Self::ordered(words, false)
+    }
+
+    fn ordered(mut words: Vec<Word>, complete: bool) -> Self {
         words.par_sort_unstable();
         words.dedup();
         Self { words, complete }
     }
+}
+
+/// Whether a word satisfies a task's constraints and attracts nothing wrong of its own by more than
+/// `limit` (J).
+fn sound(task: &Task, limit: f64, word: &Word) -> bool {
+    let (lags, rules) = (&task.lags, &task.rules);
+    (!task.exchangeable() || *word <= word.mate())
+        && task.constraints.allow(lags, rules, *word)
+        && rules.within(lags, *word, *word, limit)
 }
 
 /// How many words there are of so many places and magnets.

@@ -77,7 +77,7 @@ impl Task {
     }
 
     /// Units of work that finding out whether two words go together counts as.
-    fn judgement(&self) -> u64 {
+    pub(crate) fn judgement(&self) -> u64 {
         let meetings = self.rules.meetings(self.places) as u64;
         let one = match self.rules.fault {
             Some(_) => (self.places * self.places) as u64,

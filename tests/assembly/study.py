@@ -1,200 +1,239 @@
 #!/usr/bin/env python3
-"""The study of results/assembly: tables and pictures of sets grown in rgrow.
+"""The study of results/assembly: tables and pictures of sets built of magnets and grown in rgrow.
 
-    tests/assembly/study.py target/release/tilebind results/assembly
+    tests/assembly/study.py target/release/tilebind results/assembly [PART ...]
 
-Takes minutes. See check.py for what an error is.
+Parts are builds, smallest, shaking, blocks, proofreading and pictures; without one, all, which takes
+an hour. Words are the same every time, what grows is drawn at random. See check.py for what an error
+is.
 """
 
 import csv
+import math
 import pathlib
+import re
 import sys
 import tempfile
 
-from check import SETS, Grown, assemble, at_growth, ideal, mean
-
-import numpy as np
+from check import SETS, Grown, Refused, assemble, at_growth, mean, with_words
 
 NAMES = ["unary-square", "binary-tree", "binary-counter", "beaver-square", "spiral"]
+EXCESS = 1.0
+SPACED = ["--pitch", "0.015"]
 FACES = [
-    ("4 even", ["--length", "4"]),
-    ("8 even", ["--length", "8"]),
-    ("16 even", ["--length", "16"]),
-    ("4 in 16", ["--length", "16", "--magnets", "4", "--pitch", "0.015"]),
-    ("8 in 24", ["--length", "24", "--magnets", "8", "--pitch", "0.015"]),
-    ("16 in 32", ["--length", "32", "--magnets", "16", "--pitch", "0.015"]),
+    *((k, "uniform", k, 0.040, ["--length", str(k)]) for k in (4, 8, 16)),
+    *((k, "spaced", 28, 0.015, ["--length", "28", "--magnets", str(k), *SPACED]) for k in (4, 8, 16)),
 ]
+SHAPES = ["none", "shared"]
+LONGEST = 48
 
 
-def table(path, header, rows):
-    with open(path, "w", newline="") as file:
-        out = csv.writer(file, lineterminator="\n")
-        out.writerow(header)
-        out.writerows(rows)
+class Table:
+    """A table that is written whole after each row."""
+
+    def __init__(self, path, header):
+        self.path, self.rows = path, [header]
+
+    def add(self, row):
+        self.rows.append(["" if it is None else it for it in row])
+        with open(self.path, "w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(self.rows)
+        print(self.path.stem, *self.rows[-1], flush=True)
 
 
 def figure(value, digits=3):
-    return f"{value:.{digits}g}"
+    return None if value is None else f"{value:.{digits}g}"
 
 
-def whole(report):
+def whole(report, most=2000):
+    """Tiles to grow: of what ends nearly all, for it loses a tile now and then."""
     grown = report["grown"]
-    return min(2000, grown["tiles"]) if grown["complete"] else 2000
+    tiles = grown["tiles"] - grown["tiles"] // 20
+    return min(most, tiles) if grown["complete"] else most
 
 
-def runs(path, size, often, **more):
-    grown = [Grown(path, size=size, wall=20, **more) for _ in range(often)]
-    done = [it for it in grown if it.count >= size]
-    return done, len(done) / often
+GREW = ["errors_a_tile", "standard_error", "tiles_a_docking_time", "grown"]
 
 
-def measured(path, report, often, plain=False):
-    """Errors a tile with its standard error, tiles a docking time, and the share that got there."""
-    size = whole(report)
-    done, share = runs(path, size, often, plain=plain)
+def measured(path, gmc, size, often, plain=False, area=1):
+    """Of `often` runs: errors a tile and the standard error, tiles a docking time, and the share
+    that grew; all of blocks of `area` tiles."""
+    runs = [Grown(path, size=size, plain=plain) for _ in range(often)]
+    done = [it for it in runs if it.count >= size]
+    share = figure(len(done) / often)
     if not done:
-        return None, None, None, share
-    errors, spread = mean(it.errors / it.count for it in done)
-    gmc = report["Gmc"]
-    speed, _ = mean(it.count / (it.time * 1e6 * np.exp(-gmc)) for it in done)
-    return errors, spread, speed, share
+        return [None, None, None, share]
+    errors, spread = mean(it.errors * area / it.count for it in done)
+    # The engine's rate of docking at no cost is 10^6 a second.
+    speed, _ = mean(it.count / area / (it.time * 1e6 * math.exp(-gmc)) for it in done)
+    return [figure(errors), figure(spread), figure(speed), share]
 
 
-def told(found):
-    return ["" if it is None else figure(it) for it in found]
+def ideal(folder, tiles, gse, gmc, wrong=0.0):
+    """A file of abstract glues, where different ones of strength 1 bind with `wrong`."""
+    text = tiles
+    if wrong:
+        weak = re.findall(r"- \{name: (.*), strength: 1(?:\.0)?\}", text)
+        links = [f"- [{a}, {b}, {wrong}]" for i, a in enumerate(weak) for b in weak[:i]]
+        text += "\n" + "\n".join(["glues:", *links])
+    path = folder / "ideal.yaml"
+    path.write_text(f"{text}\nGse: {gse}\nGmc: {gmc}\n")
+    return path
 
 
-def ideal_like(name, report, folder, often):
-    text = (SETS / f"{name}.yaml").read_text()
-    path = folder / "like.yaml"
-    path.write_text(text + f"Gse: {report['Gse']}\nGmc: {report['Gmc']}\n")
-    return measured(path, report, often, plain=True)
+def set_of(name):
+    return str(SETS / f"{name}.yaml")
+
+
+def why_not(error):
+    """Words needed, the verdict, words found, the bound and the gap, of the program's refusal."""
+    text = " ".join(str(error).split())
+    number = lambda pattern: next(iter(re.findall(pattern, text)), None)
+    bound = re.search(r"of those with (\d+) magnets? at most (\d+)", text)
+    bound = f"{bound[2]} with {bound[1]} magnets" if bound else None
+    return [number(r"(\d+) words \("), "none, proved" if bound else "open",
+            number(r": (\d+) were found"), bound, number(r"gap of ([\d.]+)")]
 
 
 def builds(program, folder, out, often):
-    rows = []
+    """Which set can be built with which faces, and with which errors."""
+    table = Table(out / "builds.csv", [
+        "set", "shape", "magnets", "arrangement", "places", "face_m", "words_needed", "words", "found",
+        "at_most", "gap", "wider_gap", "weakest_bond_J", "strongest_mismatch_J", "window_low_J",
+        "window_high_J", "kt_J", "Gse", "Gmc", *GREW, *(f"{it}_ideal" for it in GREW)])
     for name in NAMES:
-        for face, options in FACES:
-            for shape in ("none", "shared"):
-                arguments = [str(SETS / f"{name}.yaml"), *options, "--shape", shape, "--seconds", "6"]
+        for shape in SHAPES:
+            for magnets, arrangement, places, pitch, options in FACES:
+                head = [name, shape, magnets, arrangement, places, figure(places * pitch)]
+                arguments = [set_of(name), *options, "--shape", shape, "--seconds", "4"]
                 try:
-                    words = folder / f"{name}-{face}-{shape}".replace(" ", "-")
-                    first = assemble(program, words, *arguments, "--kt", "5e-3", "--coverage", "0.1")
-                except AssertionError as error:
-                    why = "none, proved" if "proved" in str(error) else "none found"
-                    rows.append([name, face, shape, why] + [""] * 9)
-                    print(rows[-1], flush=True)
+                    given, first = with_words(program, folder / "built", arguments)
+                except Refused as error:
+                    table.add(head + why_not(error) + [None] * 16)
                     continue
-                given = [str(SETS / f"{name}.yaml"), "--words", str(words / "words.toml")]
-                report = at_growth(program, folder / "built", given)
+                report = at_growth(program, folder / "built", given, EXCESS)
+                wider = [it for it in first["faces_tried"] if it["verdict"] != "found"]
+                wider = "none wider, proved" if not wider or wider[-1]["verdict"] != "open" else "open"
+                window = report["window_kt_J"] or [None, None]
                 mismatch = report["strongest_mismatch"] or {"energy_J": 0.0}
-                own = measured(folder / "built" / "assembly.yaml", report, often)
-                plain = ideal_like(name, report, folder, often)
-                gap = first["faces_tried"][-1]["gap"]
-                rows.append([
-                    name, face, shape, "built", figure(gap),
-                    figure(-mismatch["energy_J"] / report["bond_J"]),
-                    figure(report["kt_J"]), figure(report["Gse"], 4), figure(report["Gmc"], 4),
-                    *told(own[:2]), *told(plain[:2]),
-                ])
-                print(rows[-1], flush=True)
-    header = ["set", "magnets", "shape", "words", "gap", "strongest_mismatch", "kt_J", "Gse", "Gmc",
-              "errors_a_tile", "standard_error", "errors_ideal", "standard_error_ideal"]
-    table(out / "builds.csv", header, rows)
+                weakest = max(it["energy_J"] for it in report["bonds"])
+                gse, gmc, size = report["Gse"], report["Gmc"], whole(report)
+                own = measured(folder / "built" / "assembly.yaml", gmc, size, often)
+                path = ideal(folder, (folder / "built" / "tileset.yaml").read_text(), gse, gmc)
+                table.add([
+                    *head, report["tile_set"]["words_needed"], "found", report["tile_set"]["words_needed"], None,
+                    figure(first["faces_tried"][-1]["gap"]), wider,
+                    *(figure(it, 4) for it in (weakest, mismatch["energy_J"], *window, report["kt_J"], gse, gmc)),
+                    *own, *measured(path, gmc, size, often, plain=True)])
+
+
+def smallest(program, folder, out, _):
+    """The smallest face that carries a set with a gap of 0.5."""
+    table = Table(out / "smallest.csv", ["set", "shape", "magnets", "places", "face_m", "none_proved_to"])
+    for name in NAMES:
+        for shape in SHAPES:
+            for magnets in (None, 4, 8, 16):
+                pitch = 0.015 if magnets else 0.040
+                refuted = [0]
+
+                def carries(places):
+                    arguments = [set_of(name), "--length", str(places), "--shape", shape, "--gap", "0.5", "--seconds", "1.5"]
+                    arguments += ["--magnets", str(magnets), *SPACED] if magnets else []
+                    try:
+                        with_words(program, folder / "smallest", arguments)
+                        return True
+                    except Refused as error:
+                        if why_not(error)[1] != "open":
+                            refuted.append(places)
+                        return False
+
+                low, high = (magnets or 2) - 1, magnets or 2
+                while high <= LONGEST and not carries(high):
+                    low, high = high, max(high + 1, min(high * 3 // 2, LONGEST) if high < LONGEST else LONGEST + 1)
+                while high <= LONGEST and high - low > 1:
+                    middle = (low + high) // 2
+                    low, high = (low, middle) if carries(middle) else (middle, high)
+                found = [high, figure(high * pitch)] if high <= LONGEST else [None, None]
+                table.add([name, shape, magnets or "one a place", *found, max(refuted)])
 
 
 def shaking(program, folder, out, often):
-    rows = []
+    """Errors and speed over shaking, measured matrices against ideal glues."""
+    table = Table(out / "shaking.csv", [
+        "set", "tau_Gse_less_Gmc", "kt_J", "Gse", "Gmc", *GREW, *(f"{it}_ideal" for it in GREW)])
     for name in ["sierpinski", *NAMES]:
-        options = ["--length", "16", "--shape", "shared", "--seconds", "6"]
-        words = folder / f"{name}-words"
-        assemble(program, words, str(SETS / f"{name}.yaml"), *options, "--kt", "5e-3", "--coverage", "0.1")
-        given = [str(SETS / f"{name}.yaml"), "--words", str(words / "words.toml"), "--shape", "shared"]
-        for excess in (0.1, 0.3, 1, 2, 4, 6, 8):
-            report = at_growth(program, folder / "shaken", given, excess)
-            own = measured(folder / "shaken" / "assembly.yaml", report, often)
-            plain = ideal_like(name, report, folder, often)
-            rows.append([name, excess, figure(report["kt_J"]), figure(report["Gse"], 4),
-                         figure(report["Gmc"], 4), *told(own), *told(plain)])
-            print(rows[-1], flush=True)
-    header = ["set", "tau_Gse_less_Gmc", "kt_J", "Gse", "Gmc", "errors_a_tile", "standard_error",
-              "tiles_a_docking_time", "grown", "errors_ideal", "standard_error_ideal",
-              "tiles_a_docking_time_ideal", "grown_ideal"]
-    table(out / "shaking.csv", header, rows)
+        arguments = [set_of(name), "--length", "16", "--shape", "shared", "--seconds", "4"]
+        given, _ = with_words(program, folder / name, arguments)
+        for excess in (0.3, 1, 2, 4, 8):
+            report = at_growth(program, folder / name, given, excess)
+            gse, gmc, size = report["Gse"], report["Gmc"], whole(report)
+            own = measured(folder / name / "assembly.yaml", gmc, size, often)
+            path = ideal(folder, (folder / name / "tileset.yaml").read_text(), gse, gmc)
+            table.add([name, excess, *(figure(it, 4) for it in (report["kt_J"], gse, gmc)), *own,
+                       *measured(path, gmc, size, often, plain=True)])
+
+
+def blocks(program, folder, out, often):
+    """Sierpinski's set of abstract glues in blocks, where wrong ones bind in part."""
+    table = Table(out / "blocks.csv", ["Gse", "tau_Gse_less_Gmc", "wrong_strength", "block", "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"])
+    texts = {k: blocks_of(program, folder, k) for k in (1, 2, 3)}
+    for gse, excess in ((8.0, 1.0), (8.0, 3.0), (12.0, 3.0)):
+        for wrong in (0, 0.125, 0.25, 0.375, 0.5):
+            for k, text in texts.items():
+                gmc = 2 * gse - excess
+                path = ideal(folder, text, gse, gmc, wrong)
+                table.add([gse, excess, wrong, k, *measured(path, gmc, 400 * k * k, often, plain=True, area=k * k)])
+
+
+def blocks_of(program, folder, k):
+    out = folder / f"blocks-{k}"
+    arguments = [set_of("sierpinski"), "--proofread", str(k), "--length", "16", "--shape", "shared"]
+    assemble(program, out, *arguments, "--kt", "5e-3", "--coverage", "0.1", "--seconds", "2")
+    return (out / "tileset.yaml").read_text()
 
 
 def proofreading(program, folder, out, often):
-    """Blocks of abstract glues, wrong ones of strength 1 binding in part."""
-    rows = []
-    for k in (1, 2, 3):
-        blocks = folder / f"blocks-{k}"
-        arguments = [str(SETS / "sierpinski.yaml"), "--proofread", str(k), "--length", "16"]
-        assemble(program, blocks, *arguments, "--gap", "0", "--kt", "5e-3", "--coverage", "0.1")
-        text = (blocks / "tileset.yaml").read_text()
-        weak = [line.split("name:")[1].split(",")[0].strip() for line in text.splitlines()
-                if line.startswith("- {name:") and line.endswith("strength: 1.0}")]
-        for gse in (8.0, 10.0):
-            for wrong in (0, 0.125, 0.25, 0.375, 0.5):
-                links = [f"- [{a}, {b}, {wrong}]" for i, a in enumerate(weak) for b in weak[:i] if wrong]
-                path = folder / "blocks.yaml"
-                gmc = 2 * gse - 0.3
-                path.write_text("\n".join([text, f"Gse: {gse}", f"Gmc: {gmc}", *(["glues:"] if links else []), *links]))
-                size = 500 * k * k
-                done, share = runs(path, size, often, plain=True)
-                if not done:
-                    rows.append([gse, wrong, k, "", "", "", figure(share)])
+    """Sierpinski's set and the counter in blocks, of magnets."""
+    table = Table(out / "proofreading.csv", [
+        "set", "block", "words", "magnets", "gap", "strongest_mismatch", "tau_Gse_less_Gmc", "kt_J", "Gse", "Gmc",
+        "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"])
+    for name in ("sierpinski", "binary-counter"):
+        for k in (1, 2, 3):
+            for places in (8, 16):
+                arguments = [set_of(name), "--proofread", str(k), "--length", str(places), "--shape", "shared", "--seconds", "4"]
+                try:
+                    given, first = with_words(program, folder / "proof", arguments)
+                except Refused as error:
+                    table.add([name, k, None, places, why_not(error)[1], *[None] * 9])
                     continue
-                errors, spread = mean(it.errors * k * k / it.count for it in done)
-                speed, _ = mean(it.count / (k * k) / (it.time * 1e6 * np.exp(-gmc)) for it in done)
-                rows.append([gse, wrong, k, figure(errors), figure(spread), figure(speed), figure(share)])
-                print(rows[-1], flush=True)
-    header = ["Gse", "wrong_strength", "block", "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"]
-    table(out / "proofreading.csv", header, rows)
+                for excess in (1, 3):
+                    report = at_growth(program, folder / "proof", given, excess)
+                    mismatch = (report["strongest_mismatch"] or {"energy_J": 0.0})["energy_J"]
+                    own = measured(folder / "proof" / "assembly.yaml", report["Gmc"], 400 * k * k, often, area=k * k)
+                    table.add([name, k, report["tile_set"]["words_needed"], places, figure(first["faces_tried"][-1]["gap"]),
+                               figure(-mismatch / report["bond_J"]), excess,
+                               *(figure(report[it], 4) for it in ("kt_J", "Gse", "Gmc")), *own])
 
 
-def pictures(program, folder, out):
-    """What grew once, errors in black."""
-    import matplotlib
+def pictures(program, folder, out, _):
+    from draw import draw
 
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    draw(program, folder, out)
 
-    figure_, axes = plt.subplots(2, 3, figsize=(9, 6.4), constrained_layout=True)
-    for axis, name in zip(axes.flat, ["sierpinski", *NAMES]):
-        words = folder / f"{name}-words"
-        given = [str(SETS / f"{name}.yaml"), "--words", str(words / "words.toml"), "--shape", "shared"]
-        report = at_growth(program, folder / "drawn", given, 1.0)
-        grown = Grown(folder / "drawn" / "assembly.yaml", size=whole(report), wall=20)
-        canvas = grown.canvas
-        colours = [line.split('color: "')[1][:7] if "color:" in line else "#888888"
-                   for line in (folder / "drawn" / "assembly.yaml").read_text().splitlines()
-                   if line.startswith("- {name:") and "edges:" in line]
-        table_ = np.array([[1.0, 1.0, 1.0]] + [matplotlib.colors.to_rgb(it) for it in colours])
-        rows, columns = np.nonzero(canvas)
-        low, high = (rows.min(), columns.min()), (rows.max() + 1, columns.max() + 1)
-        axis.imshow(table_[canvas][low[0]:high[0], low[1]:high[1]], interpolation="nearest")
-        wrong = np.array(grown.places) - low if grown.places else np.empty((0, 2))
-        axis.plot(wrong[:, 1], wrong[:, 0], "kx", markersize=3, markeredgewidth=0.8)
-        axis.set_title(f"{name}: {grown.count} tiles, {grown.errors} wrong contacts", fontsize=9)
-        axis.set_axis_off()
-    figure_.savefig(out / "grown.png", dpi=110, metadata={"Software": None})
+
+PARTS = {"builds": (builds, 4), "smallest": (smallest, 0), "shaking": (shaking, 5), "blocks": (blocks, 5),
+         "proofreading": (proofreading, 5), "pictures": (pictures, 0)}
 
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     out = pathlib.Path(sys.argv[2])
-    parts = [it for it in sys.argv[3:] if not it.startswith("-")] or ["shaking", "proofreading", "builds", "pictures"]
     out.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        if "shaking" in parts:
-            shaking(program, folder, out, 8)
-        if "proofreading" in parts:
-            proofreading(program, folder, out, 8)
-        if "builds" in parts:
-            builds(program, folder, out, 5)
-        if "pictures" in parts:
-            pictures(program, folder, out)
+    for name in [it for it in sys.argv[3:] if it in PARTS] or PARTS:
+        part, often = PARTS[name]
+        with tempfile.TemporaryDirectory() as folder:
+            part(program, pathlib.Path(folder), out, often)
 
 
-main()
+if __name__ == "__main__":
+    main()

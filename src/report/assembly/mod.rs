@@ -255,6 +255,12 @@ fn value(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Value {
             "gap": it.gap,
             "verdict": verdict(it.verdict),
             "words": it.words.len(),
+            "classes": it.classes.iter().map(|class| json!({
+                "magnets": class.magnets,
+                "needed": class.needed,
+                "found": class.found,
+                "at_most": (class.upper < usize::MAX).then_some(class.upper),
+            })).collect::<Value>(),
         })).collect::<Value>(),
         "seed": assembly.seed,
     })

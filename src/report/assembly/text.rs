@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::Assembly;
 use crate::assembly::Built;
-use crate::assembly::choice::Verdict;
+use crate::assembly::choice::{Choice, Verdict};
 use crate::assembly::slides::Slid;
 use crate::units::{si, si_range};
 
@@ -141,25 +141,8 @@ pub fn summary(assembly: &Assembly) -> String {
             "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
         ));
     }
-    if let Some(last) = assembly.tried.last() {
-        let before = &assembly.tried[..assembly.tried.len() - 1];
-        let refuted = before
-            .iter()
-            .filter(|it| it.verdict == Verdict::Refuted)
-            .count();
-        line(format!(
-            "words found with a gap of {:.3} on {} places{}",
-            last.gap,
-            last.places,
-            match before.len() {
-                0 => String::new(),
-                all if all == refuted => "; on fewer places there are none, proved".to_owned(),
-                all => format!(
-                    "; fewer: {refuted} lengths proved impossible, {} open",
-                    all - refuted
-                ),
-            }
-        ));
+    if let Some(found) = found(assembly) {
+        line(found);
     }
     match built.matrix.strongest_wrong() {
         Some((i, j, energy)) => line(format!(
@@ -203,4 +186,33 @@ pub fn summary(assembly: &Assembly) -> String {
         ));
     }
     text
+}
+
+/// What the search for words says, if there was one.
+fn found(assembly: &Assembly) -> Option<String> {
+    let (last, before) = assembly.tried.split_last()?;
+    let failed = || before.iter().filter(|it| it.verdict != Verdict::Found);
+    let refuted = |it: &&Choice| it.verdict == Verdict::Refuted;
+    let shorter = || failed().filter(|it| it.places != last.places);
+    let shorter = match (shorter().count(), shorter().filter(refuted).count()) {
+        (0, _) => String::new(),
+        (all, proved) if all == proved => "; on fewer places there are none, proved".to_owned(),
+        (all, proved) => format!(
+            "; fewer: {proved} lengths proved impossible, {} open",
+            all - proved
+        ),
+    };
+    // Trials end with the narrowest gap that failed, and those that did not.
+    let wider = failed().rfind(|it| it.places == last.places);
+    let wider = wider.map_or(String::new(), |it| {
+        let how = match it.verdict {
+            Verdict::Refuted => "there are none, proved",
+            _ => "none were found",
+        };
+        format!("; with {:.3} {how}", it.gap)
+    });
+    Some(format!(
+        "words found with a gap of {:.3} on {} places{shorter}{wider}",
+        last.gap, last.places
+    ))
 }

@@ -147,6 +147,47 @@ fn a_lattice_is_written_as_designs_whose_bonds_the_matrix_knows() {
 }
 
 #[test]
+fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let arguments = ["lattice", "--lattice", "2x2", "--length", "3"];
+    let report = built(&arguments, out);
+    let bonds = report["bonds"].as_array().unwrap();
+    let gap = number(&report["faces_tried"].as_array().unwrap().last().unwrap()["gap"]);
+    let weakest = number(&report["bond_J"]);
+    let designs = contents(&out.join("designs"));
+    assert_eq!((bonds.len(), designs.len()), (4, 4));
+    for (name, text) in designs {
+        let design = out.join("designs").join(&name);
+        let word = |bond: &&Value| {
+            // The target face of the fixed tile carries a word.
+            let text = String::from_utf8_lossy(&text);
+            let side = if name.contains("east") { "east" } else { "north" };
+            let word = bond["word"].as_str().unwrap();
+            let index = bonds.iter().position(|it| it["word"] == word).unwrap();
+            let code = report["words"][index].as_str().unwrap();
+            let fixed = text.split("[moving]").next().unwrap();
+            fixed.contains(&format!("{side} = {{ code = \"{code}\" }}"))
+        };
+        let bond = number(&bonds.iter().find(word).expect("its word")["energy_J"]);
+        let few = "--complete-seconds 0 --certify-seconds 0 --milestones 60 --far-starts 10";
+        let few: Vec<&str> = few.split(' ').collect();
+        let (file, folder) = (design.to_str().unwrap(), out.join("pair"));
+        let common = ["analyse", file, "--json", "--compact", "--out"];
+        let states = json(&[&common[..], &[folder.to_str().unwrap()], &few].concat());
+        let states = states["states"].as_array().unwrap().clone();
+        // Magnets of other faces add or take a hundredth.
+        let own = number(&states[0]["energy_J"]);
+        assert_eq!(states[0]["kind"], "bound", "{name}");
+        assert!((own / bond - 1.0).abs() < 0.01, "{name}: {own} {bond}");
+        for state in &states[1..] {
+            let energy = number(&state["energy_J"]);
+            assert!(energy > -(1.0 - gap) * weakest * 1.01, "{name}: {state}");
+        }
+    }
+}
+
+#[test]
 fn the_first_line_answers() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
@@ -195,6 +236,8 @@ fn nonsense_is_refused_with_the_mend() {
         &[COUNTER, "--side", "3"],
         &[COUNTER, "--proofread", "0"],
         &[COUNTER, "--length", "2"],
+        &[COUNTER, "--length", "4", "--magnets", "5"],
+        &[COUNTER, "--magnets", "60"],
         &[COUNTER, "--length", "99"],
         &[COUNTER, "--words", "missing.toml"],
         &[COUNTER, "shapes/tab-20mm.svg"],

@@ -1,15 +1,16 @@
 //! `tilebind assemble`.
 
+mod search;
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::assembly::choice::{self, Asked, Choice, Verdict};
 use tilebind::assembly::{Built, TileSet, Wiring, lattice, proofread, square};
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
 use tilebind::report::assembly::{self as report, Assembly};
-use tilebind::report::{words, writer};
-use tilebind::words::{Bar, Rules, Shape, Word};
+use tilebind::report::writer;
+use tilebind::words::{Rules, Shape};
 
 use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
@@ -71,7 +72,7 @@ pub struct Assemble {
     length: Option<usize>,
 
     /// Magnets of the strongest bonds' words, where spacing is code too [default: one a place]
-    #[arg(long, value_name = "K", value_parser = input::count, requires = "length")]
+    #[arg(long, value_name = "K", value_parser = input::count)]
     magnets: Option<usize>,
 
     /// Least gap of the words, from 0 to 1 [default: 0.5; with --length the widest there is]
@@ -132,9 +133,6 @@ fn rows_and_columns(text: &str) -> Result<[usize; 2], String> {
         .filter(fits)
         .ok_or_else(|| format!("a lattice is ROWSxCOLUMNS, such as 3x3, of 2 to {most} tiles"))
 }
-
-/// The least gap where none is asked for.
-const GAP: f64 = 0.5;
 
 impl Assemble {
     pub fn run(self) -> Result<(), Failure> {
@@ -237,102 +235,4 @@ impl Assemble {
             .transpose()?;
         Ok((set, design))
     }
-
-    /// Words for the bonds, as the text of a set, and what was tried.
-    fn search(
-        &self,
-        wiring: &Wiring,
-        design: Option<&Design>,
-    ) -> Result<(String, Vec<Choice>), Failure> {
-        let usage = |message: String| Failure::Usage(message);
-        let paper = Bar::paper();
-        let bar = match design {
-            None => paper,
-            Some(design) => {
-                let pair = &design.pair;
-                let pitch = self.pitch.or(design.pitch).unwrap_or(paper.pitch);
-                Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch).map_err(
-                    |error| {
-                        usage(format!(
-                            "{}: {error}; words need equal magnets behind a flat face",
-                            design.name
-                        ))
-                    },
-                )?
-            }
-        };
-        let bar = Bar {
-            pitch: self.pitch.unwrap_or(bar.pitch),
-            model: self.model.unwrap_or(bar.model),
-            ..bar
-        };
-        let face = design.map(|design| design.pair.fixed.faces[design.pair.target.0].length());
-        let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
-        let most = face
-            .map_or(choice::MOST_PLACES, fitting)
-            .min(choice::MOST_PLACES);
-        if let Some(length) = self.length.filter(|length| *length > most) {
-            return Err(usage(format!(
-                "a face of {length} places is too long: {most} at most, {} apart",
-                tilebind::units::si(bar.pitch, "m", 3)
-            )));
-        }
-        if let (Some(length), Some(magnets)) = (self.length, self.magnets)
-            && magnets > length
-        {
-            return Err(usage(format!(
-                "{magnets} magnets do not fit into {length} places: give --length {magnets} or more"
-            )));
-        }
-        let asked = Asked {
-            bar,
-            magnets: self.magnets,
-            rules: self.rules(),
-            gap: self.gap.or(self.length.is_none().then_some(GAP)),
-            seed: self.work.seed,
-            seconds: self.seconds,
-        };
-        let demand = wiring.demand();
-        let tried = match self.length {
-            Some(places) => vec![choice::choose(&demand, places, &asked)],
-            None => choice::shortest(&demand, &asked, most),
-        };
-        let needed = wiring.bonds.len();
-        match tried.last() {
-            Some(last) if last.verdict == Verdict::Found => {
-                let side = face.unwrap_or_default();
-                Ok((set_text(last, &bar, side), tried))
-            }
-            last => {
-                let last = last.ok_or_else(|| usage("the face holds no magnet".to_owned()))?;
-                let how = match last.verdict {
-                    Verdict::Refuted => "there are none, proved",
-                    _ => "none were found; --seconds searches longer",
-                };
-                Err(usage(format!(
-                    "{needed} words with a gap of {:.3} on faces of {} places: {how}; give more \
-                     places (--length), a narrower --gap, or --words",
-                    last.gap, last.places
-                )))
-            }
-        }
-    }
-}
-
-/// The words as a set, on a face of `side` (m), or as long as they are.
-fn set_text(choice: &Choice, bar: &Bar, side: f64) -> String {
-    let words = &choice.words;
-    let places = choice.places as f64;
-    let needed = (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1]);
-    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
-    let faces = words.iter().map(|word: &Word| {
-        [word.to_string(), word.mate().to_string()].map(|code| format!("code = \"{code}\""))
-    });
-    words::set_toml(
-        &format!("{} words of {} places", words.len(), choice.places),
-        &format!("words = [{}]\n\n", quoted.join(", ")),
-        bar,
-        if side > 0.0 { side } else { needed },
-        faces,
-    )
 }

@@ -1,0 +1,148 @@
+//! The words of `tilebind assemble`, searched.
+
+use tilebind::assembly::Wiring;
+use tilebind::assembly::choice::{self, Asked, Choice, Class, Verdict};
+use tilebind::design::Design;
+use tilebind::report::words;
+use tilebind::words::{Bar, Word};
+
+use super::{Assemble, Failure};
+
+/// The least gap where none is asked for.
+const GAP: f64 = 0.5;
+
+fn usage<T>(message: String) -> Result<T, Failure> {
+    Err(Failure::Usage(message))
+}
+
+impl Assemble {
+    /// Words for the bonds, as the text of a set, and what was tried.
+    pub(super) fn search(
+        &self,
+        wiring: &Wiring,
+        design: Option<&Design>,
+    ) -> Result<(String, Vec<Choice>), Failure> {
+        let bar = self.bar(design)?;
+        let face = design.map(|design| design.pair.fixed.faces[design.pair.target.0].length());
+        let most = self.most_places(&bar, face)?;
+        let asked = Asked {
+            bar,
+            magnets: self.magnets,
+            rules: self.rules(),
+            gap: self.gap.or(self.length.is_none().then_some(GAP)),
+            seed: self.work.seed,
+            seconds: self.seconds,
+        };
+        let demand = wiring.demand();
+        let tried = match self.length {
+            Some(places) => choice::choose(&demand, places, &asked),
+            None => choice::shortest(&demand, &asked, most),
+        };
+        match tried.last() {
+            Some(last) if last.verdict == Verdict::Found => {
+                Ok((set_text(last, &bar, face.unwrap_or_default()), tried))
+            }
+            Some(last) => usage(missing(last)),
+            None => usage("the face holds no magnet".to_owned()),
+        }
+    }
+
+    /// The magnets: the paper's, or those of a design.
+    fn bar(&self, design: Option<&Design>) -> Result<Bar, Failure> {
+        let paper = Bar::paper();
+        let bar = match design {
+            None => paper,
+            Some(design) => {
+                let pair = &design.pair;
+                let pitch = self.pitch.or(design.pitch).unwrap_or(paper.pitch);
+                let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch);
+                bar.or_else(|error| {
+                    let name = &design.name;
+                    usage(format!(
+                        "{name}: {error}; words need equal magnets behind a flat face"
+                    ))
+                })?
+            }
+        };
+        Ok(Bar {
+            pitch: self.pitch.unwrap_or(bar.pitch),
+            model: self.model.unwrap_or(bar.model),
+            ..bar
+        })
+    }
+
+    /// The longest face to look at, of which the design's may be this long (m).
+    fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, Failure> {
+        let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
+        let most = face
+            .map_or(choice::MOST_PLACES, fitting)
+            .min(choice::MOST_PLACES);
+        if let Some(length) = self.length.filter(|length| *length > most) {
+            return usage(format!(
+                "a face of {length} places is too long: {most} at most, {} apart",
+                tilebind::units::si(bar.pitch, "m", 3)
+            ));
+        }
+        let places = self.length.unwrap_or(most);
+        if let Some(magnets) = self.magnets.filter(|magnets| *magnets > places) {
+            return usage(match self.length {
+                Some(_) => format!(
+                    "{magnets} magnets do not fit into {places} places: give --length {magnets} or \
+                     more"
+                ),
+                None => format!("{magnets} magnets do not fit into a face of {places} places"),
+            });
+        }
+        Ok(most)
+    }
+}
+
+/// What there is too few of, and whether there can be more.
+fn missing(choice: &Choice) -> String {
+    let sum = |of: fn(&Class) -> usize| choice.classes.iter().map(of).sum::<usize>();
+    let magnets = |class: &Class| match class.magnets {
+        1 => "1 magnet".to_owned(),
+        magnets => format!("{magnets} magnets"),
+    };
+    let needed: Vec<String> = choice
+        .classes
+        .iter()
+        .map(|class| format!("{} with {}", class.needed, magnets(class)))
+        .collect();
+    let refuted = choice.classes.iter().find(|it| it.upper < it.needed);
+    let why = match refuted {
+        Some(class) => format!(
+            "there are not enough, proved: of those with {} at most {}",
+            magnets(class),
+            class.upper
+        ),
+        None => "whether there are more is open, and --seconds searches longer".to_owned(),
+    };
+    format!(
+        "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give more \
+         places (--length), a narrower --gap, or --words",
+        sum(|it| it.needed),
+        needed.join(", "),
+        choice.gap,
+        choice.places,
+        sum(|it| it.found),
+    )
+}
+
+/// The words as a set, on a face of `side` (m), or as long as they are.
+fn set_text(choice: &Choice, bar: &Bar, side: f64) -> String {
+    let words = &choice.words;
+    let places = choice.places as f64;
+    let needed = (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1]);
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    let faces = words.iter().map(|word: &Word| {
+        [word.to_string(), word.mate().to_string()].map(|code| format!("code = \"{code}\""))
+    });
+    words::set_toml(
+        &format!("{} words of {} places", words.len(), choice.places),
+        &format!("words = [{}]\n\n", quoted.join(", ")),
+        bar,
+        if side > 0.0 { side } else { needed },
+        faces,
+    )
+}
