@@ -71,6 +71,11 @@ class Counted:
         fits = (lambda a, b: a == b) if plain else (lambda a, b: b == mate(a))
         self.canvas, self.count = canvas, int((canvas > 0).sum())
         self.errors, self.places = 0, []
+        # Wrong contacts that are there to stay: three neighbours are about either tile. A tile that
+        # docks where it does not belong has fewer, and falls off again.
+        filled = np.pad(canvas > 0, 1).astype(int)
+        about = filled[:-2, 1:-1] + filled[2:, 1:-1] + filled[1:-1, :-2] + filled[1:-1, 2:]
+        self.inner, self.settled = (about >= 3) & (canvas > 0), []
         rows, columns = canvas.shape
         for i, j in zip(*np.nonzero(canvas)):
             here = edges[canvas[i, j] - 1]
@@ -82,15 +87,17 @@ class Counted:
                     if "0" not in (a, b) and not fits(a, b):
                         self.errors += 1
                         self.places.append(((i + there[0]) / 2, (j + there[1]) / 2))
+                        if self.inner[i, j] and self.inner[there]:
+                            self.settled.append((i, j))
 
 
 class Grown(Counted):
     """A file grown once in rgrow."""
 
-    def __init__(self, path, plain=False, size=SIZE, events=3_000_000):
+    def __init__(self, path, plain=False, size=SIZE, events=500_000):
         tiles = rgrow.rgrow.TileSet.from_file(str(path))
         system, state = tiles.create_system_and_state()
-        system.evolve(state, size_max=size, for_events=events, for_wall_time=120)
+        system.evolve(state, size_max=size, for_events=events, for_wall_time=60)
         self.time = state.time
         edges = edges_of(pathlib.Path(path).with_suffix(".yaml").read_text())
         super().__init__(np.array(state.canvas_view), edges, plain)

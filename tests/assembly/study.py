@@ -55,18 +55,26 @@ def whole(report, most=2000):
 GREW = ["errors_a_tile", "standard_error", "tiles_a_docking_time", "grown"]
 
 
-def measured(path, gmc, size, often, plain=False, area=1):
-    """Of `often` runs: errors a tile and the standard error, tiles a docking time, and the share
-    that grew; all of blocks of `area` tiles."""
+def measured(path, gmc, size, often, plain=False, side=1):
+    """Of `often` runs: errors that are there to stay and their standard error, for a tile with three
+    neighbours or for a block of `side` x `side` of them, tiles or blocks a docking time, and the share
+    that grew."""
     runs = [Grown(path, size=size, plain=plain) for _ in range(often)]
     done = [it for it in runs if it.count >= size]
     share = figure(len(done) / often)
     if not done:
         return [None, None, None, share]
-    errors, spread = mean(it.errors * area / it.count for it in done)
+    errors, spread = mean(wrong_share(it, path, side) for it in done)
     # The engine's rate of docking at no cost is 10^6 a second.
-    speed, _ = mean(it.count / area / (it.time * 1e6 * math.exp(-gmc)) for it in done)
+    speed, _ = mean(it.count / side**2 / (it.time * 1e6 * math.exp(-gmc)) for it in done)
     return [figure(errors), figure(spread), figure(speed), share]
+
+
+def wrong_share(grown, path, side):
+    row, column = re.search(r"seed: \[(\d+), (\d+),", pathlib.Path(path).with_suffix(".yaml").read_text()).groups()
+    block = lambda i, j: ((i - int(row) - 1) // side, (j - int(column)) // side)
+    wrong = {block(i, j) for i, j in grown.settled}
+    return len(wrong) * side**2 / max(int(grown.inner.sum()), 1)
 
 
 def ideal(folder, tiles, gse, gmc, wrong=0.0):
@@ -177,12 +185,12 @@ def blocks(program, folder, out, often):
     """Sierpinski's set of abstract glues in blocks, where wrong ones bind in part."""
     table = Table(out / "blocks.csv", ["Gse", "tau_Gse_less_Gmc", "wrong_strength", "block", "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"])
     texts = {k: blocks_of(program, folder, k) for k in (1, 2, 3)}
-    for gse, excess in ((8.0, 1.0), (8.0, 3.0), (12.0, 3.0)):
-        for wrong in (0, 0.125, 0.25, 0.375, 0.5):
+    for gse, excess in ((8.0, 1.0), (10.0, 1.0)):
+        for wrong in (0, 0.25, 0.5):
             for k, text in texts.items():
                 gmc = 2 * gse - excess
                 path = ideal(folder, text, gse, gmc, wrong)
-                table.add([gse, excess, wrong, k, *measured(path, gmc, 400 * k * k, often, plain=True, area=k * k)])
+                table.add([gse, excess, wrong, k, *measured(path, gmc, 300 * k * k, often, plain=True, side=k)])
 
 
 def blocks_of(program, folder, k):
@@ -209,7 +217,7 @@ def proofreading(program, folder, out, often):
                 for excess in (1, 3):
                     report = at_growth(program, folder / "proof", given, excess)
                     mismatch = (report["strongest_mismatch"] or {"energy_J": 0.0})["energy_J"]
-                    own = measured(folder / "proof" / "assembly.yaml", report["Gmc"], 400 * k * k, often, area=k * k)
+                    own = measured(folder / "proof" / "assembly.yaml", report["Gmc"], 300 * k * k, often, side=k)
                     table.add([name, k, report["tile_set"]["words_needed"], places, figure(first["faces_tried"][-1]["gap"]),
                                figure(-mismatch / report["bond_J"]), excess,
                                *(figure(report[it], 4) for it in ("kt_J", "Gse", "Gmc")), *own])
@@ -221,7 +229,7 @@ def pictures(program, folder, out, _):
     draw(program, folder, out)
 
 
-PARTS = {"builds": (builds, 4), "smallest": (smallest, 0), "shaking": (shaking, 5), "blocks": (blocks, 5),
+PARTS = {"builds": (builds, 4), "smallest": (smallest, 0), "shaking": (shaking, 5), "blocks": (blocks, 4),
          "proofreading": (proofreading, 5), "pictures": (pictures, 0)}
 
 
