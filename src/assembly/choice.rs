@@ -135,7 +135,10 @@ pub fn shortest(demand: &[(f64, usize)], asked: &Asked, most: usize) -> Vec<Choi
     let mut tried = Vec::new();
     for places in asked.magnets.unwrap_or(1)..=most {
         tried.extend(choose(demand, places, asked));
-        if tried.last().is_some_and(|it: &Choice| it.verdict == Verdict::Found) {
+        if tried
+            .last()
+            .is_some_and(|it: &Choice| it.verdict == Verdict::Found)
+        {
             break;
         }
     }
@@ -185,7 +188,9 @@ fn at_gap(
         budget: effort.budget.share(if several { FOR_BOUNDS } else { 0.0 }),
     };
     for part in 0..demand.len() {
-        let Class { magnets, needed, .. } = choice.classes[part];
+        let Class {
+            magnets, needed, ..
+        } = choice.classes[part];
         let task = task(asked, places, magnets);
         let words = if part == 0 {
             // The gap is of the weakest bond.
@@ -211,7 +216,11 @@ fn at_gap(
                 bound(&mut choice, asked, &mut proof);
             }
             let refuted = choice.classes.iter().any(|it| it.upper < it.needed);
-            choice.verdict = if refuted { Verdict::Refuted } else { Verdict::Open };
+            choice.verdict = if refuted {
+                Verdict::Refuted
+            } else {
+                Verdict::Open
+            };
             break;
         }
     }
@@ -227,7 +236,10 @@ fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
         let magnets = task.magnets as u32;
         f64::from(magnets) * task.lags.contact() + sign * task.lags.rest(magnets, magnets)
     };
-    let deepest = reach(&task(asked, choice.places, choice.classes[last].magnets), 1.0);
+    let deepest = reach(
+        &task(asked, choice.places, choice.classes[last].magnets),
+        1.0,
+    );
     for part in (0..=last).rev() {
         let class = &mut choice.classes[part];
         let task = task(asked, choice.places, class.magnets);

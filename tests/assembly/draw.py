@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from check import SETS, Grown, at_growth, with_words  # noqa: E402
-from study import EXCESS, NAMES, blocks_of, ideal, whole  # noqa: E402
+from study import EXCESS, NAMES, TREE, blocks_of, ideal, whole  # noqa: E402
 
 
 def show(axis, grown, text, title):
@@ -38,14 +38,14 @@ def save(figure, path):
 
 
 def draw(program, folder, out):
-    figure, axes = plt.subplots(2, 3, figsize=(9, 6.4), constrained_layout=True)
-    for axis, name in zip(axes.flat, ["sierpinski", *NAMES]):
+    figure, axes = plt.subplots(1, 5, figsize=(13, 3), constrained_layout=True)
+    for axis, name in zip(axes.flat, ["sierpinski", *(it for it in NAMES if it != TREE)]):
         arguments = [str(SETS / f"{name}.yaml"), "--length", "16", "--shape", "shared", "--seconds", "4"]
         given, _ = with_words(program, folder / "drawn", arguments)
         report = at_growth(program, folder / "drawn", given, EXCESS)
         path = folder / "drawn" / "assembly.yaml"
         grown = Grown(path, size=whole(report))
-        title = f"{name}: {grown.count} tiles, {contacts(grown.errors)}"
+        title = f"{name}: {grown.count} tiles,\n{contacts(grown.errors)}"
         show(axis, grown, path.read_text(), title)
     save(figure, out / "grown.png")
     figure, axes = plt.subplots(2, 3, figsize=(9, 6.4), constrained_layout=True)

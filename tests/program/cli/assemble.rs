@@ -162,7 +162,11 @@ fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
         let word = |bond: &&Value| {
             // The target face of the fixed tile carries a word.
             let text = String::from_utf8_lossy(&text);
-            let side = if name.contains("east") { "east" } else { "north" };
+            let side = if name.contains("east") {
+                "east"
+            } else {
+                "north"
+            };
             let word = bond["word"].as_str().unwrap();
             let index = bonds.iter().position(|it| it["word"] == word).unwrap();
             let code = report["words"][index].as_str().unwrap();
@@ -176,13 +180,13 @@ fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
         let common = ["analyse", file, "--json", "--compact", "--out"];
         let states = json(&[&common[..], &[folder.to_str().unwrap()], &few].concat());
         let states = states["states"].as_array().unwrap().clone();
-        // Magnets of other faces add or take a hundredth.
+        // Magnets of other faces, near on so short a face, add or take some hundredths.
         let own = number(&states[0]["energy_J"]);
         assert_eq!(states[0]["kind"], "bound", "{name}");
-        assert!((own / bond - 1.0).abs() < 0.01, "{name}: {own} {bond}");
+        assert!((own / bond - 1.0).abs() < 0.03, "{name}: {own} {bond}");
         for state in &states[1..] {
             let energy = number(&state["energy_J"]);
-            assert!(energy > -(1.0 - gap) * weakest * 1.01, "{name}: {state}");
+            assert!(energy > -(1.0 - gap) * weakest * 1.03, "{name}: {state}");
         }
     }
 }
