@@ -7,14 +7,18 @@
 //! one; those that overlap are dropped. Turns at which too little of the edges is parallel for a
 //! contact worth the name are not tried.
 
-use std::f64::consts::PI;
+mod gap;
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
+use super::Contact;
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::Contact;
 use crate::tile::Outline;
 
 /// A motion and what it brings.
@@ -42,22 +46,20 @@ pub const LEAST_SHARE: f64 = 0.01;
 pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
     let (fixed, moving) = (contact.fixed(), contact.moving());
     let least = LEAST_SHARE * perimeter(fixed).min(perimeter(moving));
-    let pairs: Vec<[usize; 2]> = turns(fixed, moving)
-        .into_iter()
-        .filter(|turn| turn.most >= least)
-        .flat_map(|turn| turn.pairs)
+    let turns: Vec<Turn> = turns(fixed, moving, least);
+    let laid: Vec<(&Turn, [usize; 2])> = turns
+        .iter()
+        .flat_map(|turn| turn.laid.iter().map(move |pair| (turn, *pair)))
         .collect();
-    let mut found: Vec<Match> = pairs
+    let mut found: Vec<(&Turn, Match)> = laid
         .par_iter()
-        .flat_map_iter(|[a, b]| flush_motions(fixed, moving, *a, *b))
-        .map(|pose| Match {
-            contact: contact_length(fixed, moving, &pose),
-            gap: 0.0,
-            pose,
+        .flat_map_iter(|&(turn, laid)| {
+            let motions = flush_motions(fixed, moving, turn, laid).into_iter();
+            motions.map(move |one| (turn, one))
         })
-        .filter(|found| found.contact >= least && contact.is_free(&found.pose))
+        .filter(|(_, found)| found.contact >= least && contact.is_free(&found.pose))
         .collect();
-    found.sort_by_key(|it| {
+    found.sort_by_key(|(_, it)| {
         let q = it.pose;
         // Lengths that differ by rounding are the same.
         let length = (it.contact / SAME).round();
@@ -66,10 +68,10 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
             [q.x, q.y, q.theta].map(|x| OrderedFloat((x / SAME).round())),
         )
     });
-    let mut distinct: Vec<Match> = Vec::new();
+    let mut distinct: Vec<(&Turn, Match)> = Vec::new();
     for one in found {
-        let same = |other: &Match| {
-            let step = one.pose.step_to(&other.pose);
+        let same = |other: &(&Turn, Match)| {
+            let step = one.1.pose.step_to(&other.1.pose);
             step.iter().all(|x| x.abs() < 10.0 * SAME)
         };
         if distinct.len() < most && !distinct.iter().rev().any(same) {
@@ -78,16 +80,11 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
     }
     distinct
         .par_iter()
-        .map(|one| Match {
-            gap: gap_area(fixed, moving, &one.pose),
+        .map(|(turn, one)| Match {
+            gap: gap::gap_area(fixed, moving, &turn.facing, &one.pose),
             ..*one
         })
         .collect()
-}
-
-/// The poses alone, as guesses for minima.
-pub fn guesses(contact: &Contact, most: usize) -> Vec<Configuration> {
-    matches(contact, most).iter().map(|it| it.pose).collect()
 }
 
 fn edge(outline: &Outline, i: usize) -> [Vector2<f64>; 2] {
@@ -107,35 +104,60 @@ fn length(outline: &Outline, i: usize) -> f64 {
 
 /// A turn of the moving outline that makes edges of the two face each other.
 struct Turn {
-    /// Edges of the fixed and of the moving outline.
-    pairs: Vec<[usize; 2]>,
-    /// No contact at this turn is longer (m).
-    most: f64,
+    /// Edges of the fixed and of the moving outline that it makes parallel.
+    laid: Vec<[usize; 2]>,
+    /// These, and those so nearly parallel that they touch all along where they touch.
+    facing: Vec<Facing>,
 }
 
-/// All turns that lay an edge on an edge. Of most of them, of curved outlines above all, few short
-/// edges meet, which bounds the contact before any motion is tried.
-fn turns(fixed: &Outline, moving: &Outline) -> Vec<Turn> {
+/// All turns that lay an edge on an edge and may give a contact of some length (m). At most of
+/// them, with curved outlines above all, few short edges meet, which bounds the contact before any
+/// motion is tried.
+fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
     let mut pairs: Vec<(f64, [usize; 2])> = (0..fixed.vertices().len())
         .flat_map(|a| (0..moving.vertices().len()).map(move |b| [a, b]))
         .map(|[a, b]| (turn_of(edge(fixed, a), edge(moving, b)), [a, b]))
         .collect();
     pairs.sort_by_key(|(theta, pair)| (OrderedFloat(*theta), *pair));
-    let same = |a: &(f64, [usize; 2]), b: &(f64, [usize; 2])| b.0 - a.0 < PARALLEL;
-    let turns = pairs.chunk_by(same).map(|pairs| {
-        let pairs: Vec<[usize; 2]> = pairs.iter().map(|it| it.1).collect();
+    let may_touch = |pairs: &[[usize; 2]]| {
         let of = |tile: usize, outline: &Outline| {
             let mut edges: Vec<usize> = pairs.iter().map(|pair| pair[tile]).collect();
             edges.sort_unstable();
             edges.dedup();
             edges.into_iter().map(|i| length(outline, i)).sum::<f64>()
         };
-        Turn {
-            most: of(0, fixed).min(of(1, moving)),
-            pairs,
-        }
-    });
-    turns.collect()
+        of(0, fixed).min(of(1, moving))
+    };
+    let shortest = (0..fixed.vertices().len()).map(|a| length(fixed, a));
+    let widest = 2.0 * parallel_within(shortest.fold(f64::INFINITY, f64::min));
+    let around = |theta: f64| {
+        let from = pairs.partition_point(|it| it.0 < theta - widest);
+        let to = pairs.partition_point(|it| it.0 <= theta + widest);
+        &pairs[from..to]
+    };
+    let of = |laid: &[(f64, [usize; 2])]| {
+        let theta = laid[0].0;
+        let all = [-TAU, 0.0, TAU].map(|whole| around(theta + whole));
+        let near = all.into_iter().flatten().filter(|(other, [a, _])| {
+            wrap_angle(other - theta).abs() < 2.0 * parallel_within(length(fixed, *a))
+        });
+        let near: Vec<[usize; 2]> = near.map(|it| it.1).collect();
+        (may_touch(&near) >= least).then(|| Turn {
+            laid: laid.iter().map(|it| it.1).collect(),
+            facing: near
+                .iter()
+                .map(|[a, b]| Facing::new(edge(fixed, *a), edge(moving, *b), theta))
+                .collect(),
+        })
+    };
+    let same = |a: &(f64, [usize; 2]), b: &(f64, [usize; 2])| b.0 - a.0 < PARALLEL;
+    let groups: Vec<&[(f64, [usize; 2])]> = pairs.chunk_by(same).collect();
+    groups.into_par_iter().filter_map(of).collect()
+}
+
+/// Edges of such a length (m) are parallel to others within this angle (rad).
+fn parallel_within(length: f64) -> f64 {
+    PARALLEL.max(TOUCHING / length)
 }
 
 /// The turn (rad) that lays a moving edge on a fixed one, face to face.
@@ -147,8 +169,9 @@ fn turn_of([start, end]: [Vector2<f64>; 2], [from, to]: [Vector2<f64>; 2]) -> f6
 }
 
 /// Motions that lay edge b of the moving outline on edge a of the fixed one, face to face, with a
-/// corner of the one at a corner of the other along their common direction.
-fn flush_motions(fixed: &Outline, moving: &Outline, a: usize, b: usize) -> Vec<Configuration> {
+/// corner of the one at a corner of the other along their common direction, and the length in
+/// contact; the gap is not yet looked at.
+fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Match> {
     let [start, end] = edge(fixed, a);
     let [from, to] = edge(moving, b);
     let along = (end - start).normalize();
@@ -157,137 +180,90 @@ fn flush_motions(fixed: &Outline, moving: &Outline, a: usize, b: usize) -> Vec<C
     // Places along the common line: of corners, from the edges' own.
     let place = |p: Vector2<f64>| p.dot(&along);
     let across = start - along * place(start) - (turned(to) - along * place(turned(to)));
-    let length = (end - start).norm() + (to - from).norm();
-    let mut slides: Vec<f64> = Vec::new();
+    let corners: Vec<f64> = moving
+        .vertices()
+        .iter()
+        .map(|p| place(turned(*p)))
+        .collect();
+    // The two edges overlap at slides between these only.
     let own = place(start) - place(turned(to));
-    for corner in fixed.vertices() {
-        for other in moving.vertices() {
-            let slide = place(*corner) - place(turned(*other));
-            // The two edges overlap at these slides only.
-            if slide > own - (to - from).norm() && slide < own + length {
-                slides.push(slide);
-            }
-        }
+    let (least, most) = (
+        own - (to - from).norm(),
+        own + (end - start).norm() + (to - from).norm(),
+    );
+    let mut slides: Vec<f64> = Vec::new();
+    for corner in fixed.vertices().iter().map(|p| place(*p)) {
+        let meeting = corners.iter().map(|other| corner - other);
+        slides.extend(meeting.filter(|slide| *slide > least && *slide < most));
     }
     slides.sort_by(f64::total_cmp);
     slides.dedup_by(|a, b| (*a - *b).abs() < SAME);
-    let pose = |slide: f64| {
-        let shift = across + along * slide;
+    let pose = |slide: &f64| {
+        let shift = across + along * *slide;
         Configuration::new(shift.x, shift.y, theta)
     };
-    slides.into_iter().map(pose).collect()
-}
-
-/// The length (m) along which edges of the two outlines lie on each other, face to face.
-pub fn contact_length(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
-    stretches(fixed, moving, q)
+    let mut motions: Vec<Match> = slides
         .iter()
-        .map(|[a, b]| (b - a).norm())
-        .sum()
+        .map(|slide| Match {
+            pose: pose(slide),
+            contact: 0.0,
+            gap: 0.0,
+        })
+        .collect();
+    // Edges along the common line touch all the way, others where they pass each other.
+    for facing in &turn.facing {
+        let height = (across + facing.from - facing.start).dot(&facing.normal);
+        let slope = along.dot(&facing.normal);
+        let passing = if slope.abs() * (most - least) < TOUCHING {
+            0..slides.len()
+        } else {
+            let (at, reach) = (-height / slope, 2.0 * TOUCHING / slope.abs());
+            slides.partition_point(|s| *s < at - reach)
+                ..slides.partition_point(|s| *s <= at + reach)
+        };
+        for motion in &mut motions[passing] {
+            if let Some([a, b]) = facing.stretch(motion.pose.position()) {
+                motion.contact += (b - a).norm();
+            }
+        }
+    }
+    motions
 }
 
-/// The stretches along which edges lie on each other.
-fn stretches(fixed: &Outline, moving: &Outline, q: &Configuration) -> Vec<[Vector2<f64>; 2]> {
-    let mut all = Vec::new();
-    let placed: Vec<_> = (0..moving.vertices().len())
-        .map(|b| edge(moving, b).map(|p| q.transform(p)))
-        .collect();
-    for a in 0..fixed.vertices().len() {
-        let [start, end] = edge(fixed, a);
+/// An edge of the fixed outline and one of the moving outline, turned but not moved, that faces it.
+struct Facing {
+    /// Where the fixed edge starts, its direction, its outward normal and its length (m).
+    start: Vector2<f64>,
+    along: Vector2<f64>,
+    normal: Vector2<f64>,
+    length: f64,
+    /// The ends of the moving edge.
+    from: Vector2<f64>,
+    to: Vector2<f64>,
+}
+
+impl Facing {
+    fn new([start, end]: [Vector2<f64>; 2], moving: [Vector2<f64>; 2], theta: f64) -> Self {
         let length = (end - start).norm();
         let along = (end - start) / length;
-        let normal = Vector2::new(along.y, -along.x);
-        for [from, to] in &placed {
-            let direction = (to - from).normalize();
-            let opposite = direction.dot(&along) < 0.0
-                && direction.perp(&along).abs() < PARALLEL.max(TOUCHING / length);
-            let near = [from, to]
-                .iter()
-                .all(|p| (*p - start).dot(&normal).abs() < TOUCHING);
-            if opposite && near {
-                let low = (to - start).dot(&along).max(0.0);
-                let high = (from - start).dot(&along).min(length);
-                if high - low > TOUCHING {
-                    all.push([start + along * low, start + along * high]);
-                }
-            }
+        let [from, to] = moving.map(|p| Configuration::new(0.0, 0.0, theta).transform(p));
+        Self {
+            start,
+            along,
+            normal: Vector2::new(along.y, -along.x),
+            length,
+            from,
+            to,
         }
     }
-    all
-}
 
-/// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
-/// contact, what neither tile fills.
-fn gap_area(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
-    let points: Vec<Vector2<f64>> = stretches(fixed, moving, q).into_iter().flatten().collect();
-    let hull = hull(points);
-    let placed = moving.vertices().iter().map(|p| q.transform(*p)).collect();
-    let filled = area_within(fixed.vertices().to_vec(), &hull) + area_within(placed, &hull);
-    let gap = area(&hull) - filled;
-    // What rounding leaves of outlines that fit.
-    if gap < TOUCHING * TOUCHING.sqrt() {
-        0.0
-    } else {
-        gap
+    /// The stretch along which the edges lie on each other once the moving one is shifted.
+    fn stretch(&self, shift: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
+        let [from, to] = [self.from, self.to].map(|p| p + shift - self.start);
+        let near = |p: Vector2<f64>| p.dot(&self.normal).abs() < TOUCHING;
+        let low = to.dot(&self.along).max(0.0);
+        let high = from.dot(&self.along).min(self.length);
+        (near(from) && near(to) && high - low > TOUCHING)
+            .then(|| [low, high].map(|place| self.start + self.along * place))
     }
-}
-
-/// The area (m^2) of a polygon, counter-clockwise.
-fn area(polygon: &[Vector2<f64>]) -> f64 {
-    let next = polygon.iter().cycle().skip(1);
-    polygon
-        .iter()
-        .zip(next)
-        .map(|(a, b)| a.perp(b))
-        .sum::<f64>()
-        / 2.0
-}
-
-/// The area (m^2) of what a polygon has in a convex one, both counter-clockwise: clipped by side
-/// after side (Sutherland and Hodgman 1974). Edges that the clipping doubles enclose nothing.
-fn area_within(polygon: Vec<Vector2<f64>>, hull: &[Vector2<f64>]) -> f64 {
-    let sides = (0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()]]);
-    area(&sides.fold(polygon, |left, side| clipped(&left, side)))
-}
-
-/// What of a polygon lies left of the line from a to b.
-fn clipped(polygon: &[Vector2<f64>], [a, b]: [Vector2<f64>; 2]) -> Vec<Vector2<f64>> {
-    let height = |p: &Vector2<f64>| (b - a).perp(&(p - a));
-    let next = polygon.iter().cycle().skip(1);
-    let mut left = Vec::with_capacity(polygon.len() + 1);
-    for (p, q) in polygon.iter().zip(next) {
-        let (from, to) = (height(p), height(q));
-        if from >= 0.0 {
-            left.push(*p);
-        }
-        if (from < 0.0) != (to < 0.0) {
-            left.push(p + (q - p) * (from / (from - to)));
-        }
-    }
-    left
-}
-
-/// The convex hull, counter-clockwise (Andrew's monotone chain).
-fn hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
-    points.sort_by_key(|p| (OrderedFloat(p.x), OrderedFloat(p.y)));
-    points.dedup();
-    let mut lower = half_hull(points.iter());
-    lower.extend(half_hull(points.iter().rev()));
-    lower
-}
-
-/// The half of a hull to the right of the way along points in order, its last point left out.
-fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<f64>> {
-    let mut chain: Vec<Vector2<f64>> = Vec::new();
-    for p in points {
-        while let [.., a, b] = chain[..] {
-            if (b - a).perp(&(p - a)) > 1e-15 {
-                break;
-            }
-            chain.pop();
-        }
-        chain.push(*p);
-    }
-    chain.pop();
-    chain
 }
