@@ -20,19 +20,46 @@ const RULES: [(f64, Rule); 3] = [(4.9, Rule::Four), (1.6, Rule::Eight), (0.7, Ru
 /// The share of the distance to the sheet that the ellipse of analyticity takes.
 const ELLIPSE: f64 = 0.75;
 
+/// Panels over a face that are turned against it by more than this (rad) are cut as others.
+const STEEPEST: f64 = 0.1;
+
 /// Panels get third-order forms from a distance of this many times their reach on.
 const FAR: f64 = 3.0;
 
-/// Panels are not cut finer than this share of the face; those that have no form of first order
-/// not finer than the second one.
-const FINEST: f64 = 1.0 / 128.0;
-const FINEST_WITHOUT_FORM: f64 = 1.0 / 8192.0;
+/// Panels are not cut finer than this share of the face.
+const FINEST: f64 = 1.0 / 8192.0;
 
 #[derive(Clone, Copy)]
 enum Rule {
     Four,
     Eight,
     Sixteen,
+}
+
+impl Rule {
+    /// The rule for a panel that many halves of its width from what its integrand is singular at.
+    fn at(ratio: f64) -> Option<Self> {
+        let rule = RULES.iter().find(|(least, _)| ratio >= *least);
+        rule.map(|(_, rule)| *rule)
+    }
+
+    /// Places between -1 and 1, and weights.
+    fn nodes(self) -> (&'static [f64], &'static [f64]) {
+        let rules = Rules::get();
+        match self {
+            Self::Four => (&rules.four[0], &rules.four[1]),
+            Self::Eight => (&rules.eight[0], &rules.eight[1]),
+            Self::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
+        }
+    }
+
+    /// The error of an average by the rule, in units of the integrand's bound on an ellipse about
+    /// the panel whose short half axis is so many halves of the panel's width.
+    fn error(self, short: f64) -> f64 {
+        let rho = short + (1.0 + short * short).sqrt();
+        let power = rho.powi(-2 * self.nodes().0.len() as i32);
+        64.0 / 15.0 * power / (1.0 - 1.0 / (rho * rho)) / 2.0
+    }
 }
 
 /// The second block as seen from the first, in the first one's frame: u along its axis, v along
@@ -148,19 +175,19 @@ impl Pair {
     fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> f64 {
         let distance = self.distance(panel) - self.motion.reach - SLACK;
         if distance >= FAR * self.motion.reach {
-            let ratio = distance / panel.half;
-            let rule = RULES.iter().find(|(least, _)| ratio >= *least);
-            if let Some((_, rule)) = rule {
-                return self.gauss(panel, distance, *rule, nodes);
+            if let Some(rule) = Rule::at(distance / panel.half) {
+                return self.gauss(panel, distance, rule, nodes);
             }
         }
-        let width = self.second[1];
-        let fine = |share: f64| panel.half <= (0.5 * self.motion.reach).max(share * width);
-        if fine(FINEST) {
-            let remainder = self.touching_remainder(panel);
-            if remainder.is_some() || fine(FINEST_WITHOUT_FORM) {
-                return self.touch(panel, remainder, nodes);
-            }
+        let moved = 0.5 * self.motion.reach;
+        if panel.half > moved
+            && let Some(rest) = self.over(panel, nodes)
+        {
+            return rest;
+        }
+        if panel.half <= moved.max(FINEST * self.second[1]) {
+            let remainder = self.touching_remainder(panel, self.extent(panel));
+            return self.touch(panel, remainder, nodes);
         }
         let half = panel.half / 2.0;
         [-half, half]
@@ -178,12 +205,7 @@ impl Pair {
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
     fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
-        let rules = Rules::get();
-        let (places, weights): (&[f64], &[f64]) = match rule {
-            Rule::Four => (&rules.four[0], &rules.four[1]),
-            Rule::Eight => (&rules.eight[0], &rules.eight[1]),
-            Rule::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
-        };
+        let (places, weights) = rule.nodes();
         for (place, share) in places.iter().zip(weights) {
             let weight = share * panel.weight();
             nodes.push(&Node {
@@ -195,11 +217,8 @@ impl Pair {
         }
         let [width, thin, thick] = self.charge();
         let area = thin * thick;
-        let short = ELLIPSE * distance / panel.half;
-        let rho = short + (1.0 + short * short).sqrt();
-        let power = rho.powi(-2 * places.len() as i32);
         let largest = width * area / ((1.0 - ELLIPSE) * distance);
-        let error = 64.0 / 15.0 * largest * power / (1.0 - 1.0 / (rho * rho)) / 2.0;
+        let error = largest * rule.error(ELLIPSE * distance / panel.half);
 
         let (d, v, w) = (distance, self.motion.reach, self.motion.turn);
         let bend = panel.arm.norm() + panel.half;
@@ -228,11 +247,17 @@ impl Pair {
         let Some(remainder) = remainder else {
             return self.interval(panel, nodes);
         };
+        self.push_first_order(panel, 2.0 * panel.weight(), nodes);
+        panel.weight().abs() * remainder
+    }
+
+    /// The middle of a panel with its form of first order.
+    fn push_first_order(&self, panel: &SheetPanel, weight: f64, nodes: &mut Nodes) {
         let h = panel.middle.x;
         // Over the pole face, at least on the side on which the second block stays.
         let over = panel.middle.y.abs() <= self.first[1] / 2.0;
         let base = if over && h <= 0.0 { 0.0 } else { h };
-        let (weight, w) = (2.0 * panel.weight(), self.motion.turn);
+        let w = self.motion.turn;
         nodes.push(&Node {
             h: base,
             shift: h - base,
@@ -241,7 +266,35 @@ impl Pair {
             turn: weight.abs() * panel.arm.norm() * w * w * w / 6.0,
             ..panel.node()
         });
-        panel.weight().abs() * remainder
+    }
+
+    /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
+    /// upright edges, by a Gauss rule of first-order forms. `None` where it is not so.
+    fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<f64> {
+        let Motion { reach, turn, .. } = self.motion;
+        let tilt = panel.along.x.abs() + turn;
+        let [up, aside] = self.extent(panel);
+        let (h, v) = (panel.middle.x.abs() + up, panel.middle.y.abs() + aside);
+        let clear = self.first[1] / 2.0 - v - SLACK;
+        if tilt > STEEPEST || h > clear || panel.half * tilt > 0.5 * reach {
+            return None;
+        }
+        let rule = Rule::at(clear / panel.half)?;
+        let remainder = self.touching_remainder(panel, [reach, reach])?;
+        let (places, weights) = rule.nodes();
+        for (place, share) in places.iter().zip(weights) {
+            let part = panel.part(place * panel.half, panel.half);
+            self.push_first_order(&part, share * panel.weight(), nodes);
+        }
+        let [_, thin, thick] = self.charge();
+        let short = ELLIPSE * clear;
+        let long = panel.half.hypot(short);
+        let steepness = (1.0 + (h + long * tilt) * tilt / (clear - short)) / (clear - short);
+        let upright = 2.0 * thin * thick * long * steepness * rule.error(short / panel.half);
+        let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
+        let rise = panel.half * tilt;
+        let level = 4.0 * rise * rise * (0.5 * (rise.hypot(high) / rise.hypot(low)).ln() + 0.75);
+        Some(panel.weight().abs() * (remainder + upright + 2.0 * level))
     }
 
     /// Whether a panel that may get below the first block's face, within the face's width, does not
@@ -250,9 +303,10 @@ impl Pair {
         self.motion.apart && h > -up && 2.0 * up <= self.first[0] - SLACK
     }
 
-    /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it. `None`
-    /// where it has none (see the module's text), or one that says less than an interval.
-    fn touching_remainder(&self, panel: &SheetPanel) -> Option<f64> {
+    /// The second-order remainder of Phi (m^2) over ways `moved` (m, along h and along v) from points
+    /// of a panel, averaged over it. `None` where it has none (see the module's text), or one that
+    /// says less than an interval.
+    fn touching_remainder(&self, panel: &SheetPanel, moved: [f64; 2]) -> Option<f64> {
         let sheet = self.first[1] / 2.0;
         let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x, panel.middle.y.abs());
@@ -271,6 +325,7 @@ impl Pair {
         };
         let near = (v - sheet).abs() - aside;
         let far = (v + sheet - aside).max(near);
+        let [up, aside] = moved;
         let edges = 0.5 * (edge(near) + edge(far)) * (up * up + aside * aside);
         let level = |height: f64| (sheet / height.hypot(low)).asinh();
         let passing = if inside { 0.75 } else { 1.75 };
