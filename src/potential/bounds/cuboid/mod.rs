@@ -178,6 +178,7 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
 const SELF: Motion = Motion {
     arm: Vector2::new(0.0, 0.0),
     reach: 0.0,
+    sides: Vector2::new(0.0, 0.0),
     turn: 0.0,
     apart: false,
 };
@@ -194,9 +195,9 @@ fn faces(
     let volume = |block: &Block| block.size.iter().product::<f64>();
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     nodes.clear();
-    let rest = Pair::new(first, second, strength, motion).append(nodes);
+    let left = Pair::new(first, second, strength, motion).append(nodes);
     nodes.fill(level.width());
-    let totals = level.run(Sum {
+    let mut totals = level.run(Sum {
         nodes,
         half: first.size[1] / 2.0,
         heights: [
@@ -207,7 +208,8 @@ fn faces(
     let whole: f64 = first.size.iter().chain(&second.size).sum();
     let whole = whole + (second.position - first.position).norm();
     let rounding = ROUNDING * strength.abs() * second.size[1] * whole * whole;
-    (totals, rest + totals.spread + rounding)
+    totals.value += left.middle;
+    (totals, left.spread + totals.spread + rounding)
 }
 
 /// Whether the outline runs through a block's inner part.
@@ -292,6 +294,7 @@ impl CuboidBounds {
         let motion = Motion {
             arm: second.position - cell.centre.position(),
             reach,
+            sides: Vector2::new(cell.half[0], cell.half[1]),
             turn: cell.half[2],
             apart: fixed.inside && moving.inside,
         };
