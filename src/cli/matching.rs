@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use tilebind::contact::Contact;
+use tilebind::contact::matching::matches;
 use tilebind::report::json;
 use tilebind::units::si;
-use tilebind::words::matching::matches;
 
 use super::{Failure, input, print};
 

@@ -9,6 +9,7 @@ mod admissible;
 pub mod cells;
 mod constraint;
 mod lift;
+pub mod matching;
 mod motion;
 mod tree;
 

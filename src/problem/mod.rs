@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::contact::matching::matches;
 use crate::contact::{Contact, TOUCH};
 use crate::interruption;
 use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
@@ -116,6 +117,13 @@ impl Problem {
             }
             all
         })
+    }
+
+    /// The configurations in which the outlines, magnets aside, lie on each other along the greatest
+    /// lengths, at most so many. None for analytic landscapes.
+    pub fn matches(&self, most: usize) -> Vec<Configuration> {
+        let found = self.contact.iter().flat_map(|it| matches(it, most));
+        found.map(|it| it.pose).collect()
     }
 
     /// Whether one of the tiles has no magnets: U is zero everywhere.

@@ -14,7 +14,7 @@
 //! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
 //! - [`answer`](mod@answer) - a question answered;
 //! - [`continuous`] - positions and poles together, over all poses;
-//! - [`crosstalk`] - attraction of every two words over all poses; [`matching`] - outlines alone;
+//! - [`crosstalk`] - attraction of every two words over all poses;
 //! - [`budget`] - work, counted so that results do not depend on the machine.
 
 pub mod answer;
@@ -30,7 +30,6 @@ pub mod frontier;
 pub mod graph;
 pub mod lag;
 pub mod local;
-pub mod matching;
 pub mod rules;
 pub mod search;
 pub mod set;

@@ -4,6 +4,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::landscape::completeness::Search;
+use tilebind::landscape::constrained::Point;
 use tilebind::landscape::minimum::{Outcome, descend};
 use tilebind::landscape::survey::{Survey, SurveySettings};
 use tilebind::landscape::{Completeness, CompletenessSettings, Inventory};
@@ -42,6 +43,25 @@ fn survey(problem: &Problem, milestones: usize) -> (Survey, SurveySettings) {
 fn conclude(problem: &Problem, survey: &Survey, search: Search) -> Completeness {
     let listed = Inventory::of_survey(problem, survey, 1e-4);
     search.conclude(problem, survey, &listed)
+}
+
+#[test]
+fn minima_where_the_outlines_fit_need_no_milestones() {
+    // Odd outlines: where notch and tip meet, no two faces do.
+    let problem = load("shapes/arrowhead.toml").problem();
+    let (survey, _) = survey(&problem, 10);
+    let mut found = 0;
+    for place in problem.matches(100) {
+        let Outcome::Minimum(minimum) = descend(&problem, &place).outcome else {
+            continue;
+        };
+        let Point { q, energy, .. } = minimum.point;
+        if energy < -0.01 * problem.depth() {
+            assert!(survey.state_at(&problem, &q, 1e-5).is_some(), "{q:?}");
+            found += 1;
+        }
+    }
+    assert!(found > 5, "{found}");
 }
 
 #[test]

@@ -15,6 +15,7 @@
 
 mod arrivals;
 mod densify;
+mod guesses;
 mod siblings;
 mod withdraw;
 
@@ -35,8 +36,6 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
-/// No minimum is looked for closer than this (m) to a known one.
-const KNOWN: f64 = 1e-4;
 /// How far (m, mass metric) from a transition state its descents start.
 const OFF_SADDLE: f64 = 2e-4;
 
@@ -98,7 +97,8 @@ impl Survey {
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
-        survey.find_siblings(problem, settings);
+        survey.find_siblings(problem, 0, settings);
+        survey.find_matches(problem, settings);
         survey.settle(problem, settings);
         survey
     }
@@ -190,32 +190,6 @@ impl Survey {
                     self.join(problem, end, settings);
                 }
                 _ => {}
-            }
-        }
-    }
-
-    /// Looks for minima where those known so far would be on other pairs of faces or in the mirror,
-    /// until there are no more.
-    fn find_siblings(&mut self, problem: &Problem, settings: &SurveySettings) {
-        let mut known = 0;
-        while known < self.states.len() {
-            let fresh = self.states[known..].iter().map(|state| {
-                let Point { q, energy, .. } = state.minimum.point;
-                (q, energy)
-            });
-            let fresh: Vec<(Configuration, f64)> = fresh.collect();
-            known = self.states.len();
-            let places: Vec<Configuration> = siblings::siblings(problem, &fresh)
-                .into_iter()
-                .filter(|q| self.state_at(problem, q, KNOWN).is_none())
-                .collect();
-            let descents: Vec<Descent> = places.par_iter().map(|q| descend(problem, q)).collect();
-            for descent in &descents {
-                if let Some(end) = self.arrive(problem, descent)
-                    && self.network.is_isolated(end)
-                {
-                    self.join(problem, end, settings);
-                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! tilebind for Python: the classes and functions of the package, each a thin view of the library.
 //!
 //! - [`design`] - a pair of tiles; [`poses`] - energies of many configurations;
-//! - [`analysis`], [`barrier`], [`many`] (comparisons and sweeps), [`dock`], [`words`], [`kinetics`],
+//! - [`analysis`], [`barrier`], [`comparison`], [`sweep`], [`dock`], [`words`], [`kinetics`],
 //!   [`workshop`] - the jobs;
 //! - [`job`] - long work: progress, ctrl-C, faults;
 //! - [`table`] - structured arrays; [`convert`] - values of Python as values of a design file;
@@ -9,6 +9,7 @@
 
 mod analysis;
 mod barrier;
+mod comparison;
 mod convert;
 mod design;
 mod dock;
@@ -16,9 +17,9 @@ mod fault;
 mod job;
 mod keywords;
 mod kinetics;
-mod many;
 mod pickle;
 mod poses;
+mod sweep;
 mod table;
 mod words;
 mod workshop;
@@ -30,11 +31,11 @@ fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<design::Design>()?;
     module.add_class::<analysis::Analysis>()?;
-    module.add_class::<many::Comparison>()?;
-    module.add_class::<many::Sweep>()?;
+    module.add_class::<comparison::Comparison>()?;
+    module.add_class::<sweep::Sweep>()?;
     module.add_class::<dock::Docking>()?;
-    module.add_function(wrap_pyfunction!(many::compare, module)?)?;
-    module.add_function(wrap_pyfunction!(many::sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(comparison::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(dock::dock, module)?)?;
     module.add_function(wrap_pyfunction!(words::words, module)?)?;
     module.add_function(wrap_pyfunction!(words::crosstalk, module)?)

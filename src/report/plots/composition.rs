@@ -132,8 +132,8 @@ impl Composition<'_> {
         }
         let room = width - 2.0 * SIDE - 1.1 * font.width(note);
         let mut large = Text::new(TITLE).bold();
-        // Smaller where there is no room.
-        large.size *= (room / (1.08 * large.width(&self.title)).max(1.0)).min(1.0);
+        // Smaller where there is no room; a browser's bold letters may be a sixth wider.
+        large.size *= (room / (1.17 * large.width(&self.title)).max(1.0)).min(1.0);
         large.write(root, &self.title, (SIDE, 16.0), (HPos::Left, VPos::Top))?;
         font.write(root, note, (width - SIDE, 22.0), (HPos::Right, VPos::Top))
     }

@@ -2,7 +2,6 @@
 
 mod brute;
 mod definitions;
-mod outlines;
 
 use nalgebra::Vector2;
 

@@ -36,10 +36,10 @@ fn mixed_tile(rng: &mut ChaCha8Rng) -> Tile {
 
 /// A cell about contact, from tiny to large.
 fn random_cell(rng: &mut ChaCha8Rng) -> Cell {
-    let size = 10f64.powf(rng.random_range(-5.0..-1.0));
-    let tilt = [0.02, 0.4][rng.random_range(0..2)];
+    let size = 10f64.powf(rng.random_range(-6.0..-1.0));
+    let tilt = [1e-4, 2e-3, 0.02, 0.4][rng.random_range(0..4)];
     let theta: f64 = tilt * rng.random_range(-1.0..1.0);
-    let apart = [0.1, 2e-3, 2e-4][rng.random_range(0..3)];
+    let apart = [0.1, 2e-3, 2e-4, 1e-5][rng.random_range(0..4)];
     let contact = 0.215 * (1.0 + theta.cos() + theta.sin().abs());
     Cell {
         centre: Configuration::new(

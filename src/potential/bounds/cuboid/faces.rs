@@ -2,6 +2,8 @@
 //! are bounded over a whole cell.
 
 use std::f64::consts::PI;
+use std::iter::Sum;
+use std::ops::Add;
 
 use nalgebra::Vector2;
 
@@ -20,19 +22,49 @@ const RULES: [(f64, Rule); 3] = [(4.9, Rule::Four), (1.6, Rule::Eight), (0.7, Ru
 /// The share of the distance to the sheet that the ellipse of analyticity takes.
 const ELLIPSE: f64 = 0.75;
 
+/// Panels over a face that are turned against it by more than this (rad) are cut as others.
+const STEEPEST: f64 = 0.1;
+
 /// Panels get third-order forms from a distance of this many times their reach on.
 const FAR: f64 = 3.0;
 
-/// Panels are not cut finer than this share of the face; those that have no form of first order
-/// not finer than the second one.
-const FINEST: f64 = 1.0 / 128.0;
-const FINEST_WITHOUT_FORM: f64 = 1.0 / 8192.0;
+/// Panels that may touch the face are cut to this share of the reach, those that have no form of
+/// first order to the second one; none finer than the third, a share of the face.
+const SHARE: f64 = 0.25;
+const SHARE_WITHOUT_FORM: f64 = 0.05;
+const FINEST: f64 = 1.0 / 8192.0;
 
 #[derive(Clone, Copy)]
 enum Rule {
     Four,
     Eight,
     Sixteen,
+}
+
+impl Rule {
+    /// The rule for a panel that many halves of its width from what its integrand is singular at.
+    fn at(ratio: f64) -> Option<Self> {
+        let rule = RULES.iter().find(|(least, _)| ratio >= *least);
+        rule.map(|(_, rule)| *rule)
+    }
+
+    /// Places between -1 and 1, and weights.
+    fn nodes(self) -> (&'static [f64], &'static [f64]) {
+        let rules = Rules::get();
+        match self {
+            Self::Four => (&rules.four[0], &rules.four[1]),
+            Self::Eight => (&rules.eight[0], &rules.eight[1]),
+            Self::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
+        }
+    }
+
+    /// The error of an average by the rule, in units of the integrand's bound on an ellipse about
+    /// the panel whose short half axis is so many halves of the panel's width.
+    fn error(self, short: f64) -> f64 {
+        let rho = short + (1.0 + short * short).sqrt();
+        let power = rho.powi(-2 * self.nodes().0.len() as i32);
+        64.0 / 15.0 * power / (1.0 - 1.0 / (rho * rho)) / 2.0
+    }
 }
 
 /// The second block as seen from the first, in the first one's frame: u along its axis, v along
@@ -53,11 +85,45 @@ pub(super) struct Pair {
 pub(super) struct Motion {
     /// Way (m) to the block from the point about which it turns.
     pub arm: Vector2<f64>,
-    /// Farthest any point of it gets (m), and half the cell's angle (rad).
+    /// Farthest any point of it gets (m), half the cell's sides (m) and half its angle (rad).
     pub reach: f64,
+    pub sides: Vector2<f64>,
     pub turn: f64,
     /// Whether no point of the second block gets into the first one where the tiles are free.
     pub apart: bool,
+}
+
+/// What forms leave out (J): its middle and how far it may be from there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Left {
+    pub middle: f64,
+    pub spread: f64,
+}
+
+impl Left {
+    fn within(spread: f64) -> Self {
+        Self {
+            middle: 0.0,
+            spread,
+        }
+    }
+}
+
+impl Add for Left {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            middle: self.middle + other.middle,
+            spread: self.spread + other.spread,
+        }
+    }
+}
+
+impl Sum for Left {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), Self::add)
+    }
 }
 
 /// A piece of a pole face of the second block before one of the first.
@@ -118,16 +184,20 @@ impl Pair {
             axis: into(second.axis),
             motion: Motion {
                 arm: into(motion.arm),
+                sides: Vector2::new(
+                    first.axis.abs().dot(&motion.sides),
+                    first.axis.yx().abs().dot(&motion.sides),
+                ),
                 ..*motion
             },
         }
     }
 
-    /// Appends the nodes of all four pairs of pole faces; returns the bound of what they leave out
-    /// (J), but for the nodes' own spread.
-    pub fn append(&self, nodes: &mut Nodes) -> f64 {
+    /// Appends the nodes of all four pairs of pole faces; returns what they leave out, but for the
+    /// nodes' own spread.
+    pub fn append(&self, nodes: &mut Nodes) -> Left {
         let along = Vector2::new(-self.axis.y, self.axis.x);
-        let mut rest = 0.0;
+        let mut left = Left::default();
         for (side, pole) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
             let offset = self.axis * (pole * self.second[0] / 2.0);
             let middle = self.place + offset;
@@ -139,27 +209,30 @@ impl Pair {
                 strength: side * pole * self.strength,
                 arm: self.motion.arm + offset,
             };
-            rest += self.cut(&face, nodes);
+            left = left + self.cut(&face, nodes);
         }
-        rest
+        left
     }
 
     /// Cuts a panel until each piece is far enough for its width, or fine enough.
-    fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> f64 {
+    fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
         let distance = self.distance(panel) - self.motion.reach - SLACK;
         if distance >= FAR * self.motion.reach {
-            let ratio = distance / panel.half;
-            let rule = RULES.iter().find(|(least, _)| ratio >= *least);
-            if let Some((_, rule)) = rule {
-                return self.gauss(panel, distance, *rule, nodes);
+            if let Some(rule) = Rule::at(distance / panel.half) {
+                return Left::within(self.gauss(panel, distance, rule, nodes));
             }
         }
-        let width = self.second[1];
-        let fine = |share: f64| panel.half <= (0.5 * self.motion.reach).max(share * width);
-        if fine(FINEST) {
+        let fine =
+            |share: f64| panel.half <= (share * self.motion.reach).max(FINEST * self.second[1]);
+        if !fine(SHARE)
+            && let Some(left) = self.over(panel, nodes)
+        {
+            return left;
+        }
+        if fine(SHARE) {
             let remainder = self.touching_remainder(panel);
-            if remainder.is_some() || fine(FINEST_WITHOUT_FORM) {
-                return self.touch(panel, remainder, nodes);
+            if remainder.is_some() || fine(SHARE_WITHOUT_FORM) {
+                return Left::within(self.touch(panel, remainder, nodes));
             }
         }
         let half = panel.half / 2.0;
@@ -178,28 +251,21 @@ impl Pair {
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
     fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
-        let rules = Rules::get();
-        let (places, weights): (&[f64], &[f64]) = match rule {
-            Rule::Four => (&rules.four[0], &rules.four[1]),
-            Rule::Eight => (&rules.eight[0], &rules.eight[1]),
-            Rule::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
-        };
+        let (places, weights) = rule.nodes();
         for (place, share) in places.iter().zip(weights) {
             let weight = share * panel.weight();
             nodes.push(&Node {
                 value: weight,
                 slope: weight,
                 bend: weight,
+                bend_h: weight,
                 ..panel.part(place * panel.half, panel.half).node()
             });
         }
         let [width, thin, thick] = self.charge();
         let area = thin * thick;
-        let short = ELLIPSE * distance / panel.half;
-        let rho = short + (1.0 + short * short).sqrt();
-        let power = rho.powi(-2 * places.len() as i32);
         let largest = width * area / ((1.0 - ELLIPSE) * distance);
-        let error = 64.0 / 15.0 * largest * power / (1.0 - 1.0 / (rho * rho)) / 2.0;
+        let error = largest * rule.error(ELLIPSE * distance / panel.half);
 
         let (d, v, w) = (distance, self.motion.reach, self.motion.turn);
         let bend = panel.arm.norm() + panel.half;
@@ -218,8 +284,21 @@ impl Pair {
 
     /// How far (m) the points of a panel get from its middle, along h and along v.
     fn extent(&self, panel: &SheetPanel) -> [f64; 2] {
+        let [up, aside] = self.moved(panel);
         let extent = panel.along.abs() * panel.half;
-        [extent.x + self.motion.reach, extent.y + self.motion.reach]
+        [extent.x + up, extent.y + aside]
+    }
+
+    /// How far (m) the cell moves the points of a panel, along h and along v.
+    fn moved(&self, panel: &SheetPanel) -> [f64; 2] {
+        let Motion {
+            reach, sides, turn, ..
+        } = self.motion;
+        let arm = panel.arm.abs() + panel.along.abs() * panel.half;
+        // A turn goes across the arm, and along it by its square.
+        let way = |across: f64, along: f64| turn * (across + 0.5 * turn * along);
+        let far = [sides.x + way(arm.y, arm.x), sides.y + way(arm.x, arm.y)];
+        far.map(|way| way.min(reach) + SLACK)
     }
 
     /// A panel that may touch the first block's pole face: its middle's form of first order, of the
@@ -228,20 +307,81 @@ impl Pair {
         let Some(remainder) = remainder else {
             return self.interval(panel, nodes);
         };
+        nodes.push(&self.first_order(panel, 2.0 * panel.weight()));
+        panel.weight().abs() * remainder
+    }
+
+    /// The middle of a panel with its form of first order.
+    fn first_order(&self, panel: &SheetPanel, weight: f64) -> Node {
         let h = panel.middle.x;
         // Over the pole face, at least on the side on which the second block stays.
         let over = panel.middle.y.abs() <= self.first[1] / 2.0;
         let base = if over && h <= 0.0 { 0.0 } else { h };
-        let (weight, w) = (2.0 * panel.weight(), self.motion.turn);
-        nodes.push(&Node {
+        let w = self.motion.turn;
+        Node {
             h: base,
             shift: h - base,
             value: weight,
             slope: weight,
             turn: weight.abs() * panel.arm.norm() * w * w * w / 6.0,
             ..panel.node()
-        });
-        panel.weight().abs() * remainder
+        }
+    }
+
+    /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
+    /// upright edges, by a Gauss rule. `None` where it is not so.
+    fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
+        let Motion { reach, turn, .. } = self.motion;
+        let tilt = panel.along.x.abs() + turn;
+        let [up, aside] = self.extent(panel);
+        let (h, v) = (panel.middle.x, panel.middle.y.abs());
+        let sheet = self.first[1] / 2.0;
+        let clear = sheet - v - aside - SLACK;
+        let is_level = tilt <= STEEPEST && panel.half * tilt <= 0.5 * reach;
+        if !is_level || h.abs() + up > clear || !(h > up || self.stays_out(h, up)) {
+            return None;
+        }
+        let rule = Rule::at(clear / panel.half)?;
+        let (places, weights) = rule.nodes();
+        for (place, share) in places.iter().zip(weights) {
+            let part = panel.part(place * panel.half, panel.half);
+            let node = self.first_order(&part, share * panel.weight());
+            nodes.push(&Node {
+                bend: node.value,
+                ..node
+            });
+        }
+        let [_, thin, thick] = self.charge();
+        let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
+        let far = sheet + v - aside;
+        let edge = |p: f64| 2.0 * (p.hypot(high) - p.hypot(low)) / p;
+        let edges = edge(clear) + edge(far);
+        let third = edge(clear) / clear + edge(far) / far;
+
+        // What bends along h alone, upwards everywhere.
+        let moved = self.moved(panel);
+        let gap_alone = |way: f64| {
+            let way = way.max(SLACK);
+            4.0 * way * way * (0.5 * (way.hypot(high) / way.hypot(low)).ln() + 0.75)
+        };
+        let bent = 0.5 * edges * moved[0] * moved[0] + gap_alone(moved[0]);
+        // What is of third order.
+        let arc = 0.5 * (panel.arm.norm() + panel.half) * turn * turn * (1.0 + turn);
+        let rest = third * moved[1] * moved[1] * (moved[1] / 3.0 + 0.75 * moved[0])
+            + edges * arc * (moved[0] + 2.0 * moved[1]);
+        // What the rule is wrong by.
+        let short = ELLIPSE * clear;
+        let long = panel.half.hypot(short);
+        let least = clear - short;
+        let steepness = (1.0 + (h.abs() + up + long * tilt) * tilt / least) / least;
+        let smooth = 2.0 * thin * thick * long * steepness * rule.error(short / panel.half);
+        let rule_s = smooth + 2.0 * gap_alone(panel.half * tilt);
+
+        let weight = panel.weight();
+        Some(Left {
+            middle: weight * 0.5 * bent,
+            spread: weight.abs() * (0.5 * bent + rest + rule_s + 4.0 * PI * thick * SLACK),
+        })
     }
 
     /// Whether a panel that may get below the first block's face, within the face's width, does not

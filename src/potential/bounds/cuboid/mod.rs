@@ -30,6 +30,18 @@
 //! by `n! int int int dz1 dz2 ds / r^(n+1)`, over the finite face or over an infinite one,
 //! whichever is less.
 //!
+//! **Panels over a face**, nearly parallel to it and inside its upright edges by at least D, take a
+//! Gauss rule of first-order forms. There `Phi = A - int int ln(h^2 + z^2) dz1 dz2`, A the sum of
+//! `int int ln(u + r) dz1 dz2`, r^2 = u^2 + h^2 + z^2, over both edges, u the way from the edge. A is
+//! analytic up to the edges: on an ellipse whose points are no farther than b < D from the panel the
+//! parts of u and of r that are real are positive, so along a line of slope s
+//! `|d/dt ln(u + r)| <= (1 + |h s| / (D - b)) / (D - b)`, and the rule's error is that of clear panels
+//! with M the half axis times the sum of these. The rest depends on h alone; its second derivative
+//! is `4 ln(sqrt(h^2 + high^2) / sqrt(h^2 + low^2))`, high and low half the sum and half the
+//! difference of the thicknesses, and the rule and the integral are each no farther from its tangent
+//! than `4 e^2 (1/2 ln(sqrt(e^2 + high^2) / sqrt(e^2 + low^2)) + 3/4)`, e how far h changes along half
+//! the panel.
+//!
 //! **Touching panels** are cut to about half the reach and have first-order forms about their
 //! middles. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of the
 //! face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and
@@ -166,6 +178,7 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
 const SELF: Motion = Motion {
     arm: Vector2::new(0.0, 0.0),
     reach: 0.0,
+    sides: Vector2::new(0.0, 0.0),
     turn: 0.0,
     apart: false,
 };
@@ -182,9 +195,9 @@ fn faces(
     let volume = |block: &Block| block.size.iter().product::<f64>();
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     nodes.clear();
-    let rest = Pair::new(first, second, strength, motion).append(nodes);
+    let left = Pair::new(first, second, strength, motion).append(nodes);
     nodes.fill(level.width());
-    let totals = level.run(Sum {
+    let mut totals = level.run(Sum {
         nodes,
         half: first.size[1] / 2.0,
         heights: [
@@ -195,7 +208,8 @@ fn faces(
     let whole: f64 = first.size.iter().chain(&second.size).sum();
     let whole = whole + (second.position - first.position).norm();
     let rounding = ROUNDING * strength.abs() * second.size[1] * whole * whole;
-    (totals, rest + totals.spread + rounding)
+    totals.value += left.middle;
+    (totals, left.spread + totals.spread + rounding)
 }
 
 /// Whether the outline runs through a block's inner part.
@@ -280,6 +294,7 @@ impl CuboidBounds {
         let motion = Motion {
             arm: second.position - cell.centre.position(),
             reach,
+            sides: Vector2::new(cell.half[0], cell.half[1]),
             turn: cell.half[2],
             apart: fixed.inside && moving.inside,
         };

@@ -15,10 +15,12 @@ pub(super) struct Node {
     pub shift: f64,
     /// The direction of h along u: 1 or -1.
     pub side: f64,
-    /// Weights (J/m^2) of the potential, of its slopes and of its second derivatives.
+    /// Weights (J/m^2) of the potential, of its slopes, and of its second derivatives, that along h
+    /// alone by itself.
     pub value: f64,
     pub slope: f64,
     pub bend: f64,
+    pub bend_h: f64,
     /// Weight of the potential in what is uncertain, and that of the magnitude of its slopes (that
     /// times m).
     pub spread: f64,
@@ -27,7 +29,7 @@ pub(super) struct Node {
     pub arm: [f64; 2],
 }
 
-const COLUMNS: usize = 11;
+const COLUMNS: usize = 12;
 
 /// Nodes as a structure of arrays.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +50,7 @@ impl Nodes {
             node.value,
             node.slope,
             node.bend,
+            node.bend_h,
             node.spread,
             node.turn,
             u,
@@ -126,6 +129,7 @@ impl Sum<'_> {
             value,
             slope,
             bend,
+            bend_h,
             spread,
             turn,
             arm_u,
@@ -139,9 +143,11 @@ impl Sum<'_> {
 
         let weight = l.load(&slope[from..]);
         let gu = l.mul(l.mul(weight, side), phi.h);
-        let gv = l.mul(weight, phi.x);
         let bend = l.load(&bend[from..]);
-        let huu = l.mul(bend, phi.hh);
+        let shift = l.load(&shift[from..]);
+        // Along v at the place that is meant.
+        let gv = l.mul_add(weight, phi.x, l.mul(l.mul(bend, shift), phi.xh));
+        let huu = l.mul(l.load(&bend_h[from..]), phi.hh);
         let hvv = l.mul(bend, phi.xx);
         let huv = l.mul(l.mul(bend, side), phi.xh);
         // A turn moves the node along i arm and bends its way along -arm.
@@ -152,7 +158,7 @@ impl Sum<'_> {
         let htt = l.mul_add(hut, tu, l.mul(hvt, tv));
         let htt = l.neg_mul_add(gu, arm_u, l.neg_mul_add(gv, arm_v, htt));
 
-        let shifted = l.mul(l.mul(weight, phi.h), l.load(&shift[from..]));
+        let shifted = l.mul(l.mul(weight, phi.h), shift);
         let value = l.mul_add(l.load(&value[from..]), phi.value, shifted);
         let steepness = l.add(magnitude(l, phi.x), magnitude(l, phi.h));
         let uncertain = l.mul(l.load(&turn[from..]), steepness);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::potential::cuboid::block;
 
@@ -36,4 +37,25 @@ fn a_block_that_is_cut_or_sticks_out_does_not_count_as_inside() {
     let outline = Outline::new(notch.map(|[x, y]| Vector2::new(x, y)).to_vec()).unwrap();
     assert!(is_cut(&block, &outline));
     assert!(!is_cut(&Block::new(1.0, [0.2, 0.05, 0.1]), &outline));
+}
+
+#[test]
+fn what_is_unknown_of_blocks_in_contact_falls_as_the_square_of_the_cell() {
+    let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
+    let bounds = CuboidBounds::new(&design.pair.fixed, &design.pair.moving);
+    let unknown = |slide: f64, half: f64| {
+        let found = bounds.enclose(&Cell {
+            centre: Configuration::new(0.43 + 0.5 * half, slide, 0.2 * half),
+            half: [half, half, half / 0.2],
+        });
+        found.high - found.low
+    };
+    // Faces flush, beside each other by a part of their width, and on the next ones.
+    for slide in [0.0, -0.0013, -0.04] {
+        for half in [5e-5, 2.5e-5, 1.25e-5] {
+            let ratio = unknown(slide, half) / unknown(slide, half / 2.0);
+            // Less than four for the logarithm.
+            assert!(ratio > 3.3 && ratio < 4.0, "{slide} {half} {ratio}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::super::matching;
+use super::matches;
 
 #[test]
 fn outlines_of_squares_match_along_their_sides() {
@@ -13,7 +13,7 @@ fn outlines_of_squares_match_along_their_sides() {
     )
     .unwrap();
     let contact = crate::contact::Contact::new(&square, &square);
-    let found = matching::matches(&contact, 100);
+    let found = matches(&contact, 100);
     // Each of four sides on each of four.
     let full = found.iter().filter(|it| (it.contact - 0.2).abs() < 1e-9);
     assert_eq!(full.count(), 16);
@@ -51,7 +51,7 @@ fn the_gap_of_a_match_is_what_neither_tile_fills_of_the_hull() {
         crate::tile::Outline::new(corners.iter().map(|p| Vector2::from(*p)).collect()).unwrap()
     };
     let contact = crate::contact::Contact::new(&outline(&notched), &outline(&tabbed));
-    let found = matching::matches(&contact, 1000);
+    let found = matches(&contact, 1000);
     let middle = found
         .iter()
         .find(|it| (it.contact - 0.19).abs() < 1e-9 && it.pose.y.abs() < 1e-9)

@@ -1,213 +1,19 @@
-//! Many designs: side by side, and made from one by varying its keys.
+//! Designs made from one by varying its keys.
 
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping};
-use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity};
-use tilebind::observer::Observer;
-use tilebind::report::comparison::Comparison as Compared;
 use tilebind::report::page::Page;
-use tilebind::report::plots::{Sheet, curve_data, ranking};
+use tilebind::report::plots::{Sheet, curve_data};
 use tilebind::report::sweep::Sweep as Swept;
 use tilebind::sweep::{Axis, Outcome, Plan, Value, run as work_on};
 
+use crate::comparison;
 use crate::design::Design;
 use crate::job::Told;
-use crate::keywords::Keywords;
-use crate::table;
-use crate::{convert, fault, job, pickle};
-
-/// How designs are assessed, and the seed.
-fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<(AssessmentSettings, u64)> {
-    let given = Keywords::new(given);
-    let default = AssessmentSettings::default();
-    let settings = AssessmentSettings {
-        milestones: given.or("milestones", default.milestones)?,
-        neighbours: given.get("neighbours")?,
-        settled: given.or("settled", default.settled)?,
-        far_starts: given.or("far_starts", default.far_starts)?,
-        tolerance: given.get("tolerance")?,
-        certify_cells: given.or("certify_cells", default.certify_cells)?,
-        complete_cells: given.or("complete_cells", default.complete_cells)?,
-        dynamics_runs: given.or("dynamics_runs", default.dynamics_runs)?,
-    };
-    let seed = given.or("seed", 1)?;
-    given.finish()?;
-    fault::count("milestones", settings.milestones)?;
-    fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
-    fault::fraction("settled", settings.settled)?;
-    fault::positive("tolerance", settings.tolerance)?;
-    job::check_memory(settings.milestones, settings.neighbours)?;
-    Ok((settings, seed))
-}
-
-fn quantity(key: &str) -> PyResult<&'static Quantity> {
-    let known = || QUANTITIES.iter().map(|one| one.key).collect::<Vec<_>>();
-    QUANTITIES
-        .iter()
-        .find(|one| one.key == key)
-        .ok_or_else(|| fault::value(format!("by = {key:?}: known are {}", known().join(", "))))
-}
-
-/// Set designs side by side: bond, traps, barriers with bounds, capture range.
-///
-/// Parameters
-/// ----------
-/// designs : sequence of Design
-/// by : str, optional
-///     What to rank by, "selectivity" by default; largest first.
-/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
-/// dynamics_runs, seed
-///     As for :meth:`Design.analyse`, but for `certify_cells`: cells spent on the bounds of a
-///     barrier at most; 0 for no bounds.
-/// progress : bool, optional
-///
-/// Returns
-/// -------
-/// Comparison
-#[pyfunction]
-#[pyo3(signature = (designs, *, by = "selectivity", progress = None, **settings))]
-pub fn compare(
-    py: Python<'_>,
-    designs: Vec<Py<Design>>,
-    by: &str,
-    progress: Option<bool>,
-    settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Comparison> {
-    let by = quantity(by)?;
-    let (settings, seed) = self::settings(settings)?;
-    if designs.is_empty() {
-        return Err(fault::value("there is no design to compare"));
-    }
-    let contents: Vec<_> = designs
-        .iter()
-        .map(|one| one.get().content.clone())
-        .collect();
-    let count = contents.len();
-    let assessments = job::run(py, progress, |told| {
-        let parts = contents.iter().enumerate();
-        let assessed = parts.map(|(done, content)| {
-            let part = Part { told, done, count };
-            comparison::assess(&content.design, &settings, seed, &part)
-        });
-        assessed.collect::<Vec<_>>()
-    })?;
-    Ok(Comparison(Compared::new(&assessments, by, settings)))
-}
-
-/// The progress of one design among several.
-struct Part<'a> {
-    told: &'a Told,
-    done: usize,
-    count: usize,
-}
-
-impl Observer for Part<'_> {
-    fn stage(&self, name: &'static str, share: f64) {
-        let share = (self.done as f64 + share) / self.count as f64;
-        let text = format!("design {} of {}: {name}", self.done + 1, self.count);
-        self.told.tell(share, text);
-    }
-}
-
-/// Designs side by side, best first. It never changes.
-#[pyclass(frozen, module = "tilebind")]
-pub struct Comparison(Compared);
-
-#[pymethods]
-impl Comparison {
-    /// numpy.ndarray : One row a design, best first, structured, for ``pandas.DataFrame``: every
-    /// figure with its bounds, units in the names.
-    #[getter]
-    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&self.0.csv()))
-    }
-
-    /// dict : Everything, with what reproduces it, as ``compare.json`` has it.
-    #[getter]
-    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.0.json())
-    }
-
-    /// The tables and the proved orders as text.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn summary(&self) -> String {
-        self.0.summary(Some(100))
-    }
-
-    /// The same as Markdown.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn markdown(&self) -> String {
-        self.0.markdown()
-    }
-
-    /// The picture of the ranking, an SVG document.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn svg(&self) -> PyResult<String> {
-        let drawn = ranking::draw(&self.0, &Sheet::SCREEN).map_err(fault::run)?;
-        Ok(drawn.svg().to_owned())
-    }
-
-    /// The page of the comparison.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn report_html(&self) -> PyResult<String> {
-        Ok(Page::of_comparison(&self.0, self.svg()?).to_html())
-    }
-
-    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(), vec![self.svg()?]))
-    }
-
-    fn __len__(&self) -> usize {
-        self.0.designs.len()
-    }
-
-    fn __repr__(&self) -> String {
-        let (count, by) = (self.0.designs.len(), self.0.by.label);
-        format!("<tilebind.Comparison of {count} designs by {by}>")
-    }
-
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let restore = slf.get_type().getattr("_restore")?;
-        let Compared {
-            designs,
-            by,
-            settings,
-        } = &slf.get().0;
-        Ok((
-            restore,
-            (pickle::dump(slf.py(), &(designs, by.key, settings))?,),
-        ))
-    }
-
-    #[staticmethod]
-    fn _restore(bytes: &[u8]) -> PyResult<Self> {
-        let (designs, by, settings): (Vec<Assessment>, String, _) = pickle::load(bytes)?;
-        Ok(Self(Compared {
-            designs,
-            by: quantity(&by)?,
-            settings,
-        }))
-    }
-}
+use crate::{convert, fault, job, pickle, table};
 
 /// A key's values.
 fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
@@ -253,7 +59,7 @@ pub fn sweep(
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Sweep> {
-    let (settings, seed) = self::settings(settings)?;
+    let (settings, seed) = comparison::settings(settings)?;
     let items = vary.items()?;
     let axes = items.iter().map(|item| axis(item.extract()?));
     let axes = axes.collect::<PyResult<Vec<_>>>()?;

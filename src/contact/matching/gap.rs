@@ -1,0 +1,90 @@
+//! The area that outlines in contact leave between them.
+
+use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
+
+use super::{Facing, TOUCHING};
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+
+/// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
+/// contact (of such pairs of edges), what neither tile fills.
+pub(super) fn gap_area(
+    fixed: &Outline,
+    moving: &Outline,
+    facing: &[Facing],
+    q: &Configuration,
+) -> f64 {
+    let stretches = facing.iter().filter_map(|it| it.stretch(q.position()));
+    let points: Vec<Vector2<f64>> = stretches.flatten().collect();
+    let hull = hull(points);
+    let placed = moving.vertices().iter().map(|p| q.transform(*p)).collect();
+    let filled = area_within(fixed.vertices().to_vec(), &hull) + area_within(placed, &hull);
+    let gap = area(&hull) - filled;
+    // What rounding leaves of outlines that fit.
+    if gap < TOUCHING * TOUCHING.sqrt() {
+        0.0
+    } else {
+        gap
+    }
+}
+
+/// The area (m^2) of a polygon, counter-clockwise.
+fn area(polygon: &[Vector2<f64>]) -> f64 {
+    let next = polygon.iter().cycle().skip(1);
+    polygon
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.perp(b))
+        .sum::<f64>()
+        / 2.0
+}
+
+/// The area (m^2) of what a polygon has in a convex one, both counter-clockwise: clipped by side
+/// after side (Sutherland and Hodgman 1974). Edges that the clipping doubles enclose nothing.
+fn area_within(polygon: Vec<Vector2<f64>>, hull: &[Vector2<f64>]) -> f64 {
+    let sides = (0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()]]);
+    area(&sides.fold(polygon, |left, side| clipped(&left, side)))
+}
+
+/// What of a polygon lies left of the line from a to b.
+fn clipped(polygon: &[Vector2<f64>], [a, b]: [Vector2<f64>; 2]) -> Vec<Vector2<f64>> {
+    let height = |p: &Vector2<f64>| (b - a).perp(&(p - a));
+    let next = polygon.iter().cycle().skip(1);
+    let mut left = Vec::with_capacity(polygon.len() + 1);
+    for (p, q) in polygon.iter().zip(next) {
+        let (from, to) = (height(p), height(q));
+        if from >= 0.0 {
+            left.push(*p);
+        }
+        if (from < 0.0) != (to < 0.0) {
+            left.push(p + (q - p) * (from / (from - to)));
+        }
+    }
+    left
+}
+
+/// The convex hull, counter-clockwise (Andrew's monotone chain).
+fn hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    points.sort_by_key(|p| (OrderedFloat(p.x), OrderedFloat(p.y)));
+    points.dedup();
+    let mut lower = half_hull(points.iter());
+    lower.extend(half_hull(points.iter().rev()));
+    lower
+}
+
+/// The half of a hull to the right of the way along points in order, its last point left out.
+fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<f64>> {
+    let mut chain: Vec<Vector2<f64>> = Vec::new();
+    for p in points {
+        while let [.., a, b] = chain[..] {
+            if (b - a).perp(&(p - a)) > 1e-15 {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(*p);
+    }
+    chain.pop();
+    chain
+}

@@ -1,0 +1,269 @@
+//! Rigid motions that bring two outlines, magnets aside, into long contact.
+//!
+//! Longest contacts are met where an edge of one outline lies flush on an edge of the other and a
+//! corner of one stops at a corner of the other: sliding along the common line changes the contact
+//! only at such places. So of every two edges the motions are tried that lay one on the other with
+//! any corner of the moving outline that lies on the common line, or beside it, at any of the fixed
+//! one; those that overlap are dropped. Turns at which too little of the edges is parallel for a
+//! contact worth the name are not tried.
+
+mod gap;
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::Contact;
+use crate::configuration::{Configuration, wrap_angle};
+use crate::tile::Outline;
+
+/// A motion and what it brings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// Of the moving tile.
+    pub pose: Configuration,
+    /// Length along which the outlines touch (m).
+    pub contact: f64,
+    /// Area that is neither tile's but between them: enclosed, or in the hull of the stretch of
+    /// contact (m^2).
+    pub gap: f64,
+}
+
+/// Edges closer than this (m) and this parallel (rad) touch.
+const TOUCHING: f64 = 1e-7;
+const PARALLEL: f64 = 1e-9;
+/// Motions closer than this (m, rad) are the same.
+const SAME: f64 = 1e-6;
+/// Contacts shorter than this share of the shorter outline are no matches.
+pub const LEAST_SHARE: f64 = 0.01;
+
+/// The motions of longest contact, longest first, at most so many. Contacts shorter than
+/// [`LEAST_SHARE`] of the shorter outline are left out.
+pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
+    let (fixed, moving) = (contact.fixed(), contact.moving());
+    let least = LEAST_SHARE * perimeter(fixed).min(perimeter(moving));
+    let turns: Vec<Turn> = turns(fixed, moving, least);
+    let laid: Vec<(&Turn, [usize; 2])> = turns
+        .iter()
+        .flat_map(|turn| turn.laid.iter().map(move |pair| (turn, *pair)))
+        .collect();
+    let mut found: Vec<(&Turn, Match)> = laid
+        .par_iter()
+        .flat_map_iter(|&(turn, laid)| {
+            let motions = flush_motions(fixed, moving, turn, laid).into_iter();
+            motions.map(move |one| (turn, one))
+        })
+        .filter(|(_, found)| found.contact >= least && contact.is_free(&found.pose))
+        .collect();
+    found.sort_by_key(|(_, it)| {
+        let q = it.pose;
+        // Lengths that differ by rounding are the same.
+        let length = (it.contact / SAME).round();
+        (
+            OrderedFloat(-length),
+            [q.x, q.y, q.theta].map(|x| OrderedFloat((x / SAME).round())),
+        )
+    });
+    let mut distinct: Vec<(&Turn, Match)> = Vec::new();
+    for one in found {
+        let same = |other: &(&Turn, Match)| {
+            let step = one.1.pose.step_to(&other.1.pose);
+            step.iter().all(|x| x.abs() < 10.0 * SAME)
+        };
+        if distinct.len() < most && !distinct.iter().rev().any(same) {
+            distinct.push(one);
+        }
+    }
+    distinct
+        .par_iter()
+        .map(|(turn, one)| Match {
+            gap: gap::gap_area(fixed, moving, &turn.facing, &one.pose),
+            ..*one
+        })
+        .collect()
+}
+
+fn edge(outline: &Outline, i: usize) -> [Vector2<f64>; 2] {
+    let vertices = outline.vertices();
+    [vertices[i], vertices[(i + 1) % vertices.len()]]
+}
+
+fn perimeter(outline: &Outline) -> f64 {
+    let edges = 0..outline.vertices().len();
+    edges.map(|i| length(outline, i)).sum()
+}
+
+fn length(outline: &Outline, i: usize) -> f64 {
+    let [start, end] = edge(outline, i);
+    (end - start).norm()
+}
+
+/// A turn of the moving outline that makes edges of the two face each other.
+struct Turn {
+    /// Edges of the fixed and of the moving outline that it makes parallel.
+    laid: Vec<[usize; 2]>,
+    /// These, and those so nearly parallel that they touch all along where they touch.
+    facing: Vec<Facing>,
+}
+
+/// All turns that lay an edge on an edge and may give a contact of some length (m). At most of
+/// them, with curved outlines above all, few short edges meet, which bounds the contact before any
+/// motion is tried.
+fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
+    let mut pairs: Vec<(f64, [usize; 2])> = (0..fixed.vertices().len())
+        .flat_map(|a| (0..moving.vertices().len()).map(move |b| [a, b]))
+        .map(|[a, b]| (turn_of(edge(fixed, a), edge(moving, b)), [a, b]))
+        .collect();
+    pairs.sort_by_key(|(theta, pair)| (OrderedFloat(*theta), *pair));
+    let may_touch = |pairs: &[[usize; 2]]| {
+        let of = |tile: usize, outline: &Outline| {
+            let mut edges: Vec<usize> = pairs.iter().map(|pair| pair[tile]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            edges.into_iter().map(|i| length(outline, i)).sum::<f64>()
+        };
+        of(0, fixed).min(of(1, moving))
+    };
+    let shortest = (0..fixed.vertices().len()).map(|a| length(fixed, a));
+    let widest = 2.0 * parallel_within(shortest.fold(f64::INFINITY, f64::min));
+    let around = |theta: f64| {
+        let from = pairs.partition_point(|it| it.0 < theta - widest);
+        let to = pairs.partition_point(|it| it.0 <= theta + widest);
+        &pairs[from..to]
+    };
+    let of = |laid: &[(f64, [usize; 2])]| {
+        let theta = laid[0].0;
+        let all = [-TAU, 0.0, TAU].map(|whole| around(theta + whole));
+        let near = all.into_iter().flatten().filter(|(other, [a, _])| {
+            wrap_angle(other - theta).abs() < 2.0 * parallel_within(length(fixed, *a))
+        });
+        let near: Vec<[usize; 2]> = near.map(|it| it.1).collect();
+        (may_touch(&near) >= least).then(|| Turn {
+            laid: laid.iter().map(|it| it.1).collect(),
+            facing: near
+                .iter()
+                .map(|[a, b]| Facing::new(edge(fixed, *a), edge(moving, *b), theta))
+                .collect(),
+        })
+    };
+    let same = |a: &(f64, [usize; 2]), b: &(f64, [usize; 2])| b.0 - a.0 < PARALLEL;
+    let groups: Vec<&[(f64, [usize; 2])]> = pairs.chunk_by(same).collect();
+    groups.into_par_iter().filter_map(of).collect()
+}
+
+/// Edges of such a length (m) are parallel to others within this angle (rad).
+fn parallel_within(length: f64) -> f64 {
+    PARALLEL.max(TOUCHING / length)
+}
+
+/// The turn (rad) that lays a moving edge on a fixed one, face to face.
+fn turn_of([start, end]: [Vector2<f64>; 2], [from, to]: [Vector2<f64>; 2]) -> f64 {
+    let (u, v) = (end - start, from - to);
+    let theta = wrap_angle(u.y.atan2(u.x) - v.y.atan2(v.x));
+    // Half a turn is told one way, whatever rounding makes of it.
+    if theta < PARALLEL - PI { PI } else { theta }
+}
+
+/// Motions that lay edge b of the moving outline on edge a of the fixed one, face to face, with a
+/// corner of the one at a corner of the other along their common direction, and the length in
+/// contact; the gap is not yet looked at.
+fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Match> {
+    let [start, end] = edge(fixed, a);
+    let [from, to] = edge(moving, b);
+    let along = (end - start).normalize();
+    let theta = turn_of([start, end], [from, to]);
+    let turned = |p: Vector2<f64>| Configuration::new(0.0, 0.0, theta).transform(p);
+    // Places along the common line: of corners, from the edges' own.
+    let place = |p: Vector2<f64>| p.dot(&along);
+    let across = start - along * place(start) - (turned(to) - along * place(turned(to)));
+    let corners: Vec<f64> = moving
+        .vertices()
+        .iter()
+        .map(|p| place(turned(*p)))
+        .collect();
+    // The two edges overlap at slides between these only.
+    let own = place(start) - place(turned(to));
+    let (least, most) = (
+        own - (to - from).norm(),
+        own + (end - start).norm() + (to - from).norm(),
+    );
+    let mut slides: Vec<f64> = Vec::new();
+    for corner in fixed.vertices().iter().map(|p| place(*p)) {
+        let meeting = corners.iter().map(|other| corner - other);
+        slides.extend(meeting.filter(|slide| *slide > least && *slide < most));
+    }
+    slides.sort_by(f64::total_cmp);
+    slides.dedup_by(|a, b| (*a - *b).abs() < SAME);
+    let pose = |slide: &f64| {
+        let shift = across + along * *slide;
+        Configuration::new(shift.x, shift.y, theta)
+    };
+    let mut motions: Vec<Match> = slides
+        .iter()
+        .map(|slide| Match {
+            pose: pose(slide),
+            contact: 0.0,
+            gap: 0.0,
+        })
+        .collect();
+    // Edges along the common line touch all the way, others where they pass each other.
+    for facing in &turn.facing {
+        let height = (across + facing.from - facing.start).dot(&facing.normal);
+        let slope = along.dot(&facing.normal);
+        let passing = if slope.abs() * (most - least) < TOUCHING {
+            0..slides.len()
+        } else {
+            let (at, reach) = (-height / slope, 2.0 * TOUCHING / slope.abs());
+            slides.partition_point(|s| *s < at - reach)
+                ..slides.partition_point(|s| *s <= at + reach)
+        };
+        for motion in &mut motions[passing] {
+            if let Some([a, b]) = facing.stretch(motion.pose.position()) {
+                motion.contact += (b - a).norm();
+            }
+        }
+    }
+    motions
+}
+
+/// An edge of the fixed outline and one of the moving outline, turned but not moved, that faces it.
+struct Facing {
+    /// Where the fixed edge starts, its direction, its outward normal and its length (m).
+    start: Vector2<f64>,
+    along: Vector2<f64>,
+    normal: Vector2<f64>,
+    length: f64,
+    /// The ends of the moving edge.
+    from: Vector2<f64>,
+    to: Vector2<f64>,
+}
+
+impl Facing {
+    fn new([start, end]: [Vector2<f64>; 2], moving: [Vector2<f64>; 2], theta: f64) -> Self {
+        let length = (end - start).norm();
+        let along = (end - start) / length;
+        let [from, to] = moving.map(|p| Configuration::new(0.0, 0.0, theta).transform(p));
+        Self {
+            start,
+            along,
+            normal: Vector2::new(along.y, -along.x),
+            length,
+            from,
+            to,
+        }
+    }
+
+    /// The stretch along which the edges lie on each other once the moving one is shifted.
+    fn stretch(&self, shift: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
+        let [from, to] = [self.from, self.to].map(|p| p + shift - self.start);
+        let near = |p: Vector2<f64>| p.dot(&self.normal).abs() < TOUCHING;
+        let low = to.dot(&self.along).max(0.0);
+        let high = from.dot(&self.along).min(self.length);
+        (near(from) && near(to) && high - low > TOUCHING)
+            .then(|| [low, high].map(|place| self.start + self.along * place))
+    }
+}

@@ -1,0 +1,70 @@
+//! Where minima may be expected besides where the roadmap has them: siblings of those known, and
+//! where the outlines fit.
+
+use rayon::prelude::*;
+
+use super::{Survey, SurveySettings, siblings};
+use crate::configuration::Configuration;
+use crate::landscape::constrained::Point;
+use crate::landscape::minimum::{Descent, descend};
+use crate::problem::Problem;
+
+/// No minimum is looked for closer than this (m) to a known one.
+const KNOWN: f64 = 1e-4;
+/// So many of the outlines' longest contacts are looked at, where the energy is below this share of
+/// the bond's depth.
+const MOST_MATCHES: usize = 100;
+const MATCH_HELD: f64 = 1e-3;
+
+impl Survey {
+    /// Looks for minima where those known so far, but for the first few, would be on other pairs of
+    /// faces or in the mirror, until there are no more.
+    pub(super) fn find_siblings(
+        &mut self,
+        problem: &Problem,
+        mut known: usize,
+        settings: &SurveySettings,
+    ) {
+        while known < self.states.len() {
+            let fresh = self.states[known..].iter().map(|state| {
+                let Point { q, energy, .. } = state.minimum.point;
+                (q, energy)
+            });
+            let fresh: Vec<(Configuration, f64)> = fresh.collect();
+            known = self.states.len();
+            self.look_near(problem, siblings::siblings(problem, &fresh), settings);
+        }
+    }
+
+    /// Looks for minima where the outlines lie on each other along much of their length, on faces
+    /// or elsewhere.
+    pub(super) fn find_matches(&mut self, problem: &Problem, settings: &SurveySettings) {
+        let known = self.states.len();
+        let held = -MATCH_HELD * problem.depth();
+        let places = problem.matches(MOST_MATCHES).into_iter();
+        let places = places.filter(|q| problem.energy(q) < held).collect();
+        self.look_near(problem, places, settings);
+        self.find_siblings(problem, known, settings);
+    }
+
+    /// Follows the energy down from places that are not near known minima.
+    fn look_near(
+        &mut self,
+        problem: &Problem,
+        places: Vec<Configuration>,
+        settings: &SurveySettings,
+    ) {
+        let places: Vec<Configuration> = places
+            .into_iter()
+            .filter(|q| self.state_at(problem, q, KNOWN).is_none())
+            .collect();
+        let descents: Vec<Descent> = places.par_iter().map(|q| descend(problem, q)).collect();
+        for descent in &descents {
+            if let Some(end) = self.arrive(problem, descent)
+                && self.network.is_isolated(end)
+            {
+                self.join(problem, end, settings);
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! States, barriers, ways and maps as arrays.
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tilebind::kinetics::bond::Shaking;
+use tilebind::landscape::Place;
+use tilebind::landscape::map::{EnergyMap, Window};
+use tilebind::report::columns::{self, Output, StateRow};
+use tilebind::report::plots;
+
+use super::Analysis;
+use crate::design::Design;
+use crate::table;
+use crate::{convert, fault, job, kinetics};
+
+#[pymethods]
+impl Analysis {
+    /// Design : What was analysed.
+    #[getter]
+    fn design(&self, py: Python<'_>) -> Py<Design> {
+        self.design.clone_ref(py)
+    }
+
+    /// numpy.ndarray : The states, structured, for ``pandas.DataFrame``: `id`, `name`, `kind`
+    /// ("bound" or "misbound"), `class`, `copies`, pose (`x_m`, `y_m`, `theta_rad`), `energy_J`,
+    /// `escape_J` (to the nearest lower state or to free), `escape_to` (an id, -1 for free, -2 where
+    /// no way is known), `caged`, shares of the far starts captured with their 95 % interval, faces
+    /// in contact, energy as blocks.
+    #[getter]
+    fn states<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let names = self.found.inventory.names();
+        let rows = StateRow::all(&self.content.design, &self.found, &names);
+        let columns = columns::states(Output::Csv);
+        table::structured(py, table::of_columns(&columns, &rows))
+    }
+
+    /// numpy.ndarray : The barriers, structured: `from`, `to` (ids of states, -1 for free),
+    /// `saddle_energy_J` with its certified bounds `lower_J` and `upper_J` (NaN where nothing is
+    /// proved), `forward_J`, `reverse_J`, the saddle's pose, `caged`, work along the pathway and its
+    /// length.
+    #[getter]
+    fn barriers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = columns::barriers(Output::Csv);
+        let mut columns = table::of_columns(&columns, &self.found.inventory.barriers);
+        // The files of the pathways.
+        columns.retain(|(name, _)| name != "pathway");
+        table::structured(py, columns)
+    }
+
+    /// numpy.ndarray : The pose (3,) in which the target faces coincide (m, m, rad).
+    #[getter]
+    fn bound<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table::grid(py, self.found.bound.0.to_array().to_vec(), vec![3])
+    }
+
+    /// float : The energy there (J).
+    #[getter]
+    fn bound_energy(&self) -> f64 {
+        self.found.bound.1
+    }
+
+    /// dict : Everything that is known, as ``report.json`` has it.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        convert::json(py, &self.report_json())
+    }
+
+    /// dict : What is proved of the states that the list may lack: besides the listed ones nothing
+    /// lies below `below_J` from which every way out rises by more than `escape_J`, except in the
+    /// `open` regions.
+    #[getter]
+    fn inventory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.report(py)?.get_item("inventory")
+    }
+
+    /// The best known way between two places.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, end : int or str
+    ///     The id of a state, its name ("A", "B'"), or "free" (-1 too). The end is free by default.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Structured: `s_m`, `x_m`, `y_m`, `theta_rad`, `energy_J`, `clearance_m`. From point to
+    ///     point the motion is straight in x, y and theta, the shorter way round.
+    ///
+    /// Raises
+    /// ------
+    /// LookupError
+    ///     Where no way was sought between the two, or none found.
+    #[pyo3(signature = (start, end = None))]
+    fn pathway<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        end: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let from = self.place(start)?;
+        let to = end.map_or(Ok(Place::Free), |end| self.place(end))?;
+        match self.way(from, to) {
+            Some(pathway) => table::pathway(py, &pathway),
+            None => Err(pyo3::exceptions::PyLookupError::new_err(
+                "no way is known between the two: design.barrier(start, end) looks for one",
+            )),
+        }
+    }
+
+    /// The lowest energy over the orientation at each place about the fixed tile.
+    ///
+    /// Parameters
+    /// ----------
+    /// samples : int, optional
+    ///     Grid points along the longer side.
+    /// orientations : int, optional
+    ///     Orientations tried at each of them, besides those that lay faces flush.
+    ///
+    /// Returns
+    /// -------
+    /// LandscapeMap
+    ///     A named tuple: `x` (columns,), `y` (rows,) in m, `energy` (rows, columns) in J and
+    ///     `theta` (rows, columns) in rad; NaN where no orientation is free.
+    #[pyo3(signature = (samples = 160, orientations = 48))]
+    fn landscape_map<'py>(
+        &self,
+        py: Python<'py>,
+        samples: usize,
+        orientations: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        const MOST: usize = 4096;
+        if !(2..=MOST).contains(&samples) || !(1..=MOST).contains(&orientations) {
+            return Err(fault::value(format!(
+                "samples must be from 2 to {MOST}, orientations from 1 to {MOST}"
+            )));
+        }
+        let half = self.scene().reach();
+        let longer = half[0].max(half[1]);
+        let window = Window {
+            origin: Default::default(),
+            angle: 0.0,
+            low: half.map(|half| -half),
+            high: half,
+            samples: half.map(|half| ((samples as f64 * half / longer).round() as usize).max(2)),
+        };
+        let map = job::quietly(py, || {
+            EnergyMap::new(&self.found.problem, &window, orientations)
+        })?;
+        let grid = map.lowest;
+        let shape = vec![grid.y.len(), grid.x.len()];
+        let of = |of: fn(&tilebind::landscape::map::Sample) -> f64| {
+            let values = grid
+                .values
+                .iter()
+                .map(|one| one.as_ref().map_or(f64::NAN, of));
+            table::grid(py, values.collect(), shape.clone())
+        };
+        let fields = PyDict::new(py);
+        fields.set_item("energy", of(|sample| sample.energy)?)?;
+        fields.set_item("theta", of(|sample| sample.configuration.theta)?)?;
+        fields.set_item("x", table::grid(py, grid.x.clone(), vec![grid.x.len()])?)?;
+        fields.set_item("y", table::grid(py, grid.y.clone(), vec![grid.y.len()])?)?;
+        convert::named(py, "LandscapeMap", &fields)
+    }
+
+    /// How strongly the bond and the traps hold shaken tiles.
+    ///
+    /// Parameters
+    /// ----------
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// coverage : float
+    ///     Share of the table that tiles cover.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `bond_kT`, `docking_cost_kT`, `ln_K`, `two_hold_one_does_not_J` and more.
+    fn bond<'py>(&self, py: Python<'py>, kt: f64, coverage: f64) -> PyResult<Bound<'py, PyAny>> {
+        let found = (&*self.found.problem, &self.found.inventory);
+        let shaking = Shaking { kt, coverage };
+        kinetics::bond(py, &self.content.design, found, shaking)
+    }
+
+    /// Which kinds of states merge at which energy.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Structured, a row for each line of the graph: `states` (the names of those that hang on
+    ///     it), `energy_J` (of its foot), `copies`, `joins_at_J` (NaN for a line that joins none)
+    ///     with certified bounds `lower_J` and `upper_J`.
+    fn disconnectivity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let lines = plots::merge_lines(&self.scene());
+        table::structured(py, table::of_csv(&lines))
+    }
+}

@@ -1,0 +1,240 @@
+//! Texts, pages and pictures.
+
+use std::time::Instant;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tilebind::report::json::Report;
+use tilebind::report::page::Page;
+use tilebind::report::plots::Sheet;
+use tilebind::report::summary;
+use tilebind::report::writer::{self, Contents, Extent, FOLDERS};
+
+use super::Analysis;
+use crate::{fault, job};
+
+/// The pictures by their names.
+const PICTURES: [&str; 7] = [
+    "map",
+    "approach",
+    "profiles",
+    "docking",
+    "models",
+    "disconnectivity",
+    "disconnectivity-linear",
+];
+
+#[pymethods]
+impl Analysis {
+    /// A picture of the analysis as an SVG document.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     "map", "approach", "profiles", "docking", "models", "disconnectivity" or
+    ///     "disconnectivity-linear".
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     Empty where there is nothing to draw.
+    fn svg(&self, py: Python<'_>, name: &str) -> PyResult<String> {
+        if !PICTURES.contains(&name) {
+            return Err(fault::value(format!(
+                "there is no picture {name:?}; there are: {}",
+                PICTURES.join(", ")
+            )));
+        }
+        let mut drawn = self.pictures(py, &[name])?;
+        Ok(drawn.pop().unwrap_or_default())
+    }
+
+    /// What was found, in a few lines.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn summary(&self) -> String {
+        const COLUMNS: usize = 100;
+        let (design, found) = (&self.content.design, &self.found);
+        let text = summary::summary(design, found, "", Some(COLUMNS));
+        let told = |line: &&str| !line.starts_with("results in ");
+        text.lines()
+            .filter(told)
+            .map(|line| format!("{line}\n"))
+            .collect()
+    }
+
+    /// The page with the landscape to move about in, pathways that play and tables that sort.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     HTML that needs nothing but a browser.
+    fn report_html(&self, py: Python<'_>) -> PyResult<String> {
+        job::quietly(py, || {
+            let page = Page::of_analysis(&self.content.design, &self.found, &self.scene());
+            page.made_by(&self.command()).to_html()
+        })
+    }
+
+    /// The text of ``report.json``: every byte as ``tilebind analyse`` writes it, but for what
+    /// depends on the machine (`timing`) and the checksums of the files beside it.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    pub(super) fn report_json(&self) -> String {
+        Report::new(&self.content.design, &self.found, self.wall_s).to_text()
+    }
+
+    /// Write all files of ``tilebind analyse``, whole or not at all.
+    ///
+    /// Parameters
+    /// ----------
+    /// folder : str or os.PathLike
+    ///     Made if need be. Files that tilebind did not write are never overwritten.
+    /// arrays : bool, optional
+    ///     NPY files too.
+    /// compact : bool, optional
+    ///     Leave out the page, PNG pictures and pathways of copies.
+    /// command : str, optional
+    ///     The line on the page that tells how it was made.
+    ///
+    /// Returns
+    /// -------
+    /// tuple of str
+    ///     Names under which files that were in the way are kept.
+    #[pyo3(signature = (folder, *, arrays = false, compact = false, command = None))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: std::path::PathBuf,
+        arrays: bool,
+        compact: bool,
+        command: Option<String>,
+    ) -> PyResult<Vec<String>> {
+        if writer::has_foreign_report(&folder) {
+            return Err(fault::value(format!(
+                "{} holds a report that is not of tilebind: name another folder",
+                folder.display()
+            )));
+        }
+        for inner in FOLDERS
+            .iter()
+            .map(|inner| folder.join(inner))
+            .chain([folder.clone()])
+        {
+            if inner.exists() && !inner.is_dir() {
+                return Err(fault::value(format!("{} is no folder", inner.display())));
+            }
+        }
+        let contents = Contents {
+            extent: if compact {
+                Extent::Compact
+            } else {
+                Extent::Full
+            },
+            arrays,
+            sheet: Sheet::SCREEN,
+            command: command.unwrap_or_else(|| self.command()),
+        };
+        let start = Instant::now();
+        let files = job::quietly(py, || {
+            writer::files(&self.content.design, &self.found, &contents, start)
+        })?;
+        let files = files.map_err(fault::run)?;
+        let kept = writer::write(&folder, &files)
+            .map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))?;
+        Ok(kept.iter().map(|path| path.display().to_string()).collect())
+    }
+
+    /// Draw the lowest energy about the fixed tile with the states on it.
+    ///
+    /// Parameters
+    /// ----------
+    /// ax : matplotlib.axes.Axes, optional
+    ///     Where to draw; the current axes by default.
+    /// **style
+    ///     For ``Axes.pcolormesh``.
+    ///
+    /// Returns
+    /// -------
+    /// matplotlib.axes.Axes
+    #[pyo3(signature = (ax = None, **style))]
+    fn plot_map<'py>(
+        slf: &Bound<'py, Self>,
+        ax: Option<Bound<'py, PyAny>>,
+        style: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let plots = slf.py().import("tilebind._plots")?;
+        plots.getattr("plot_map")?.call((slf, ax), style)
+    }
+
+    /// Draw the energy along a pathway.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, end : int or str, optional
+    ///     As for :meth:`pathway`; from the first state to free by default.
+    /// ax : matplotlib.axes.Axes, optional
+    /// **style
+    ///     For ``Axes.plot``.
+    ///
+    /// Returns
+    /// -------
+    /// matplotlib.axes.Axes
+    #[pyo3(signature = (start = None, end = None, ax = None, **style))]
+    fn plot_profile<'py>(
+        slf: &Bound<'py, Self>,
+        start: Option<Bound<'py, PyAny>>,
+        end: Option<Bound<'py, PyAny>>,
+        ax: Option<Bound<'py, PyAny>>,
+        style: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let plots = slf.py().import("tilebind._plots")?;
+        plots
+            .getattr("plot_profile")?
+            .call((slf, start, end, ax), style)
+    }
+
+    /// Draw which kinds of states merge at which energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// ax : matplotlib.axes.Axes, optional
+    /// **style
+    ///     For ``Axes.plot``.
+    ///
+    /// Returns
+    /// -------
+    /// matplotlib.axes.Axes
+    #[pyo3(signature = (ax = None, **style))]
+    fn plot_disconnectivity<'py>(
+        slf: &Bound<'py, Self>,
+        ax: Option<Bound<'py, PyAny>>,
+        style: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let plots = slf.py().import("tilebind._plots")?;
+        plots
+            .getattr("plot_disconnectivity")?
+            .call((slf, ax), style)
+    }
+
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let pictures = self.pictures(py, &["map", "disconnectivity"])?;
+        let html = py.import("tilebind._html")?;
+        html.call_method1("page", (self.summary(), pictures))
+    }
+
+    fn __repr__(&self) -> String {
+        let inventory = &self.found.inventory;
+        format!(
+            "<tilebind.Analysis {:?}, {} states in {} kinds, {} barriers>",
+            self.content.design.name,
+            inventory.states.len(),
+            inventory.kinds().count(),
+            inventory.barriers.len()
+        )
+    }
+}

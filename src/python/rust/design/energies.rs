@@ -1,0 +1,170 @@
+//! What tiles feel at many poses.
+
+use std::borrow::Cow;
+
+use pyo3::prelude::*;
+use tilebind::contact::matching::{Match, matches};
+use tilebind::report::json;
+
+use super::Design;
+use crate::job;
+use crate::poses::{self, Poses};
+use crate::table::{self, Named, Values};
+
+#[pymethods]
+impl Design {
+    /// The magnetic interaction energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     (..., 3): x (m), y (m), theta (rad) of the moving tile.
+    /// model : {"dipole", "cuboid"}, optional
+    ///     Point dipoles or uniformly magnetised blocks; the design's own by default.
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     (...), in J; 0 at infinity. Given where tiles overlap, too; NaN where a pose is not
+    ///     finite.
+    ///
+    /// Notes
+    /// -----
+    /// Many poses are worked on by all cores, with the interpreter's lock released.
+    #[pyo3(signature = (poses, *, model = None))]
+    fn energy<'py>(
+        &self,
+        py: Python<'py>,
+        poses: Poses<'py>,
+        model: Option<Cow<'_, str>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let problem = self.content.problem(super::model(model.as_deref())?);
+        let potential = problem.potential();
+        poses::numbers(py, &poses, |qs, out: &mut [[f64; 1]]| {
+            potential.energies(qs, out.as_flattened_mut());
+            for [energy] in out {
+                *energy = json::positive_zero(*energy);
+            }
+        })
+    }
+
+    /// Force and torque on the moving tile.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     (..., 3): x (m), y (m), theta (rad).
+    /// model : {"dipole", "cuboid"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     (..., 3): Fx (N), Fy (N) and the torque about the tile's reference point (N m).
+    #[pyo3(signature = (poses, *, model = None))]
+    fn wrench<'py>(
+        &self,
+        py: Python<'py>,
+        poses: Poses<'py>,
+        model: Option<Cow<'_, str>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let problem = self.content.problem(super::model(model.as_deref())?);
+        let potential = problem.potential();
+        poses::numbers(py, &poses, |qs, out: &mut [[f64; 3]]| {
+            let mut found = vec![Default::default(); qs.len()];
+            potential.energies_and_gradients(qs, &mut found);
+            for ((_, gradient), out) in found.iter().zip(out) {
+                *out = [-gradient.x, -gradient.y, -gradient.z].map(json::positive_zero);
+            }
+        })
+    }
+
+    /// Distance between the two outlines.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     (..., 3): x (m), y (m), theta (rad).
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     (...), in m; 0 where they touch, negative where they overlap.
+    fn clearance<'py>(&self, py: Python<'py>, poses: Poses<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let problem = self.content.problem(None);
+        poses::numbers(py, &poses, |qs, out: &mut [[f64; 1]]| {
+            for (q, [out]) in qs.iter().zip(out) {
+                let clearance = problem.clearance(q);
+                // Tiles that touch may overlap by a rounding error.
+                let clearance = match problem.is_clear(q) {
+                    true => clearance.max(0.0),
+                    false => clearance,
+                };
+                *out = json::positive_zero(clearance);
+            }
+        })
+    }
+
+    /// Whether the tiles do not overlap; touching is allowed.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     (..., 3): x (m), y (m), theta (rad).
+    ///
+    /// Returns
+    /// -------
+    /// bool or numpy.ndarray
+    ///     (...), false where a pose is not finite.
+    fn is_free<'py>(&self, py: Python<'py>, poses: Poses<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let problem = self.content.problem(None);
+        poses::truths(py, &poses, |q| problem.is_clear(q))
+    }
+
+    /// How the two outlines, magnets aside, fit together.
+    ///
+    /// Parameters
+    /// ----------
+    /// most : int, optional
+    ///     Most fits listed.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Structured, longest contact first: `x_m`, `y_m`, `theta_rad`, `contact_m`, `gap_m2`.
+    #[pyo3(signature = (most = 100))]
+    fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
+        let problem = self.content.problem(None).clone();
+        let found = job::quietly(py, move || {
+            problem
+                .contact
+                .as_ref()
+                .map(|contact| matches(contact, most))
+        })?;
+        let found = found.unwrap_or_default();
+        let real = |name: &str, of: fn(&Match) -> f64| -> Named {
+            (
+                name.to_owned(),
+                Values::Real(found.iter().map(of).collect()),
+            )
+        };
+        let columns = vec![
+            real("x_m", |one| one.pose.x),
+            real("y_m", |one| one.pose.y),
+            real("theta_rad", |one| one.pose.theta),
+            real("contact_m", |one| one.contact),
+            real("gap_m2", |one| one.gap),
+        ];
+        table::structured(py, columns)
+    }
+
+    /// The time (s) that the energies of poses take on all cores by themselves, for the bench.
+    fn _kernel_seconds(
+        &self,
+        py: Python<'_>,
+        poses: Poses<'_>,
+        model: Option<Cow<'_, str>>,
+    ) -> PyResult<f64> {
+        let problem = self.content.problem(super::model(model.as_deref())?);
+        poses::kernel_seconds(py, &poses, problem.potential())
+    }
+}

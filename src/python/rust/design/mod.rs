@@ -1,0 +1,107 @@
+//! A pair of tiles.
+
+mod energies;
+mod facts;
+mod reading;
+mod work;
+
+use std::sync::{Arc, OnceLock};
+
+use pyo3::prelude::*;
+use tilebind::design::{Design as Whole, MagnetModel};
+use tilebind::problem::Problem;
+use tilebind::sweep::Source;
+use tilebind::tile::Tile;
+
+use crate::fault;
+
+/// What a design was read from, what it is, and the problems that it poses.
+pub struct Content {
+    /// Its text, with the drawings that it names.
+    pub source: Source,
+    /// The tiles.
+    pub design: Whole,
+    /// With its magnets as dipoles and as blocks, made when they are first asked for.
+    problems: [OnceLock<Arc<Problem>>; 2],
+}
+
+impl Content {
+    fn new((source, design): (Source, Whole)) -> Arc<Self> {
+        Arc::new(Self {
+            source,
+            design,
+            problems: Default::default(),
+        })
+    }
+
+    /// The problem with magnets modelled as asked for, or else as the design says.
+    pub fn problem(&self, model: Option<MagnetModel>) -> &Arc<Problem> {
+        let model = model.unwrap_or(self.design.interaction.model);
+        self.problems[model as usize].get_or_init(|| Arc::new(self.modelled(model).problem()))
+    }
+
+    /// The design with its magnets modelled otherwise.
+    fn modelled(&self, model: MagnetModel) -> Whole {
+        let mut design = self.design.clone();
+        design.interaction.model = model;
+        design
+    }
+}
+
+/// A magnet model by its name.
+pub fn model(name: Option<&str>) -> PyResult<Option<MagnetModel>> {
+    let Some(name) = name else { return Ok(None) };
+    let mut known = MagnetModel::NAMES.iter();
+    match known.find(|(word, _)| *word == name) {
+        Some((_, model)) => Ok(Some(*model)),
+        None => Err(fault::value(format!(
+            "model = {name:?}: a model is \"dipole\" or \"cuboid\""
+        ))),
+    }
+}
+
+/// A pair of tiles and how they are meant to bind. It never changes: :meth:`replace` gives another.
+///
+/// Read one with :meth:`load`, :meth:`loads` or :meth:`from_dict`. Lengths are in m, angles in rad,
+/// energies in J. A pose is (x, y, theta): the moving tile's reference point in the fixed tile's
+/// frame and its orientation, counter-clockwise.
+///
+/// Examples
+/// --------
+/// >>> design = tilebind.Design.load("shapes/paper-tile.toml")
+/// >>> design.bound
+/// array([0.43, 0.  , 0.  ])
+#[pyclass(frozen, module = "tilebind")]
+pub struct Design {
+    /// What it is.
+    pub content: Arc<Content>,
+}
+
+impl Design {
+    fn read(
+        py: Python<'_>,
+        read: Result<(Source, Whole), tilebind::design::DesignError>,
+    ) -> PyResult<Self> {
+        read.map(|read| Self {
+            content: Content::new(read),
+        })
+        .map_err(|error| fault::design(py, &error))
+    }
+
+    /// The design that was read from a source.
+    pub fn of_source(py: Python<'_>, source: Source) -> PyResult<Self> {
+        let design = source.design();
+        Self::read(py, design.map(|design| (source, design)))
+    }
+
+    fn tile(&self, which: &str) -> PyResult<&Tile> {
+        let pair = &self.content.design.pair;
+        match which {
+            "fixed" => Ok(&pair.fixed),
+            "moving" => Ok(&pair.moving),
+            _ => Err(fault::value(format!(
+                "{which:?}: the tiles are \"fixed\" and \"moving\""
+            ))),
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Designs from files, texts and dictionaries, as texts, and in pickles.
+
+use std::path::PathBuf;
+
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyMapping};
+use tilebind::sweep::Source;
+
+use super::Design;
+use crate::{convert, fault, pickle};
+
+#[pymethods]
+impl Design {
+    /// Read a design file.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The TOML file. Drawings that it names lie beside it.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    ///
+    /// Raises
+    /// ------
+    /// DesignError
+    ///     With line, column and mend of everything that is wrong with the file.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let read = py.detach(|| Source::read(&path));
+        Self::read(py, read)
+    }
+
+    /// Read a design from its text.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     TOML, as in a design file.
+    /// file : str, optional
+    ///     What errors call it; it lies where the drawings lie, and the design is named after it
+    ///     where it gives no name.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    ///
+    /// Raises
+    /// ------
+    /// DesignError
+    #[staticmethod]
+    #[pyo3(signature = (text, *, file = "design.toml"))]
+    fn loads(py: Python<'_>, text: &str, file: &str) -> PyResult<Self> {
+        let read = py.detach(|| Source::of_text(text, file));
+        Self::read(py, read)
+    }
+
+    /// Make a design of nested dictionaries with the keys of a design file.
+    ///
+    /// Parameters
+    /// ----------
+    /// tables : Mapping
+    ///     Such as ``{"table": {"size": [2, 2]}, "magnet": {...}, "fixed": {...}, ...}``.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    ///
+    /// Raises
+    /// ------
+    /// DesignError
+    ///     Its lines are those of :attr:`text`, which is made of the dictionaries.
+    #[staticmethod]
+    fn from_dict(py: Python<'_>, tables: &Bound<'_, PyMapping>) -> PyResult<Self> {
+        let text = convert::table(tables)?.to_string();
+        Self::loads(py, &text, "design.toml")
+    }
+
+    /// The same design with a key set to another value.
+    ///
+    /// Parameters
+    /// ----------
+    /// key : str
+    ///     Dotted path, such as ``"fixed.faces.east.profile.depth"``; a number counts the items of
+    ///     a list from 0. Tables on the way that are missing are made.
+    /// value : float, int, bool, str, list or Mapping
+    ///     In SI units, or as a text with a unit, ``"20 mm"``.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    ///     This one stays as it is.
+    ///
+    /// Raises
+    /// ------
+    /// DesignError
+    ///     Where the key leads nowhere or there is no such design.
+    fn replace(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let source = &self.content.source;
+        let value = convert::toml(value)?;
+        let with = source.with(key, value).map_err(|reason| {
+            let help = "name a key by its dotted path, such as fixed.faces.east.profile.depth";
+            fault::of_design(py, &source.file, reason, help)
+        })?;
+        Self::of_source(py, with)
+    }
+
+    /// The design as nested dictionaries.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     What :meth:`from_dict` takes.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = &self.content.source.text;
+        py.import("tomllib")?.call_method1("loads", (text,))
+    }
+
+    /// str : The design as TOML.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.content.source.text
+    }
+
+    fn __eq__<'py>(&self, py: Python<'py>, other: &Bound<'py, PyAny>) -> PyResult<Py<PyAny>> {
+        match other.cast::<Self>() {
+            Ok(other) => (self.content.source == other.get().content.source).into_py_any(py),
+            Err(_) => Ok(py.NotImplemented()),
+        }
+    }
+
+    fn __hash__(&self) -> u64 {
+        // The checksum is as good as random.
+        u64::from_str_radix(&self.content.design.sha256[..16], 16).unwrap_or(0)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let py = slf.py();
+        let restore = slf.get_type().getattr("_restore")?;
+        Ok((restore, (pickle::dump(py, &slf.get().content.source)?,)))
+    }
+
+    #[staticmethod]
+    fn _restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        Self::of_source(py, pickle::load(bytes)?)
+    }
+}

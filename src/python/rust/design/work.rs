@@ -1,0 +1,205 @@
+//! The jobs that take a design.
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tilebind::workshop::Making;
+
+use super::Design;
+use crate::analysis::{self, Analysis};
+use crate::{barrier, dock, kinetics, workshop};
+
+#[pymethods]
+impl Design {
+    /// The main job: states, traps, barriers with their proofs, pathways.
+    ///
+    /// Parameters
+    /// ----------
+    /// seed : int, optional
+    ///     Of all random numbers.
+    /// milestones, neighbours : int, optional
+    ///     Of the roadmap.
+    /// boltzmann, thermal_energy : float, optional
+    ///     Energies (J) by which milestones are accepted and transitions weighed.
+    /// settled : float, optional
+    ///     A barrier is settled when it moves by less than this fraction.
+    /// far_starts : int, optional
+    ///     Starts from which capture shares are counted.
+    /// repeats : int, optional
+    ///     Runs, each with the next seed, whose spread is reported.
+    /// tolerance : float, optional
+    ///     Width (J) to which certified bounds are narrowed.
+    /// certify_seconds, complete_seconds : float, optional
+    ///     Time (s) after which the bounds of barriers, and the proof that no state is missing, are
+    ///     left as they are; 0 for none.
+    /// complete_below, complete_escape : float, optional
+    ///     Shares of the bond's depth: traps below the one that need more than the other to leave
+    ///     are to be listed.
+    /// dynamics_runs : int, optional
+    ///     Moving tiles that check each barrier.
+    /// progress : bool, optional
+    ///     A tqdm bar; by default where somebody would see it.
+    ///
+    /// Returns
+    /// -------
+    /// Analysis
+    ///
+    /// Notes
+    /// -----
+    /// The defaults are those of ``tilebind analyse``, and so are the results, byte by byte.
+    /// Ctrl-C stops it within a second.
+    #[pyo3(signature = (*, progress = None, **settings))]
+    fn analyse(
+        slf: Py<Self>,
+        py: Python<'_>,
+        progress: Option<bool>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Analysis> {
+        analysis::analyse(py, slf, settings, progress)
+    }
+
+    /// One barrier, between certified bounds: the lowest possible value of the highest energy on the
+    /// way, over all free ways.
+    ///
+    /// Parameters
+    /// ----------
+    /// start : array_like
+    ///     Pose (3,) at which the way starts (m, m, rad).
+    /// end : array_like or "free", optional
+    ///     Pose at which it ends; "free" for anywhere with the tiles far apart.
+    /// tolerance : float, optional
+    ///     Width (J) to which the bounds are narrowed; a hundredth of the bond's depth by default.
+    /// certify_seconds : float, optional
+    ///     Time (s) after which they are left as they are; 0 for no bounds.
+    /// milestones, seed : int, optional
+    /// progress : bool, optional
+    ///
+    /// Returns
+    /// -------
+    /// Barrier
+    ///     A named tuple: `lower`, `upper` (J, bounds of the saddle's energy), `path` (structured
+    ///     array), `saddle_energy` (J), `saddle_pose`, `forward`, `reverse` (J), `caged`,
+    ///     `uncertified`.
+    #[pyo3(signature = (start, end = None, *, tolerance = None, certify_seconds = None,
+                        milestones = None, seed = None, progress = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn barrier<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        end: Option<&Bound<'py, PyAny>>,
+        tolerance: Option<f64>,
+        certify_seconds: Option<f64>,
+        milestones: Option<usize>,
+        seed: Option<u64>,
+        progress: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let query = barrier::query(
+            [Some(start), end],
+            tolerance,
+            certify_seconds,
+            milestones,
+            seed,
+        )?;
+        barrier::ask(py, &self.content.design, &query, progress)
+    }
+
+    /// Send the moving tile towards the fixed one many times; see :func:`tilebind.dock`.
+    #[pyo3(signature = (*, progress = None, **settings))]
+    fn dock(
+        slf: Py<Self>,
+        py: Python<'_>,
+        progress: Option<bool>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<dock::Docking> {
+        dock::docked(py, slf, settings, progress)
+    }
+
+    /// Where a shaken tile that is let go ends, and how soon: overdamped motion at kT.
+    ///
+    /// Parameters
+    /// ----------
+    /// start : array_like
+    ///     Pose (3,) at which it is let go (m, m, rad).
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// drag : float, optional
+    ///     Drag rate (1/s): the drag is this times the mass.
+    /// basin_energy : float, optional
+    ///     The tile is bound where its energy (J) is lower, in the basin of the bond or of one of
+    ///     its copies; half the bond's by default.
+    /// free_at : float, optional
+    ///     It is free where the centres are so far apart (m).
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `mean_exit_s`, `exits` (shares that are first bound and free), `diffusion_m2_s`, `mesh`
+    ///     (how far the two finest meshes differ).
+    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None))]
+    fn exits<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        kt: f64,
+        drag: f64,
+        basin_energy: Option<f64>,
+        free_at: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = kinetics::Asked {
+            kt,
+            drag,
+            basin_energy,
+            free_at,
+        };
+        let posed = (&self.content.design, &**self.content.problem(None));
+        kinetics::exits(py, posed, start, &asked)
+    }
+
+    /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
+    ///
+    /// Parameters
+    /// ----------
+    /// kerf : float, optional
+    ///     Width of the cut (m); lines run half of it outside the parts.
+    /// clearance : float, optional
+    ///     By how much pockets are larger than their magnets on every side (m).
+    ///
+    /// Returns
+    /// -------
+    /// dict of str to bytes
+    ///     By their names: DXF and SVG in mm, a sheet in Markdown.
+    #[pyo3(signature = (*, kerf = 0.0, clearance = 1e-4))]
+    fn make<'py>(
+        &self,
+        py: Python<'py>,
+        kerf: f64,
+        clearance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        workshop::files(py, &self.content.design, &Making { kerf, clearance })
+    }
+
+    /// Fit the constants of soft-iron shields to measured forces or energies.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : pandas.DataFrame, str or os.PathLike
+    ///     The measurements or a CSV file of them: `x_m`, `y_m`, `theta_rad`, `iron` (1 with the
+    ///     shields in place, 0 without) and at least one of `energy_J`, `force_x_N`, `force_y_N`,
+    ///     `torque_Nm`.
+    /// hold_out : int, optional
+    ///     Of so many rows one is held out of the fit.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     The constants with their errors, and how well they tell what was held out.
+    #[pyo3(signature = (table, *, hold_out = 5))]
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        table: &Bound<'py, PyAny>,
+        hold_out: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        workshop::calibrated(py, &self.content.design, table, hold_out)
+    }
+}
