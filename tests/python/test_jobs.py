@@ -205,3 +205,22 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="coverage"):
         analysis.bond(3e-3, 30)
+
+
+def test_yields(design):
+    found = design.yields([3e-3], tiles=4, time=60.0, runs=20, duration=2.0, simulations=0, progress=False)
+    assert found["design"] == design.name
+    for wrong in ({"tiles": 3}, {"time": 0.0}, {"coverage": 1.0}, {"runs": 0}):
+        with pytest.raises(ValueError):
+            design.yields([3e-3], **({"tiles": 4, "time": 60.0} | wrong))
+
+
+def test_tile_sets_of_words(root):
+    tiles = root / "shapes/assemblies" / "unary-square.yaml"
+    found = tilebind.words(10, gap=0.4, seconds=5, progress=False)
+    files = tilebind.assemble(tiles, found["words"], kt=3e-3, progress=False)
+    assert {"assembly.yaml", "assembly.tiles", "matrix.csv", "report.json"} <= files.keys()
+    with pytest.raises(ValueError):
+        tilebind.assemble(tiles, found["words"][:1], kt=3e-3)
+    with pytest.raises(tilebind.DesignError):
+        tilebind.assemble(root / "shapes/paper-tile.toml", found["words"], kt=3e-3)

@@ -1,4 +1,4 @@
-//! What shaken tiles do: exits from a pose, and how strongly bond and traps hold.
+//! What shaken tiles do: exits from a pose, how strongly bond and traps hold, what is yielded.
 
 use pyo3::prelude::*;
 use tilebind::design::Design;
@@ -7,7 +7,8 @@ use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
-use tilebind::report::{json, rates};
+use tilebind::report::{json, rates, yields as yields_report};
+use tilebind::yields::{Question, YieldError, yields};
 
 use crate::{barrier, convert, fault, job};
 
@@ -58,15 +59,47 @@ pub fn bond<'py>(
     shaking: Shaking,
 ) -> PyResult<Bound<'py, PyAny>> {
     fault::positive("kt", Some(shaking.kt))?;
-    if !(shaking.coverage > 0.0 && shaking.coverage < 1.0) {
-        return Err(fault::value(format!(
-            "coverage = {}: a share between 0 and 1",
-            shaking.coverage
-        )));
-    }
+    fault::fraction("coverage", shaking.coverage)?;
     let entry = job::quietly(py, || {
         let report = BondReport::new(design, problem, inventory, shaking);
         report.map(|report| json::text(&report.json()))
     })?;
     convert::json(py, &entry.map_err(fault::run)?)
+}
+
+/// Most tiles on a table.
+const MOST_TILES: usize = 10_000;
+
+/// What a shaken table yields.
+pub fn yielded<'py>(
+    py: Python<'py>,
+    design: &Design,
+    question: &Question,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::count("kt", question.kts.len())?;
+    for kt in &question.kts {
+        fault::positive("kt", Some(*kt))?;
+    }
+    fault::positive("time", Some(question.time))?;
+    fault::positive("duration", Some(question.effort.duration))?;
+    fault::positive("drag", Some(question.effort.motion.drag))?;
+    fault::not_negative("restitution", question.effort.motion.restitution)?;
+    fault::fraction("coverage", question.coverage)?;
+    fault::count("runs", question.effort.runs)?;
+    if !(2..=MOST_TILES).contains(&question.tiles) || question.tiles % 2 == 1 {
+        return Err(fault::value(format!(
+            "tiles = {}: an even number from 2 to {MOST_TILES}",
+            question.tiles
+        )));
+    }
+    let found = job::run(py, progress, |told| yields(design, question, told))?;
+    let found = found.map_err(|error| match error {
+        YieldError::Docking(_) => fault::value(error),
+        _ => fault::run(error),
+    })?;
+    convert::json(
+        py,
+        &json::text(&yields_report::json(design, question, &found)),
+    )
 }

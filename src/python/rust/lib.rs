@@ -1,13 +1,14 @@
 //! tilebind for Python: the classes and functions of the package, each a thin view of the library.
 //!
 //! - [`design`] - a pair of tiles; [`poses`] - energies of many configurations;
-//! - [`analysis`], [`barrier`], [`comparison`], [`sweep`], [`dock`], [`words`], [`kinetics`],
-//!   [`workshop`] - the jobs;
+//! - [`analysis`], [`barrier`], [`comparison`], [`sweep`], [`dock`], [`words`],
+//!   [`assembly`], [`kinetics`], [`workshop`] - the jobs;
 //! - [`job`] - long work: progress, ctrl-C, faults;
 //! - [`table`] - structured arrays; [`convert`] - values of Python as values of a design file;
 //! - [`fault`] - exceptions; [`pickle`] - results as bytes.
 
 mod analysis;
+mod assembly;
 mod barrier;
 mod comparison;
 mod convert;
@@ -38,5 +39,6 @@ fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(dock::dock, module)?)?;
     module.add_function(wrap_pyfunction!(words::words, module)?)?;
-    module.add_function(wrap_pyfunction!(words::crosstalk, module)?)
+    module.add_function(wrap_pyfunction!(words::crosstalk, module)?)?;
+    module.add_function(wrap_pyfunction!(assembly::assemble, module)?)
 }

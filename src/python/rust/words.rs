@@ -193,12 +193,7 @@ pub fn crosstalk<'py>(
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
     const SHARE: f64 = 0.05;
-    let table = match convert::toml(words)? {
-        toml::Value::Table(table) => table,
-        list => toml::Table::from_iter([("words".to_owned(), list)]),
-    };
-    let set = WordSet::parse(&table.to_string(), "words.toml", None);
-    let set = set.map_err(|error| fault::design(py, &error))?;
+    let (set, _) = word_set(py, words)?;
     let stage = Stage::new(
         set.stage.pair.as_ref().clone(),
         set.stage.interaction.clone(),
@@ -217,4 +212,15 @@ pub fn crosstalk<'py>(
         stage.crosstalk(&set.words, tolerance.map(|tolerance| (tolerance, cells)))
     })?;
     convert::json(py, &crosstalk_report::json(&set, &found))
+}
+
+/// A set of words and its file, from a list of them or the keys of the file.
+pub fn word_set(py: Python<'_>, words: &Bound<'_, PyAny>) -> PyResult<(WordSet, String)> {
+    let table = match convert::toml(words)? {
+        toml::Value::Table(table) => table,
+        list => toml::Table::from_iter([("words".to_owned(), list)]),
+    };
+    let text = table.to_string();
+    let set = WordSet::parse(&text, "words.toml", None);
+    Ok((set.map_err(|error| fault::design(py, &error))?, text))
 }

@@ -116,6 +116,21 @@ class Design:
         basin_energy: float | None = None,
         free_at: float | None = None,
     ) -> dict[str, Any]: ...
+    def yields(
+        self,
+        kt: Sequence[float],
+        *,
+        tiles: int,
+        time: float,
+        coverage: float = 0.3,
+        runs: int = 400,
+        duration: float = 10.0,
+        drag: float | None = None,
+        restitution: float | None = None,
+        simulations: int = 1000,
+        seed: int = 1,
+        progress: bool | None = None,
+    ) -> dict[str, Any]: ...
     def make(self, *, kerf: float = 0.0, clearance: float = 1e-4) -> dict[str, bytes]: ...
     def calibrate(
         self, table: Any, *, hold_out: int = 5
@@ -284,3 +299,12 @@ def crosstalk(
     cells: int = 8_000_000,
     progress: bool | None = None,
 ) -> dict[str, Any]: ...
+def assemble(
+    tiles: str | PathLike[str],
+    words: Sequence[str] | Mapping[str, Any],
+    *,
+    kt: float,
+    coverage: float = 0.3,
+    proofread: int = 1,
+    progress: bool | None = None,
+) -> dict[str, bytes]: ...

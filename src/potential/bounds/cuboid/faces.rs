@@ -217,10 +217,10 @@ impl Pair {
     /// Cuts a panel until each piece is far enough for its width, or fine enough.
     fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
         let distance = self.distance(panel) - self.motion.reach - SLACK;
-        if distance >= FAR * self.motion.reach {
-            if let Some(rule) = Rule::at(distance / panel.half) {
-                return Left::within(self.gauss(panel, distance, rule, nodes));
-            }
+        if distance >= FAR * self.motion.reach
+            && let Some(rule) = Rule::at(distance / panel.half)
+        {
+            return Left::within(self.gauss(panel, distance, rule, nodes));
         }
         let fine =
             |share: f64| panel.half <= (share * self.motion.reach).max(FINEST * self.second[1]);

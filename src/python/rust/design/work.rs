@@ -2,7 +2,10 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use tilebind::dynamics::MotionSettings;
 use tilebind::workshop::Making;
+use tilebind::yields::Question;
+use tilebind::yields::attachment::Effort;
 
 use super::Design;
 use crate::analysis::{self, Analysis};
@@ -153,6 +156,74 @@ impl Design {
         };
         let posed = (&self.content.design, &**self.content.problem(None));
         kinetics::exits(py, posed, start, &asked)
+    }
+
+    /// How many pairs are bound after a time on a shaken table, and at which shaking most are.
+    ///
+    /// Parameters
+    /// ----------
+    /// kt : sequence of float
+    ///     Effective energies of the shakings that are compared (J).
+    /// tiles : int
+    ///     Tiles on the table, half of either kind.
+    /// time : float
+    ///     How long the table is shaken (s).
+    /// coverage : float, optional
+    ///     Share of the table that tiles cover.
+    /// runs : int, optional
+    ///     Docking runs for each shaking, from which attachments are counted.
+    /// duration : float, optional
+    ///     How long each lasts (s).
+    /// drag, restitution : float, optional
+    ///     Drag rate (1/s), and the share of the approach velocity that a knock gives back.
+    /// simulations : int, optional
+    ///     Runs of the exact simulation by which the numbers are checked; 0 for none.
+    /// seed : int, optional
+    /// progress : bool, optional
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind yield --json``.
+    #[pyo3(signature = (kt, *, tiles, time, coverage = 0.3, runs = 400, duration = 10.0,
+                        drag = None, restitution = None, simulations = 1000, seed = 1,
+                        progress = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn yields<'py>(
+        &self,
+        py: Python<'py>,
+        kt: Vec<f64>,
+        tiles: usize,
+        time: f64,
+        coverage: f64,
+        runs: usize,
+        duration: f64,
+        drag: Option<f64>,
+        restitution: Option<f64>,
+        simulations: usize,
+        seed: u64,
+        progress: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let usual = MotionSettings::default();
+        let motion = MotionSettings {
+            drag: drag.unwrap_or(usual.drag),
+            restitution: restitution.unwrap_or(usual.restitution),
+            ..usual
+        };
+        let question = Question {
+            kts: kt,
+            coverage,
+            tiles,
+            time,
+            effort: Effort {
+                runs,
+                duration,
+                motion,
+            },
+            simulations,
+            seed,
+        };
+        kinetics::yielded(py, &self.content.design, &question, progress)
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
