@@ -196,18 +196,18 @@ impl Bracket {
             let into = pins.iter().zip(out).filter(|(pin, _)| **pin == Some(j));
             around(-into.map(|(_, flux)| flux).sum::<f64>(), missing(i, j))
         };
-        let mut flows = vec![vec![Bounded::default(); count]; count];
-        for i in 0..count {
-            for j in 0..i {
-                flows[i][j] = flow(i, j);
-                flows[j][i] = flows[i][j];
-            }
-        }
+        let between = |i: usize, j: usize| match i == j {
+            true => Bounded::default(),
+            false => flow(i.max(j), i.min(j)),
+        };
+        let flows = (0..count)
+            .map(|i| (0..count).map(|j| between(i, j)).collect())
+            .collect();
         // How far the bounds of capacity over occupation are apart, by cells.
         let mut shares = vec![0.0; mesh.leaves.len()];
         let square = |place: usize| fluxes.products(mesh, nodes, &gap(place), &gap(place));
         let relaxing = square(count);
-        for place in 0..count {
+        (0..count).for_each(|place| {
             let per = |of: usize, other: usize| {
                 0.5 * size(other) / size(of).max(f64::MIN_POSITIVE) / held(&values[place])
             };
@@ -216,7 +216,7 @@ impl Bracket {
             for ((share, own), other) in shares.iter_mut().zip(square(place)).zip(&relaxing) {
                 *share += own.max(0.0) * by_own + other.max(0.0) * by_other;
             }
-        }
+        });
         Ok(Self {
             capacities,
             flows,

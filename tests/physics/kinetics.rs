@@ -195,7 +195,10 @@ fn bounds_hold_the_integrals_and_close_in_on_them() {
 fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     let kt = 0.4;
     let settings = RateSettings {
-        certify: Some(Certify::to(0.3)),
+        certify: Some(Certify {
+            distance: 0.3,
+            unknowns: 8_000,
+        }),
         ..RateSettings::new(kt, double_well_basins(), 0.6)
     };
     let found = rates(&radial(double_well), &settings).unwrap();

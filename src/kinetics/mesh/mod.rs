@@ -10,6 +10,7 @@ mod nodes;
 mod octree;
 mod profile;
 mod quadrature;
+mod sides;
 mod system;
 mod wall;
 
