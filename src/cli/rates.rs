@@ -6,6 +6,7 @@ use clap::Args;
 use tilebind::design::Design;
 use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
+use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use tilebind::landscape::Place as End;
@@ -32,7 +33,9 @@ const PATIENCE: f64 = 30.0;
     after_help = "\
 Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
 reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
-(x, y, theta) that is refined where it matters. Without --start: rates between the bond, the deepest
+(x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
+sources (Thomson), upper ones from trial committors (Dirichlet), for tiles with convex outlines; what
+the mesh's integrals are off by is not in them. Without --start: rates between the bond, the deepest
 traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
 beside every number.
 
@@ -44,7 +47,8 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --out target/rates
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
-    --basin-energy -0.03 --free-at 0.75 --json"
+    --basin-energy -0.03 --free-at 0.75 --json
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05"
 )]
 pub struct Rates {
     #[command(flatten)]
@@ -70,6 +74,12 @@ pub struct Rates {
     /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
     #[arg(long, value_name = "R", value_parser = input::length)]
     free_at: Option<f64>,
+
+    /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
+    /// time, or those of the rates out of the bond and of the traps [default: 0.1, as far as it
+    /// comes within seconds]
+    #[arg(long, value_name = "REL", value_parser = input::positive)]
+    certify: Option<f64>,
 
     /// Kinds of traps with rates, the deepest first
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = input::count_or_none,
@@ -113,7 +123,10 @@ impl Rates {
         let problem = design.problem();
         let half = || half_bond(&problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
-        let asked = ExitSettings::new(self.kt, start, basin, self.free_at(design));
+        let asked = ExitSettings {
+            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
+            ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
+        };
         let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {
             ExitError::Unsolved(_) => Failure::Run(error.to_string()),
             _ => Failure::Usage(error.to_string()),
@@ -185,7 +198,10 @@ impl Rates {
             at: place.at,
             below: place.below,
         });
-        let asked = RateSettings::new(self.kt, basins.collect(), self.free_at(design));
+        let asked = RateSettings {
+            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
+            ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
+        };
         let found = rates(&analysis.problem, &asked).map_err(|error| match error {
             RatesError::Unsolved(_) => Failure::Run(error.to_string()),
             _ => Failure::Usage(error.to_string()),

@@ -1,18 +1,15 @@
 //! How soon a tile leaves a configuration, and where it comes first.
 
+use super::bracket::{Certify, narrowed};
+use super::ends::Ends;
 use super::field::{Earlier, Field};
-use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::sets::{basin, is_at_the_rim, pass};
+use super::mesh::{Nodes, Unsolved};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
 
-/// How far (in kT) below the pass an end or a start lies in equilibrium: of the flux no more than
-/// e^-12 is left there.
-const DEEP: f64 = 12.0;
 /// Meshes at least: from the last two the error is told.
 const MESHES: usize = 3;
-
 /// What is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitSettings {
@@ -28,6 +25,8 @@ pub struct ExitSettings {
     pub tolerance: f64,
     /// Unknowns at which it is fine enough anyway.
     pub unknowns: usize,
+    /// Relative distance of the bounds of the mean exit time that is asked for; without it none are found.
+    pub certify: Option<Certify>,
 }
 
 impl ExitSettings {
@@ -40,6 +39,7 @@ impl ExitSettings {
             free_at,
             tolerance: 0.015,
             unknowns: 60_000,
+            certify: Some(Certify::default()),
         }
     }
 }
@@ -67,12 +67,22 @@ pub struct MeshExit {
 pub struct Exit {
     /// What the meshes say, each finer than the last.
     pub meshes: Vec<MeshExit>,
+    /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: of a
+    /// tile that starts in the well about the start, where it is last left. They hold but for what
+    /// the integrals over cells are off by. None where the start lies in no well, and where the
+    /// tiles' shapes are not convex.
+    pub bounds: Vec<[f64; 2]>,
 }
 
 impl Exit {
     /// What the finest mesh says.
     pub fn finest(&self) -> MeshExit {
         *self.meshes.last().expect("there is a mesh")
+    }
+
+    /// The narrowest bounds of the mean exit time times D (m^2).
+    pub fn bracket(&self) -> Option<[f64; 2]> {
+        self.bounds.last().copied()
     }
 
     /// By how much the two finest meshes differ: in the mean exit time, relative, and in the
@@ -157,11 +167,32 @@ pub fn exit(
         meshes.push(MeshExit { error, ..found });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > settings.unknowns {
-            return Ok(Exit { meshes });
+            let bounds = bounds(problem, bond, settings)?;
+            return Ok(Exit { meshes, bounds });
         }
         field.refine(&shares);
         earlier = Some((nodes, functions));
     }
+}
+
+/// Bounds of the mean exit time times D (m^2), on ever finer meshes that begin at contact.
+fn bounds(
+    problem: &Problem,
+    bond: &Configuration,
+    settings: &ExitSettings,
+) -> Result<Vec<[f64; 2]>, ExitError> {
+    let ground = problem.energy(&settings.start);
+    let seeds = [settings.start, *bond];
+    let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
+    let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
+        return Ok(Vec::new());
+    };
+    let all = narrowed(&mut field, &certify, |field| {
+        let ends = Ends::new(field, bond, settings)?;
+        let nodes = Nodes::new(&field.mesh);
+        Ok::<_, ExitError>(ends.bounds(field, &nodes)?)
+    })?;
+    Ok(all.iter().map(|step| step.bounds[0]).collect())
 }
 
 fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Result<(), ExitError> {
@@ -180,125 +211,4 @@ fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Resul
         return Err(ExitError::NoBasin(asked.basin_energy, energy));
     }
     Ok(())
-}
-
-/// Cells in which a tile is bound, and, where the start is deep in a well, those of the well.
-struct Ends {
-    bound: Vec<bool>,
-    well: Option<Vec<bool>>,
-}
-
-/// Why the value at a corner is given.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Pin {
-    None,
-    Well,
-    Bound,
-    Free,
-}
-
-impl Ends {
-    fn new(
-        field: &mut Field,
-        bond: &Configuration,
-        asked: &ExitSettings,
-    ) -> Result<Self, ExitError> {
-        let beside = field.mesh.neighbours();
-        let around = |field: &Field, q: &Configuration, limit: f64| {
-            basin(&field.mesh, &beside, &field.mesh.holding(q), limit)
-        };
-        let inside = around(field, bond, asked.basin_energy);
-        let leaves = field.mesh.leaves.iter();
-        let rim: Vec<bool> = leaves
-            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
-            .collect();
-        if inside.iter().zip(&rim).any(|(inside, rim)| *inside && *rim) {
-            return Err(ExitError::Open(asked.basin_energy));
-        }
-        let held = field.mesh.holding(&asked.start);
-        let is_low = field.energy_at(&asked.start) < asked.basin_energy;
-        if is_low && held.iter().any(|&id| inside[id]) {
-            return Err(ExitError::Bound(asked.basin_energy));
-        }
-        let level = pass(&field.mesh, &beside, &held, &|id| inside[id] || rim[id]);
-        field.set_level(level.unwrap_or(0.0));
-        let deep = field.level() - DEEP * field.kt;
-        let is_deep = field.energy_at(&asked.start) < deep;
-        Ok(Self {
-            bound: around(field, bond, asked.basin_energy.max(deep)),
-            well: is_deep.then(|| around(field, &asked.start, deep)),
-        })
-    }
-
-    /// For each corner whether its value is given. Where ends meet, which they do on coarse meshes
-    /// only, being free comes first.
-    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Pin> {
-        let outer = field.mesh.chart.cells[0] * UNITS;
-        let mut pins = vec![Pin::None; nodes.len()];
-        for (id, leaf, _) in field.mesh.live() {
-            let in_well = self.well.as_ref().is_some_and(|well| well[id]);
-            for (number, &node) in nodes.corners[id].iter().enumerate() {
-                let pin = &mut pins[node as usize];
-                if leaf.corner(number)[0] == outer {
-                    *pin = Pin::Free;
-                } else if self.bound[id] {
-                    *pin = Pin::Bound;
-                } else if in_well && *pin == Pin::None {
-                    *pin = Pin::Well;
-                }
-            }
-        }
-        pins
-    }
-
-    /// The exit on a mesh, and the functions it was found from.
-    ///
-    /// Far below the passes the start's well is in equilibrium before anything leaves it. Then one
-    /// function tells all: the probability h to come back to the well before an end is reached.
-    /// What flows into the ends is the capacity C, and the mean exit time is the integral of
-    /// h e^(-U/kT) over D C. No small difference of large numbers is taken.
-    fn solve(
-        &self,
-        field: &Field,
-        nodes: &Nodes,
-        start: &Configuration,
-        earlier: Option<&Earlier>,
-    ) -> Result<(MeshExit, Vec<Vec<f64>>), Unsolved> {
-        let pins = self.pins(field, nodes);
-        let pinned: Vec<bool> = pins.iter().map(|pin| *pin != Pin::None).collect();
-        let system = System::new(&field.mesh, nodes, &pinned);
-        let none = vec![0.0; nodes.len()];
-        let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
-        let guess = |i: usize| {
-            let known = guesses.as_ref().and_then(|guesses| guesses.get(i));
-            known.unwrap_or(&none)
-        };
-        let one_on = |end: Pin| -> Vec<f64> {
-            let one = |pin: &Pin| if *pin == end { 1.0 } else { 0.0 };
-            pins.iter().map(one).collect()
-        };
-        let loads = loads(&field.mesh, nodes, &self.bound);
-        let exit = |time: f64, bound: f64| MeshExit {
-            time: time * ((field.level() - field.ground()) / field.kt).exp(),
-            bound: bound.clamp(0.0, 1.0),
-            unknowns: system.len(),
-            error: f64::INFINITY,
-        };
-        if self.well.is_none() {
-            let committor = system.solve(&one_on(Pin::Bound), &none, guess(0))?;
-            let time = system.solve(&none, &loads, guess(1))?;
-            let at = |values: &[f64]| nodes.at(&field.mesh, values, start).unwrap_or(f64::NAN);
-            return Ok((exit(at(&time), at(&committor)), vec![committor, time]));
-        }
-        let back = system.solve(&one_on(Pin::Well), &none, guess(0))?;
-        let flux = system.fluxes(&back);
-        let into = |end: Pin| {
-            let ends = pins.iter().zip(&flux).filter(|(pin, _)| **pin == end);
-            -ends.map(|(_, flux)| flux).sum::<f64>()
-        };
-        let (bound, free) = (into(Pin::Bound), into(Pin::Free));
-        let products = loads.iter().zip(&back).map(|(load, value)| load * value);
-        let time = products.sum::<f64>() / (bound + free);
-        Ok((exit(time, bound / (bound + free)), vec![back]))
-    }
 }

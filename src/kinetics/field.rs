@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
-use super::mesh::{Chart, Element, Integrator, Nodes, Octree, gradients, shapes};
+use super::mesh::{Chart, Element, Integrator, Network, Nodes, Octree, Profile, gradients, shapes};
 use super::sets;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -45,7 +45,36 @@ impl<'a> Field<'a> {
         ground: f64,
         seeds: &[Configuration],
     ) -> Self {
-        let chart = Chart::new(problem, radius, radius / FIRST);
+        Self::on(
+            Chart::new(problem, radius, radius / FIRST, false),
+            problem,
+            kt,
+            ground,
+            seeds,
+        )
+    }
+
+    /// The same on a mesh that begins at contact; `None` where the tiles' shapes do not let it.
+    pub fn fitted(
+        problem: &'a Problem,
+        kt: f64,
+        radius: f64,
+        ground: f64,
+        seeds: &[Configuration],
+    ) -> Option<Self> {
+        let chart = Chart::new(problem, radius, radius / FIRST, true);
+        chart
+            .is_fitted()
+            .then(|| Self::on(chart, problem, kt, ground, seeds))
+    }
+
+    fn on(
+        chart: Chart,
+        problem: &'a Problem,
+        kt: f64,
+        ground: f64,
+        seeds: &[Configuration],
+    ) -> Self {
         let mut field = Self {
             mesh: Octree::new(chart, problem.space.rho),
             kt,
@@ -54,7 +83,7 @@ impl<'a> Field<'a> {
         };
         field.evaluate();
         loop {
-            let size = |id: &usize| field.mesh.chart.size(field.mesh.leaves[*id].level)[0];
+            let size = |id: &usize, q| field.mesh.chart.depth(field.mesh.leaves[*id].level, q);
             let mut large = Vec::new();
             for q in seeds {
                 let held = field.mesh.holding(q);
@@ -62,7 +91,7 @@ impl<'a> Field<'a> {
                 let met = held.iter().map(lowest).fold(f64::INFINITY, f64::min);
                 let is_met = met < problem.energy(q) + NEAR * kt;
                 let least = if is_met { SEED } else { LEAST_SEED };
-                large.extend(held.into_iter().filter(|id| size(id) > least));
+                large.extend(held.into_iter().filter(|id| size(id, q) > least));
             }
             if large.is_empty() {
                 return field;
@@ -139,16 +168,50 @@ impl<'a> Field<'a> {
 
     /// The integral of w grad f . grad f of a function (rad).
     pub fn energy(&self, nodes: &Nodes, values: &[f64]) -> f64 {
-        let of = |(id, _, element): (usize, _, &Element)| -> f64 {
-            let own = nodes.of(id, values);
-            element
-                .times(&own)
-                .iter()
-                .zip(own)
-                .map(|(a, b)| a * b)
-                .sum()
+        let energies = self
+            .mesh
+            .live()
+            .map(|(id, _, element)| element.energy(&nodes.of(id, values)));
+        energies.sum()
+    }
+
+    /// How a function's flux along contact falls off with the distance, on average.
+    pub fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
+        let (mut sum, mut all) = (0.0, 0.0);
+        for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
+            let energy = element.energy(&nodes.of(id, values));
+            let middle = leaf.low.map(|low| (low + leaf.size() / 2) as f64);
+            let [_, phi, theta] = self.mesh.chart.coordinates(middle);
+            let ray = self.mesh.chart.ray([phi, theta]);
+            let (_, slope) = self
+                .problem
+                .potential()
+                .energy_and_gradient(&ray.configuration(0.0));
+            let rate = (slope.x * phi.cos() + slope.y * phi.sin()) * ray.length / self.kt;
+            if rate.is_finite() {
+                sum += energy * rate.max(0.0);
+                all += energy;
+            }
+        }
+        Profile {
+            rate: if all > 0.0 { sum / all } else { 0.0 },
+        }
+    }
+
+    /// The cells as conductors between places, for fluxes like a function's.
+    pub fn network(
+        &self,
+        nodes: &Nodes,
+        pins: &[Option<usize>],
+        rim: usize,
+        like: &[f64],
+    ) -> Option<Network> {
+        let profile = self.profile(nodes, like);
+        let resistance = |id: usize| {
+            let leaf = &self.mesh.leaves[id];
+            self.integrator.resistance(&self.mesh.chart, leaf, &profile)
         };
-        self.mesh.live().map(of).sum()
+        Network::new(&self.mesh, nodes, pins, rim, profile, &resistance)
     }
 
     /// The estimated errors of functions' energies by cells, each relative to the function's energy
@@ -196,15 +259,11 @@ impl<'a> Field<'a> {
         let leaf = &self.mesh.leaves[id];
         let part = std::array::from_fn(|i| (corner >> i & 1) as f64);
         let values = nodes.of(id, values);
-        let [dr, dphi, dtheta] = self.mesh.chart.size(leaf.level);
-        let r = self
-            .mesh
-            .chart
-            .coordinates(leaf.low.map(|units| units as f64))[0]
-            + dr / 2.0;
         let slopes = gradients(part).into_iter().zip(values);
         let by: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
-        by.component_div(&Vector3::new(dr, r * dphi, self.mesh.rho * dtheta))
+        let element = leaf.element.as_ref();
+        let by = element.map_or(by, |element| element.gradients * by);
+        by.component_div(&Vector3::new(1.0, 1.0, self.mesh.rho))
     }
 
     /// Functions on an earlier mesh, as good as they are on this one.

@@ -17,22 +17,29 @@
 //! with no flux through contact. Both are solved by finite elements on an own octree, in which the
 //! weight e^(-U/kT) is integrated over what is free of each cell: contact needs no mesh of its own,
 //! and a layer of e^(-U/kT) along it may be thinner than a cell. The energy of the computed
-//! committor is an upper bound of the capacity (Dirichlet's principle), but for the quadrature.
+//! committor is an upper bound of the capacity (Dirichlet's principle), but for the quadrature. Lower
+//! bounds come of fluxes without sources (Thomson's principle), on a second mesh whose cells begin at
+//! contact: through those that contact cuts no such flux would go. From both follow bounds of rates
+//! and of mean exit times; they hold on the mesh, for the integrals over cells are not bounded.
 
 pub mod basin;
 pub mod bond;
+mod bracket;
 pub mod chain;
 pub mod corner;
+mod ends;
 pub mod exit;
 mod field;
 mod frame;
 mod line;
 mod mesh;
 pub mod mixture;
+mod places;
 pub mod population;
 pub mod rates;
 mod sets;
 pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};
+pub use bracket::Certify;
 pub use well::{Estimate, Well};

@@ -2,15 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::bracket::{Certify, narrowed};
 use super::field::{Earlier, Field};
-use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::sets::{basin, is_at_the_rim, pass};
+use super::mesh::{Nodes, Unsolved};
+use super::places::Places;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
 
-/// How far (in kT) below its lowest pass a well lies in equilibrium.
-const DEEP: f64 = 12.0;
 /// Meshes at least: from the last two the error is told.
 const MESHES: usize = 3;
 
@@ -37,6 +36,8 @@ pub struct RateSettings {
     pub tolerance: f64,
     /// Unknowns at which it is fine enough anyway.
     pub unknowns: usize,
+    /// Relative distance of the bounds of the rates out of the basins that is asked for; without it none are found.
+    pub certify: Option<Certify>,
 }
 
 impl RateSettings {
@@ -48,6 +49,7 @@ impl RateSettings {
             free_at,
             tolerance: 0.015,
             unknowns: 60_000,
+            certify: Some(Certify::default()),
         }
     }
 }
@@ -73,8 +75,21 @@ pub struct MeshRates {
 /// The rates on ever finer meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
-    /// What the meshes say, each finer than the last.
+    /// What the meshes say, each finer than the last; but where there are bounds the last is the
+    /// mesh that they hold on, which begins at contact.
     pub meshes: Vec<MeshRates>,
+    /// Bounds; `None` where the tiles' shapes are not convex.
+    pub bounds: Option<RateBounds>,
+}
+
+/// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
+/// over cells are off by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RateBounds {
+    /// Out of each place.
+    pub leaving: Vec<[f64; 2]>,
+    /// From place i (row) to place j; of no meaning on the diagonal.
+    pub rates: Vec<Vec<[f64; 2]>>,
 }
 
 impl Rates {
@@ -146,7 +161,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
                 return Err(RatesError::Joined(limit));
             }
         } else if is_done {
-            return Ok(Rates { meshes });
+            return with_bounds(problem, settings, [ground, beyond], meshes);
         }
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();
@@ -156,145 +171,36 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// Which cell belongs to which basin.
-struct Places {
-    of: Vec<Option<usize>>,
-    /// How many places there are, `free` among them.
-    count: usize,
-    /// Cells that two basins reach into, with the limit (J) of the later one.
-    shared: Vec<(usize, f64)>,
-}
-
-impl Places {
-    fn new(field: &mut Field, settings: &RateSettings) -> Result<Self, RatesError> {
-        let beside = field.mesh.neighbours();
-        let around = |field: &Field, basin: &Basin, limit: f64| {
-            let held = field.mesh.holding(&basin.at);
-            self::basin(&field.mesh, &beside, &held, limit)
-        };
-        let leaves = field.mesh.leaves.iter();
-        let rim: Vec<bool> = leaves
-            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
-            .collect();
-        let wells: Vec<Vec<bool>> = settings
-            .basins
-            .iter()
-            .map(|basin| around(field, basin, basin.below))
-            .collect();
-        let reaches_rim = |well: &Vec<bool>| well.iter().zip(&rim).any(|(well, rim)| *well && *rim);
-        if wells.iter().any(reaches_rim) {
-            return Err(RatesError::NoFree(settings.free_at));
-        }
-        let passes: Vec<f64> = (0..wells.len())
-            .map(|own| {
-                let others = wells.iter().enumerate().filter(|(k, _)| *k != own);
-                let ends = |id: usize| rim[id] || others.clone().any(|(_, well)| well[id]);
-                let from = field.mesh.holding(&settings.basins[own].at);
-                pass(&field.mesh, &beside, &from, &ends).unwrap_or(0.0)
-            })
-            .collect();
-        field.set_level(passes.iter().copied().fold(f64::INFINITY, f64::min));
-        let mut places = Self {
-            of: vec![None; field.mesh.leaves.len()],
-            count: wells.len() + 1,
-            shared: Vec::new(),
-        };
-        for (number, (basin, pass)) in settings.basins.iter().zip(passes).enumerate() {
-            let limit = basin.below.max(pass - DEEP * settings.kt);
-            let inside = around(field, basin, limit);
-            for id in (0..inside.len()).filter(|&id| inside[id]) {
-                match places.of[id] {
-                    Some(_) => places.shared.push((id, limit)),
-                    None => places.of[id] = Some(number),
-                }
-            }
-        }
-        Ok(places)
-    }
-
-    /// For each corner the place in which its value is given.
-    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
-        let outer = field.mesh.chart.cells[0] * UNITS;
-        let mut pins = vec![None; nodes.len()];
-        for (id, leaf, _) in field.mesh.live() {
-            for (number, &node) in nodes.corners[id].iter().enumerate() {
-                let pin = &mut pins[node as usize];
-                if leaf.corner(number)[0] == outer {
-                    *pin = Some(self.count - 1);
-                } else if pin.is_none() {
-                    *pin = self.of[id];
-                }
-            }
-        }
-        pins
-    }
-
-    /// The rates on a mesh, and the committors of all places but `free`. `beyond` is the occupation
-    /// of the table outside the mesh.
-    fn solve(
-        &self,
-        field: &Field,
-        nodes: &Nodes,
-        beyond: f64,
-        earlier: Option<&Earlier>,
-    ) -> Result<(MeshRates, Vec<Vec<f64>>), Unsolved> {
-        let pins = self.pins(field, nodes);
-        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-        let system = System::new(&field.mesh, nodes, &pinned);
-        let none = vec![0.0; nodes.len()];
-        let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
-        let committors: Vec<Vec<f64>> = (0..self.count - 1)
-            .map(|place| {
-                let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
-                let given: Vec<f64> = pins.iter().map(one).collect();
-                let guess = guesses.as_ref().map_or(&none, |guesses| &guesses[place]);
-                system.solve(&given, &none, guess)
-            })
-            .collect::<Result<_, _>>()?;
-        let copies = field.mesh.chart.copies() as f64;
-        let occupied = |place: usize| -> f64 {
-            // What is another place's in cells at its rim is not counted.
-            let others: Vec<bool> = self
-                .of
-                .iter()
-                .map(|of| of.is_some_and(|of| of != place))
-                .collect();
-            let loads = loads(&field.mesh, nodes, &others);
-            let part = |node: usize| match committors.get(place) {
-                Some(committor) => committor[node],
-                None => 1.0 - committors.iter().map(|h| h[node]).sum::<f64>(),
-            };
-            let sum: f64 = (0..nodes.len()).map(|node| loads[node] * part(node)).sum();
-            copies * sum + if place + 1 == self.count { beyond } else { 0.0 }
-        };
-        let occupations: Vec<f64> = (0..self.count).map(occupied).collect();
-        let mut flows = vec![vec![0.0; self.count]; self.count];
-        for (from, committor) in committors.iter().enumerate() {
-            for (pin, flux) in pins.iter().zip(system.fluxes(committor)) {
-                if let Some(to) = pin.filter(|&to| to != from) {
-                    flows[from][to] -= flux;
-                }
-            }
-        }
-        let last = self.count - 1;
-        // As symmetric as they are without rounding.
-        let flow = |i: usize, j: usize| match (i == last, j == last) {
-            (true, true) => 0.0,
-            (true, false) => flows[j][i],
-            (false, true) => flows[i][j],
-            (false, false) => 0.5 * (flows[i][j] + flows[j][i]),
-        };
-        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
-        let rate = |from: usize, to: usize| (scale * flow(from, to) / occupations[from]).max(0.0);
-        let all: f64 = occupations.iter().sum();
-        let found = MeshRates {
-            rates: (0..self.count)
-                .map(|from| (0..self.count).map(|to| rate(from, to)).collect())
-                .collect(),
-            occupation: occupations.iter().map(|own| own / all).collect(),
-            unknowns: system.len(),
-            error: f64::INFINITY,
-        };
-        Ok((found, committors))
-    }
+/// Adds what ever finer meshes that begin at contact say, with bounds. Energies are counted from
+/// `ground` (J), and `beyond` is the occupation of the table outside the mesh.
+fn with_bounds(
+    problem: &Problem,
+    settings: &RateSettings,
+    [ground, beyond]: [f64; 2],
+    mut meshes: Vec<MeshRates>,
+) -> Result<Rates, RatesError> {
+    let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
+    let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
+    let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
+        return Ok(Rates {
+            meshes,
+            bounds: None,
+        });
+    };
+    let mut all = narrowed(&mut field, &certify, |field| {
+        let places = Places::new(field, settings)?;
+        let nodes = Nodes::new(&field.mesh);
+        Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
+    })?;
+    let count = settings.basins.len() + 1;
+    let finest = all.pop();
+    meshes.extend(finest.as_ref().and_then(|step| step.rates.clone()));
+    let bounds = finest.map(|step| RateBounds {
+        leaving: step.bounds[..count].to_vec(),
+        rates: step.bounds[count..]
+            .chunks(count)
+            .map(<[_]>::to_vec)
+            .collect(),
+    });
+    Ok(Rates { meshes, bounds })
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
+use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{Exit, ExitError, ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use tilebind::potential::Potential;
@@ -129,6 +130,7 @@ fn rim_of_the_bond() -> f64 {
 fn double_well_exit(kt: f64, tolerance: f64) -> Exit {
     let settings = ExitSettings {
         tolerance,
+        certify: None,
         ..ExitSettings::new(kt, at(0.5), BASIN, 0.6)
     };
     exit(&radial(double_well), &at(0.3), &settings).unwrap()
@@ -161,6 +163,80 @@ fn finer_meshes_come_closer_to_the_integrals() {
     );
 }
 
+/// What basins made of whole cells may be off by.
+const CELLS: f64 = 0.01;
+
+fn lies_within(value: f64, [lower, upper]: [f64; 2]) -> bool {
+    lower <= value * (1.0 + CELLS) && value <= upper * (1.0 + CELLS)
+}
+
+#[test]
+fn bounds_hold_the_integrals_and_close_in_on_them() {
+    let kt = 0.4;
+    let settings = ExitSettings {
+        certify: Some(Certify::to(0.15)),
+        ..ExitSettings::new(kt, at(0.5), BASIN, 0.6)
+    };
+    let found = exit(&radial(double_well), &at(0.3), &settings).unwrap();
+    let [time, _] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
+    let distance = |[lower, upper]: &[f64; 2]| upper / lower - 1.0;
+    for bounds in &found.bounds[1..] {
+        assert!(lies_within(time, *bounds), "{time} {bounds:?}");
+    }
+    let distances: Vec<f64> = found.bounds.iter().map(distance).collect();
+    let [first, .., last] = distances[..] else {
+        panic!("{distances:?}");
+    };
+    assert!(last < 0.15 && last < 0.5 * first, "{distances:?}");
+    assert!(lies_within(found.finest().time, found.bracket().unwrap()));
+}
+
+#[test]
+fn bounds_of_rates_hold_the_rates_and_the_integrals() {
+    let kt = 0.4;
+    let settings = RateSettings {
+        certify: Some(Certify {
+            distance: 0.3,
+            unknowns: 8_000,
+        }),
+        ..RateSettings::new(kt, double_well_basins(), 0.6)
+    };
+    let found = rates(&radial(double_well), &settings).unwrap();
+    let bounds = found.bounds.as_ref().unwrap();
+    for (own, ends) in found.finest().rates.iter().zip(&bounds.rates) {
+        for (rate, [lower, upper]) in own.iter().zip(ends) {
+            assert!(lower <= rate && rate <= upper, "{lower} {rate} {upper}");
+        }
+    }
+    let [time, _] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
+    assert!(
+        lies_within(1.0 / time, bounds.leaving[1]),
+        "{bounds:?} {time}"
+    );
+}
+
+/// Contact, and fluxes along it: the mean exit time that brute-force motion has, 0.0176 m^2 / D.
+#[test]
+fn bounds_hold_the_paper_tiles_exit() {
+    let design = designs::load("shapes/paper-tile.toml");
+    let slid = Configuration::new(0.43, -0.04, 0.0);
+    let settings = ExitSettings {
+        tolerance: 0.1,
+        certify: Some(Certify {
+            distance: 0.6,
+            unknowns: 12_000,
+        }),
+        ..ExitSettings::new(3.037e-3, slid, -0.030, 0.75)
+    };
+    let found = exit(&design.problem(), &design.pair.bound, &settings).unwrap();
+    let [lower, upper] = found.bracket().unwrap();
+    assert!(
+        lower < 0.0172 && 0.0180 < upper && upper < 1.6 * lower,
+        "{lower} {upper}"
+    );
+    assert!(found.bounds[0][1] > upper || found.bounds[0][0] < lower);
+}
+
 fn double_well_basins() -> Vec<Basin> {
     let basin = |r: f64, below: f64| Basin { at: at(r), below };
     vec![basin(0.3, BASIN), basin(0.5, 0.0)]
@@ -171,6 +247,7 @@ fn rates_balance_in_detail_and_are_those_of_the_integrals() {
     let kt = 0.4;
     let settings = RateSettings {
         tolerance: 0.01,
+        certify: None,
         ..RateSettings::new(kt, double_well_basins(), 0.6)
     };
     let found = rates(&radial(double_well), &settings).unwrap();
@@ -228,6 +305,7 @@ fn a_linear_well_against_a_wall_is_left_as_the_integrals_say() {
     // U is below -6 beyond 0.67 m.
     let settings = ExitSettings {
         tolerance: 0.01,
+        certify: None,
         ..ExitSettings::new(1.0, at(2.0 * RADIUS + 1e-6), -6.0, 0.75)
     };
     let bond = at(0.69);
@@ -253,6 +331,7 @@ fn paper_tile(start: [f64; 3], kt: f64, tolerance: f64) -> Exit {
     let design = designs::load("shapes/paper-tile.toml");
     let settings = ExitSettings {
         tolerance,
+        certify: None,
         ..ExitSettings::new(kt, Configuration::from(start), -0.030, 0.75)
     };
     exit(&design.problem(), &design.pair.bound, &settings).unwrap()

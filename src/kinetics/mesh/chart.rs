@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::wall::{Ray, Wall};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
@@ -11,21 +12,26 @@ pub(in crate::kinetics) const DEEPEST: u8 = 12;
 /// Smallest units in a first cell.
 pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 
-/// Places in a mesh: (r, phi, theta) in its smallest units.
+/// Places in a mesh: (s, phi, theta) in its smallest units.
 pub(in crate::kinetics) type Place = [i64; 3];
 
-/// The configurations with centres at most `radius` apart, in the coordinates (r, phi, theta) with
-/// x = r cos phi, y = r sin phi, of which only one of all that are equivalent under the symmetries
-/// of the pair is kept: phi in one turn of the fixed tile onto itself and theta in one of the moving
-/// tile. Going once round in phi turns theta on by the same turn.
-#[derive(Clone, Debug)]
+/// The configurations with centres at most `radius` apart, in the coordinates (s, phi, theta) with
+/// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g), of which only one of all that are
+/// equivalent under the symmetries of the pair is kept: phi in one turn of the fixed tile onto
+/// itself and theta in one of the moving tile. Going once round in phi turns theta on by the same
+/// turn. Where the wall g is that of contact all of it is free.
+#[derive(Clone)]
 pub(in crate::kinetics) struct Chart {
-    /// Where r (m), phi and theta (rad) begin: so that the bond, which contact holds by edges, lies
-    /// on sides of cells.
+    /// Where phi and theta (rad) begin: so that the bond, which contact holds by edges, lies on
+    /// sides of cells.
     origin: [f64; 3],
-    /// First cells along r, phi and theta.
+    /// Where s begins.
+    wall: Wall,
+    /// Where it ends (m).
+    radius: f64,
+    /// First cells along s, phi and theta.
     pub(in crate::kinetics) cells: [i64; 3],
-    /// Their size (m, rad, rad).
+    /// Their size (1, rad, rad).
     step: [f64; 3],
     /// First cells in theta by which a turn in phi turns theta on.
     shift: i64,
@@ -34,8 +40,9 @@ pub(in crate::kinetics) struct Chart {
 }
 
 impl Chart {
-    /// Of the configurations of a problem out to `radius` (m), in first cells of about `size` (m).
-    pub fn new(problem: &Problem, radius: f64, size: f64) -> Self {
+    /// Of the configurations of a problem out to `radius` (m), in first cells of about `size` (m);
+    /// from contact on if it is to be fitted to it and can be.
+    pub fn new(problem: &Problem, radius: f64, size: f64, fitted: bool) -> Self {
         let of_fixed = |s: &&Symmetry| s.moving == 0.0;
         let of_moving = |s: &&Symmetry| s.fixed == 0.0;
         let fixed = problem.symmetries.iter().filter(of_fixed).count();
@@ -51,20 +58,20 @@ impl Chart {
         let along_theta = (along_theta + whole - 1) / whole * whole;
         let outside = (radius - lever).max(radius / 8.0);
         let along_r = outside / count(outside) as f64;
-        let cells = [
-            (radius / along_r).floor() as i64,
-            count(periods[0] * lever),
-            along_theta,
-        ];
+        let whole = (radius / along_r).floor();
+        let wall = Wall::new(problem, radius - along_r * whole, fitted);
+        let along_s = match wall {
+            Wall::Contact(_) => (outside / along_r).round(),
+            _ => whole,
+        };
+        let cells = [along_s as i64, count(periods[0] * lever), along_theta];
         Self {
-            origin: [
-                radius - along_r * cells[0] as f64,
-                bound.y.atan2(bound.x),
-                bound.theta,
-            ],
+            origin: [0.0, bound.y.atan2(bound.x), bound.theta],
+            wall,
+            radius,
             cells,
             step: [
-                along_r,
+                1.0 / along_s,
                 periods[0] / cells[1] as f64,
                 periods[1] / cells[2] as f64,
             ],
@@ -78,19 +85,36 @@ impl Chart {
         self.copies
     }
 
-    /// Size of a cell of this level (m, rad, rad).
+    /// Whether all of it is free, for it begins at contact.
+    pub(in crate::kinetics) fn is_fitted(&self) -> bool {
+        !matches!(self.wall, Wall::Circle(_))
+    }
+
+    /// Size of a cell of this level (1, rad, rad).
     pub(in crate::kinetics) fn size(&self, level: u8) -> [f64; 3] {
         self.step.map(|step| step / f64::from(1u32 << level))
     }
 
-    /// (r, phi, theta) of a place (m, rad, rad).
+    /// Size of a cell of this level (m) along the ray that a configuration lies on.
+    pub(in crate::kinetics) fn depth(&self, level: u8, q: &Configuration) -> f64 {
+        self.ray([q.y.atan2(q.x), q.theta]).length * self.size(level)[0]
+    }
+
+    /// (s, phi, theta) of a place (1, rad, rad).
     pub(in crate::kinetics) fn coordinates(&self, place: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.origin[i] + self.step[i] * place[i] / UNITS as f64)
     }
 
+    /// The ray at (phi, theta).
+    pub(in crate::kinetics) fn ray(&self, at: [f64; 2]) -> Ray {
+        self.wall.ray(at, self.radius)
+    }
+
     /// The place of a configuration, folded, in smallest units.
     pub(in crate::kinetics) fn place(&self, q: &Configuration) -> [f64; 3] {
-        let raw = [q.x.hypot(q.y), q.y.atan2(q.x), q.theta];
+        let phi = q.y.atan2(q.x);
+        let s = self.ray([phi, q.theta]).part(q.x.hypot(q.y));
+        let raw = [s, phi, q.theta];
         let at = |i: usize| (raw[i] - self.origin[i]) / self.step[i] * UNITS as f64;
         let mut place: [f64; 3] = std::array::from_fn(at);
         let period = self.period();
@@ -105,22 +129,26 @@ impl Chart {
         self.cells.map(|n| (n * UNITS) as f64)
     }
 
-    /// A whole place, folded; `None` beyond the ends of r, the outer one included where `closed` is
+    /// A whole place, folded; `None` beyond the ends of s, the outer one included where `closed` is
     /// false.
     pub(in crate::kinetics) fn fold(&self, place: Place, closed: bool) -> Option<Place> {
-        let [r, phi, theta] = place;
+        let [s, phi, theta] = place;
         let period = self.cells.map(|n| n * UNITS);
-        let is_inside = (0..period[0]).contains(&r) || (closed && r == period[0]);
+        let is_inside = (0..period[0]).contains(&s) || (closed && s == period[0]);
         let turns = phi.div_euclid(period[1]);
         let turned = theta - turns * self.shift * UNITS;
-        let folded = [r, phi.rem_euclid(period[1]), turned.rem_euclid(period[2])];
+        let folded = [s, phi.rem_euclid(period[1]), turned.rem_euclid(period[2])];
         is_inside.then_some(folded)
     }
 
-    /// A box of configurations around the mesh's cell with this lower corner.
+    /// A box of configurations around the mesh's cell with this lower corner, where s begins on a
+    /// circle.
     pub(in crate::kinetics) fn around(&self, low: Place, level: u8) -> Cell {
-        let size = self.size(level);
-        let [r, phi, theta] = self.coordinates(low.map(|units| units as f64));
+        let mut size = self.size(level);
+        let [s, phi, theta] = self.coordinates(low.map(|units| units as f64));
+        let ray = self.ray([phi, theta]);
+        let r = ray.radius(s);
+        size[0] *= ray.length;
         let middle = [
             r + size[0] / 2.0,
             phi + size[1] / 2.0,

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::chart::Chart;
 use super::octree::Leaf;
-use crate::configuration::Configuration;
+use super::wall::Ray;
 
 /// The integrals over the free part of a cell, its eight corners numbered as in [`Leaf::corner`].
 #[derive(Clone, Debug)]
@@ -17,13 +17,35 @@ pub(in crate::kinetics) struct Element {
     pub load: [f64; 8],
     /// The least U met (J).
     pub lowest: f64,
+    /// In the cell's middle the gradients by x, y and theta of the parts of its size, as columns.
+    pub gradients: Matrix3<f64>,
 }
 
 impl Element {
+    /// Of which nothing has been integrated.
+    pub fn new(gradients: Matrix3<f64>) -> Self {
+        Self {
+            stiffness: [0.0; 36],
+            weight: 0.0,
+            load: [0.0; 8],
+            lowest: f64::INFINITY,
+            gradients,
+        }
+    }
+
     /// The entry of the stiffness for two corners.
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         let (i, j) = (i.min(j), i.max(j));
         self.stiffness[i * 8 - i * (i + 1) / 2 + j]
+    }
+
+    /// The integral of w grad f . grad f for values at the corners (rad).
+    pub fn energy(&self, values: &[f64; 8]) -> f64 {
+        self.times(values)
+            .iter()
+            .zip(values)
+            .map(|(a, b)| a * b)
+            .sum()
     }
 
     /// The stiffness times values at the corners.
@@ -40,7 +62,7 @@ pub(super) struct Sum<'a> {
 }
 
 impl Sum<'_> {
-    /// (r, phi, theta) of a point given in parts of the cell's size.
+    /// (s, phi, theta) of a point given in parts of the cell's size.
     pub fn coordinates(&self, part: [f64; 3]) -> [f64; 3] {
         let size = self.leaf.size() as f64;
         self.chart.coordinates(std::array::from_fn(|i| {
@@ -48,26 +70,49 @@ impl Sum<'_> {
         }))
     }
 
-    /// The configuration there.
-    pub fn configuration(&self, part: [f64; 3]) -> Configuration {
-        let [r, phi, theta] = self.coordinates(part);
-        Configuration::new(r * phi.cos(), r * phi.sin(), theta)
+    /// s of a part of the cell's size.
+    pub fn along(&self, part: f64) -> f64 {
+        self.coordinates([part, 0.0, 0.0])[0]
     }
 
-    /// Adds a point with the inverse of the mass metric there, its share of the cell and its weights,
-    /// the one kept in bounds and the other not.
-    pub fn add(&mut self, part: [f64; 3], inverse: &Matrix3<f64>, share: f64, weights: [f64; 2]) {
-        let [r, phi, _] = self.coordinates(part);
-        let size = self.chart.size(self.leaf.level);
-        let volume = share * r * size[0] * size[1] * size[2];
-        // Gradients by x, y and theta of the parts of r, phi and theta.
-        let (sin, cos) = phi.sin_cos();
-        let by = Matrix3::from_columns(&[
-            Vector3::new(cos, sin, 0.0) / size[0],
-            Vector3::new(-sin, cos, 0.0) / (r * size[1]),
-            Vector3::new(0.0, 0.0, 1.0 / size[2]),
-        ]);
-        let metric = by.transpose() * inverse * by * (weights[0] * volume);
+    /// The ray through a point of the cell's face.
+    pub fn ray(&self, [v, w]: [f64; 2]) -> Ray {
+        let [_, phi, theta] = self.coordinates([0.0, v, w]);
+        self.chart.ray([phi, theta])
+    }
+
+    /// Gradients by x, y and theta of the parts at a point of a ray, as columns.
+    pub fn gradients(&self, ray: &Ray, s: f64) -> Matrix3<f64> {
+        let mut by = ray.gradients(s);
+        let sizes = self.chart.size(self.leaf.level);
+        for (mut column, size) in by.column_iter_mut().zip(sizes) {
+            column /= size;
+        }
+        by
+    }
+
+    /// What gradients by the parts are multiplied with at a point, but for the weight, and the
+    /// cell's volume if it were the same everywhere.
+    pub fn metric(&self, part: [f64; 3], ray: &Ray, inverse: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+        let s = self.along(part[0]);
+        let size: f64 = self.chart.size(self.leaf.level).iter().product();
+        let volume = ray.volume(s) * size;
+        let by = self.gradients(ray, s);
+        (by.transpose() * inverse * by * volume, volume)
+    }
+
+    /// Adds a point on a ray with the inverse of the mass metric there, its share of the cell and
+    /// its weights, the one kept in bounds and the other not.
+    pub fn add(
+        &mut self,
+        part: [f64; 3],
+        ray: &Ray,
+        inverse: &Matrix3<f64>,
+        share: f64,
+        weights: [f64; 2],
+    ) {
+        let (metric, volume) = self.metric(part, ray, inverse);
+        let (metric, volume) = (metric * (share * weights[0]), share * volume);
         let gradients = gradients(part);
         let flows = gradients.map(|gradient| metric * gradient);
         let mut entry = 0;

@@ -143,6 +143,13 @@ impl Octree {
         live.filter_map(|(id, leaf)| Some((id, leaf, leaf.element.as_deref()?)))
     }
 
+    /// Where a cell begins and ends in s.
+    pub fn along(&self, id: usize) -> [f64; 2] {
+        let leaf = &self.leaves[id];
+        let at = |low: i64| self.chart.coordinates([low as f64, 0.0, 0.0])[0];
+        [at(leaf.low[0]), at(leaf.low[0] + leaf.size())]
+    }
+
     /// For each cell those that share a face with it.
     pub fn neighbours(&self) -> Vec<Vec<u32>> {
         let mut beside = vec![Vec::new(); self.leaves.len()];

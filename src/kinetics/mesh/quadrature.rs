@@ -1,11 +1,15 @@
-//! Integrals over what is free of a cell: line by line along r, where contact is found to a hair and
+//! Integrals over what is free of a cell: line by line along s, where contact is found to a hair and
 //! the steps follow the energy, and between the lines as finely as they differ.
 
-use nalgebra::Matrix3;
+use std::cell::RefCell;
+
+use nalgebra::{Matrix3, Matrix6};
 
 use super::chart::Chart;
 use super::element::{Element, Sum};
 use super::octree::Leaf;
+use super::profile::Profile;
+use super::wall::Ray;
 use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells};
 use crate::interruption;
@@ -52,14 +56,28 @@ pub(in crate::kinetics) struct Integrator<'a> {
     pub ground: f64,
 }
 
-/// The free parts of a line through a cell along r.
+/// The free parts of a line through a cell along s.
 struct Line {
+    ray: Ray,
     /// Where it crosses the cell's face, in parts of phi's and theta's sizes.
     at: [f64; 2],
-    /// Points of the integral along it: part of r's size, share of it, weight and load.
+    /// Points of the integral along it: part of s's size, share of it, weight and load.
     points: Vec<(f64, f64, [f64; 2])>,
     /// The integrals of weight and load.
     sums: [f64; 2],
+}
+
+/// A point of an integral.
+struct Point<'a> {
+    /// In parts of the cell's size.
+    part: [f64; 3],
+    ray: &'a Ray,
+    /// The inverse of the mass metric.
+    inverse: Matrix3<f64>,
+    /// Its share of the cell.
+    share: f64,
+    /// Weight and load.
+    weights: [f64; 2],
 }
 
 impl<'a> Integrator<'a> {
@@ -76,7 +94,7 @@ impl<'a> Integrator<'a> {
     /// The integrals over a cell, and whether it is proved blocked.
     pub fn integrate(&self, chart: &Chart, leaf: &Leaf) -> (Option<Box<Element>>, bool) {
         interruption::check();
-        let contact = self.contact.as_ref();
+        let contact = self.contact.as_ref().filter(|_| !chart.is_fitted());
         let found = contact.map(|cells| cells.classify(&chart.around(leaf.low, leaf.level)));
         let cut = match found {
             None => false,
@@ -90,21 +108,58 @@ impl<'a> Integrator<'a> {
         let mut sum = Sum {
             chart,
             leaf,
-            element: Element {
-                stiffness: [0.0; 36],
-                weight: 0.0,
-                load: [0.0; 8],
-                lowest: f64::INFINITY,
-            },
+            element: Element::new(Matrix3::zeros()),
         };
-        self.fill(&mut sum, [[0.0, 1.0]; 2], cut, 0);
+        let middle = sum.ray([0.5; 2]);
+        sum.element.gradients = sum.gradients(&middle, sum.along(0.5));
+        let add = |sum: &mut Sum, point: &Point| {
+            sum.add(
+                point.part,
+                point.ray,
+                &point.inverse,
+                point.share,
+                point.weights,
+            );
+        };
+        self.fill(&mut sum, [[0.0, 1.0]; 2], cut, 0, &add);
         let element = sum.element;
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
 
-    /// Adds the integrals along lines through a part of the face, given by its ends in phi and
+    /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart.
+    pub fn resistance(&self, chart: &Chart, leaf: &Leaf, profile: &Profile) -> Matrix6<f64> {
+        let element = Element::new(Matrix3::zeros());
+        let mut sum = Sum {
+            chart,
+            leaf,
+            element,
+        };
+        let ends = [0.0, 1.0].map(|part| sum.along(part));
+        let cost = RefCell::new(Matrix6::zeros());
+        let add = |sum: &mut Sum, point: &Point| {
+            let (metric, _) = sum.metric(point.part, point.ray, &point.inverse);
+            let Some(inverse) = metric.try_inverse() else {
+                return;
+            };
+            let fluxes = profile.fluxes(point.part, ends);
+            let scale = point.share / point.weights[0];
+            *cost.borrow_mut() +=
+                Matrix6::from_fn(|a, b| scale * fluxes[a] * inverse[(a / 2, b / 2)] * fluxes[b]);
+        };
+        self.fill(&mut sum, [[0.0, 1.0]; 2], false, 0, &add);
+        cost.into_inner()
+    }
+
+    /// Calls with the points along lines through a part of the face, given by its ends in phi and
     /// theta.
-    fn fill(&self, sum: &mut Sum, face: [[f64; 2]; 2], cut: bool, halved: usize) {
+    fn fill(
+        &self,
+        sum: &mut Sum,
+        face: [[f64; 2]; 2],
+        cut: bool,
+        halved: usize,
+        add: &dyn Fn(&mut Sum, &Point),
+    ) {
         let place = |axis: usize, k: usize| {
             let [from, to] = face[axis];
             from + GAUSS[k] * (to - from)
@@ -117,7 +172,7 @@ impl<'a> Integrator<'a> {
             for ends in [[from, middle], [middle, to]] {
                 let mut half = face;
                 half[axis] = ends;
-                self.fill(sum, half, cut, halved + 1);
+                self.fill(sum, half, cut, halved + 1, add);
             }
             return;
         }
@@ -127,7 +182,17 @@ impl<'a> Integrator<'a> {
                 let part = [u, line.at[0], line.at[1]];
                 let metric = self.problem.mass_metric(sum.coordinates(part)[2]);
                 let inverse = metric.try_inverse().unwrap_or_else(Matrix3::identity);
-                sum.add(part, &inverse, share * width, weights);
+                let share = share * width;
+                add(
+                    sum,
+                    &Point {
+                        part,
+                        ray: &line.ray,
+                        inverse,
+                        share,
+                        weights,
+                    },
+                );
             }
         }
     }
@@ -135,22 +200,23 @@ impl<'a> Integrator<'a> {
     /// A line through a cell.
     fn line(&self, sum: &mut Sum, at: [f64; 2], cut: bool) -> Line {
         let mut line = Line {
+            ray: sum.ray(at),
             at,
             points: Vec::new(),
             sums: [0.0; 2],
         };
-        for [from, to] in self.free_parts(sum, at, cut) {
+        for [from, to] in self.free_parts(sum, &line.ray, cut) {
             self.extend(sum, &mut line, [from, to]);
         }
         line
     }
 
     /// The free parts of a line.
-    fn free_parts(&self, sum: &Sum, [v, w]: [f64; 2], cut: bool) -> Vec<[f64; 2]> {
+    fn free_parts(&self, sum: &Sum, ray: &Ray, cut: bool) -> Vec<[f64; 2]> {
         if !cut {
             return vec![[0.0, 1.0]];
         }
-        let is_free = |u: f64| self.problem.is_clear(&sum.configuration([u, v, w]));
+        let is_free = |u: f64| self.problem.is_clear(&ray.configuration(sum.along(u)));
         let mut parts = Vec::new();
         let mut before = (0.0, is_free(0.0));
         let mut since = 0.0;
@@ -175,7 +241,7 @@ impl<'a> Integrator<'a> {
 
     /// Adds a free part to a line.
     fn extend(&self, sum: &mut Sum, line: &mut Line, [from, to]: [f64; 2]) {
-        let place = |u: f64| sum.configuration([u, line.at[0], line.at[1]]);
+        let place = |u: f64| line.ray.configuration(sum.along(u));
         let potential = self.problem.potential();
         let mut ends = [0.0; 3];
         potential.energies(&[from, 0.5 * (from + to), to].map(place), &mut ends);

@@ -30,7 +30,9 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     assert!((number("/mean_exit_s") * diffusion - 0.0176).abs() < 0.0004);
     assert!((number("/exits/bound") - 0.405).abs() < 0.01);
     assert!((number("/exits/bound") + number("/exits/free") - 1.0).abs() < 1e-12);
-    assert!(entry["mean_exit_bounds_s"].is_null());
+    let [lower, upper] = [0, 1].map(|end| number(&format!("/mean_exit_bounds_s/{end}")));
+    assert!(lower < number("/mean_exit_s") && number("/mean_exit_s") < upper);
+    assert_eq!(entry["bounds_hold"], "on the mesh");
     assert_eq!(
         (number("/basin_energy_J"), number("/free_at_m")),
         (-0.03, 0.75)
@@ -99,6 +101,9 @@ fn rates_between_the_states_balance_in_detail() {
     let flow =
         |rate: &serde_json::Value| share(&rate["from"]) * rate["value_per_s"].as_f64().unwrap();
     for rate in rates {
+        let [lower, value, upper] =
+            ["lower", "value", "upper"].map(|end| rate[format!("{end}_per_s")].as_f64().unwrap());
+        assert!(0.0 < lower && lower <= value && value <= upper, "{rate}");
         let is_back =
             |other: &&serde_json::Value| other["from"] == rate["to"] && other["to"] == rate["from"];
         let back = rates.iter().find(is_back).unwrap();

@@ -1,157 +1,18 @@
-//! Exits and rates of overdamped motion, for people and for programs.
+//! Rates between states and `free`.
 
 use std::fmt::Write;
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-use super::terminal::write_table;
-use super::values;
+use super::{Motion, NO_BOUNDS, ON_THE_MESH, SCOPE, apart, finite, per_second};
 use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::dynamics::exits::ExitRuns;
 use crate::kinetics::chain::Chain;
-use crate::kinetics::exit::{Exit, ExitSettings};
 use crate::kinetics::rates::{RateSettings, Rates};
+use crate::report::terminal::write_table;
+use crate::report::values;
 use crate::units::si;
-
-/// Overdamped motion on an air table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Drag rate c / mass (1/s).
-    pub drag: f64,
-    /// D = kT / c (m^2/s).
-    pub diffusion: f64,
-}
-
-impl Motion {
-    /// Of a design's moving tile at kT (J) with this drag rate (1/s).
-    pub fn new(design: &Design, kt: f64, drag: f64) -> Self {
-        Self {
-            drag,
-            diffusion: kt / (drag * design.pair.moving.mass),
-        }
-    }
-}
-
-/// An exit as an object.
-pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
-    let finest = exit.finest();
-    let [time, bound] = exit.spread();
-    json!({
-        "diffusion_m2_s": motion.diffusion,
-        "mean_exit_s": finest.time / motion.diffusion,
-        // Nothing is proved of it.
-        "mean_exit_bounds_s": null,
-        "exits": {"bound": finest.bound, "free": 1.0 - finest.bound},
-        "kt_J": asked.kt,
-        "drag_per_s": motion.drag,
-        "start": values::pose(&asked.start),
-        "basin_energy_J": asked.basin_energy,
-        "free_at_m": asked.free_at,
-        "mesh": {
-            "unknowns": finest.unknowns,
-            "mean_exit_spread": time,
-            "exits_spread": bound,
-        },
-    })
-}
-
-/// An exit in a few lines.
-pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit: &Exit) -> String {
-    let finest = exit.finest();
-    let [time, bound] = exit.spread().map(|spread| 100.0 * spread);
-    let mean = finest.time / motion.diffusion;
-    let share = 100.0 * finest.bound;
-    let [x, y, theta] = asked.start.to_array();
-    let mut text = format!(
-        "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first in \
-         {share:.1} % of all cases, free first in {:.1} %\n",
-        design.name,
-        si(mean, "s", 3),
-        100.0 - share,
-    );
-    let _ = writeln!(
-        text,
-        "  kT = {}, drag {} /s: D = {}; the mean exit time times D is {}",
-        si(asked.kt, "J", 4),
-        motion.drag,
-        si(motion.diffusion, "m²/s", 4),
-        area(finest.time),
-    );
-    let _ = writeln!(
-        text,
-        "  bound: U < {} in the basin of the bond or of one of its copies; free: centres {} apart",
-        si(asked.basin_energy, "J", 4),
-        si(asked.free_at, "m", 4),
-    );
-    let _ = writeln!(
-        text,
-        "  the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the shares; no bound is proved",
-        finest.unknowns,
-    );
-    text.push_str(SCOPE);
-    text
-}
-
-/// What moving tiles say of an exit, as an object; ratios are theirs over the overdamped motion's.
-pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
-    let mean = exit.finest().time / motion.diffusion;
-    let [bound, free] = runs.ends;
-    json!({
-        "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
-        "mean_exit_s": finite(runs.time[0]),
-        "standard_error_s": finite(runs.time[1]),
-        "ratio": finite(runs.time[0] / mean),
-        "bound": finite(bound as f64 / (bound + free) as f64),
-        "kinetic_over_kt": finite(runs.warmth),
-    })
-}
-
-/// The kinetic energy of moving tiles may differ from that of kT by this share.
-const WARM: f64 = 0.1;
-
-/// What moving tiles say of an exit, in a few lines.
-pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
-    let mean = exit.finest().time / motion.diffusion;
-    let [bound, free] = runs.ends;
-    let [time, error] = runs.time;
-    let mut text = format!(
-        "check: {} rigid bodies with inertia take {} +- {} on average, {:.2} +- {:.2} times as \
-         long; bound first in {:.0} % ({bound} of {})\n",
-        bound + free + runs.given_up,
-        si(time, "s", 3),
-        si(error, "s", 2),
-        time / mean,
-        error / mean,
-        100.0 * bound as f64 / (bound + free) as f64,
-        bound + free,
-    );
-    if runs.given_up > 0 {
-        let _ = writeln!(
-            text,
-            "  {} were given up under way: the mean is too short",
-            runs.given_up
-        );
-    }
-    let _ = writeln!(
-        text,
-        "  their kinetic energy is {:.2} times that of kT{}",
-        runs.warmth,
-        if (runs.warmth - 1.0).abs() > WARM {
-            ": knocks take energy that the shaking does not give back, so no temperature exists"
-        } else {
-            ""
-        },
-    );
-    text
-}
-
-/// Where kT means something.
-const SCOPE: &str = "  overdamped motion, knocks without loss: drag of 50 /s and more; at less \
-                     drag, or where knocks\n  take energy that shaking does not give back, there \
-                     is no such kT\n";
 
 /// A state with rates.
 #[derive(Clone, Debug, PartialEq)]
@@ -200,6 +61,31 @@ impl Table<'_> {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
+    /// Bounds (1/s) of the rate from one place to another, where there are any.
+    fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
+        self.scaled(
+            self.found
+                .bounds
+                .as_ref()
+                .map(|bounds| bounds.rates[from][to]),
+        )
+    }
+
+    /// Bounds (1/s) of the rate out of a place, where there are any.
+    fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
+        self.scaled(
+            self.found
+                .bounds
+                .as_ref()
+                .map(|bounds| bounds.leaving[from]),
+        )
+    }
+
+    fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
+        let scaled = |end: f64| finite(end * self.motion.diffusion);
+        bounds.map_or([None; 2], |ends| ends.map(scaled))
+    }
+
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
     /// does not count.
     fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
@@ -228,16 +114,18 @@ impl Table<'_> {
                 "copies": own.map(|place| place.copies),
                 "occupation": finest.occupation[number],
                 "mean_exit_s": finite(1.0 / self.rate_out(number)),
+                "leaving_per_s": finite(self.rate_out(number)),
+                "leaving_bounds_per_s": self.bounds_out(number),
             })
         };
         let rate = |(from, to): (usize, usize)| {
+            let [lower, upper] = self.bounds(from, to);
             json!({
                 "from": self.name(from),
                 "to": self.name(to),
-                // Nothing is proved of it.
-                "lower_per_s": null,
+                "lower_per_s": lower,
                 "value_per_s": self.rate(from, to),
-                "upper_per_s": null,
+                "upper_per_s": upper,
                 "mean_first_passage_s": finite(self.mean_first_passage(from, to)),
                 "first": finite(self.rate(from, to) / self.rate_out(from)),
                 "spread": finite(self.found.spread(from, to)),
@@ -249,11 +137,13 @@ impl Table<'_> {
             "drag_per_s": self.motion.drag,
             "places": (0..self.count()).map(place).collect::<Vec<_>>(),
             "rates": self.pairs().map(rate).collect::<Vec<_>>(),
+            // Proved are the inequalities, not the integrals over cells.
+            "bounds_hold": self.found.bounds.as_ref().map(|_| "on the mesh"),
             "mesh": {"unknowns": finest.unknowns},
         })
     }
 
-    /// rates.csv: bounds are empty where nothing is proved.
+    /// rates.csv: bounds are empty where there are none.
     pub fn rates_csv(&self) -> String {
         let mut text = "from,to,lower_per_s,value_per_s,upper_per_s,spread,first,mean_first_passage_s,from_basin_J,\
                         to_basin_J,free_at_m\n"
@@ -263,9 +153,12 @@ impl Table<'_> {
             below.map_or(String::new(), |below| format!("{below:.9e}"))
         };
         for (from, to) in self.pairs() {
+            let [lower, upper] = self
+                .bounds(from, to)
+                .map(|end| end.map_or(String::new(), |end| format!("{end:.6e}")));
             let _ = writeln!(
                 text,
-                "{},{},,{:.6e},,{:.1e},{:.6e},{:.6e},{},{},{}",
+                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{}",
                 self.name(from),
                 self.name(to),
                 self.rate(from, to),
@@ -342,30 +235,23 @@ impl Table<'_> {
             .fold(0.0, f64::max);
         let _ = writeln!(
             text,
-            "  the two finest meshes ({} unknowns) differ by {:.1} % at most; no bound is proved",
+            "  the two finest meshes ({} unknowns) differ by {:.1} % at most",
             self.found.finest().unknowns,
             100.0 * worst,
         );
+        let Some(bounds) = &self.found.bounds else {
+            let _ = writeln!(text, "  {NO_BOUNDS}");
+            text.push_str(SCOPE);
+            return text;
+        };
+        let wells = self.places.iter().zip(&bounds.leaving);
+        let told = wells.map(|(place, ends)| format!("{} {}", place.name, apart(*ends)));
+        let _ = writeln!(
+            text,
+            "  bounds of the rates out are apart by: {}; of every rate in rates.csv;\n  {ON_THE_MESH}",
+            told.collect::<Vec<_>>().join(", "),
+        );
         text.push_str(SCOPE);
         text
-    }
-}
-
-/// A rate with three digits.
-fn per_second(rate: f64) -> String {
-    format!("{rate:.2e} /s")
-}
-
-/// A number that JSON has.
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
-
-/// An area with four digits; small and large ones with a power of ten, for m² takes no prefix well.
-fn area(value: f64) -> String {
-    if (1e-4..1e4).contains(&value) {
-        format!("{value:.4} m²")
-    } else {
-        format!("{value:.3e} m²")
     }
 }

@@ -1,0 +1,242 @@
+//! Two-sided bounds of capacities and of what follows from them: Dirichlet's principle from above,
+//! Thomson's from below, on one mesh.
+//!
+//! A function f_h on the mesh differs from the exact one by e, and a flux J from the exact one by d,
+//! which is free of sources and so is orthogonal to every such e. Hence `J / w + grad f_h = d - e`
+//! is known cell by cell, its square is what the bounds are apart, and of two such problems
+//! `<e, e'> = <d - e, d' - e'> / 2` within half of `|d - e| |d' - e'|` (Prager and Synge 1947,
+//! doi:10.1090/qam/25902). By Galerkin's orthogonality `<e, e'>` is what is missing in a flow
+//! between two places, and in an integral of a committor, whose other problem is the mean time to
+//! any place.
+
+use rayon::prelude::*;
+
+use super::field::Field;
+use super::mesh::{Gap, Nodes, System, Unsolved, loads};
+use super::rates::MeshRates;
+
+/// How near each other bounds are asked to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certify {
+    /// Their distance as a share of the lower one.
+    pub distance: f64,
+    /// Unknowns up to which meshes are refined for it.
+    pub unknowns: usize,
+}
+
+impl Default for Certify {
+    /// As near as it comes within seconds.
+    fn default() -> Self {
+        Self {
+            distance: 0.1,
+            unknowns: 16_000,
+        }
+    }
+}
+
+impl Certify {
+    /// So near, if that can be had at all.
+    pub fn to(distance: f64) -> Self {
+        Self {
+            distance,
+            unknowns: 400_000,
+        }
+    }
+}
+
+/// What one mesh says.
+pub(super) struct Step {
+    /// From below and above.
+    pub bounds: Vec<[f64; 2]>,
+    /// How many of them, from the first on, should be narrow.
+    pub deciding: usize,
+    /// Corners of the mesh.
+    pub unknowns: usize,
+    /// What refining the cells may bring.
+    pub shares: Vec<f64>,
+    /// Values between the bounds, of rates.
+    pub rates: Option<MeshRates>,
+}
+
+/// Refines a mesh until bounds are as narrow as asked, or it has too many unknowns. Gives the
+/// steps of all meshes, each of whose bounds hold by themselves; none where there are no bounds.
+///
+/// # Errors
+/// Those of a step.
+pub(super) fn narrowed<E>(
+    field: &mut Field,
+    certify: &Certify,
+    step: impl Fn(&mut Field) -> Result<Option<Step>, E>,
+) -> Result<Vec<Step>, E> {
+    let mut all: Vec<Step> = Vec::new();
+    loop {
+        let Some(found) = step(field)? else {
+            return Ok(Vec::new());
+        };
+        let is_narrow = |[lower, upper]: &[f64; 2]| *upper <= (1.0 + certify.distance) * lower;
+        let deciding = &found.bounds[..found.deciding];
+        let is_done = deciding.iter().all(is_narrow) || found.unknowns > certify.unknowns;
+        if !is_done {
+            field.refine(&found.shares);
+        }
+        all.push(found);
+        if is_done {
+            return Ok(all);
+        }
+    }
+}
+
+/// Places on a mesh, and what is known of them.
+pub(super) struct Asked<'a> {
+    pub field: &'a Field<'a>,
+    pub nodes: &'a Nodes,
+    /// For each corner the place that it belongs to.
+    pub pins: &'a [Option<usize>],
+    /// The place that the mesh's rim belongs to.
+    pub rim: usize,
+    /// Cells that carry no load.
+    pub left_out: &'a [bool],
+}
+
+/// Bounds of the capacities of the first of some places, each against all others, and of what
+/// follows from them.
+///
+/// What the integrals over cells are off by is not in them: they hold on the mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Bracket {
+    /// From below and from above, by places (rad).
+    capacities: Vec<[f64; 2]>,
+    /// What flows between every two places (rad).
+    flows: Vec<Vec<Bounded>>,
+    /// The integrals of each committor times the load.
+    occupations: Vec<Bounded>,
+    /// What refining the cells may bring.
+    pub shares: Vec<f64>,
+}
+
+/// A figure and its bounds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Bounded {
+    /// Midway between the bounds.
+    pub value: f64,
+    /// From below and above.
+    pub ends: [f64; 2],
+}
+
+impl Bracket {
+    /// Of so many places.
+    ///
+    /// # Errors
+    /// Where a linear system is not solved.
+    pub fn new(asked: &Asked, count: usize) -> Result<Self, Unsolved> {
+        let Asked {
+            field, nodes, pins, ..
+        } = *asked;
+        let mesh = &field.mesh;
+        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
+        let system = System::new(mesh, nodes, &pinned);
+        let none = vec![0.0; nodes.len()];
+        let loads = loads(mesh, nodes, asked.left_out);
+        // The last is the mean time.
+        let values = (0..=count).into_par_iter().map(|place| {
+            let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
+            let given: Vec<f64> = pins.iter().map(one).collect();
+            match place == count {
+                true => system.solve(&none, &loads, &none),
+                false => system.solve(&given, &none, &none),
+            }
+        });
+        let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
+        let network = field
+            .network(nodes, pins, asked.rim, &values[0])
+            .ok_or(Unsolved)?;
+        let fluxes = network.fluxes();
+        let source = |cell: usize| match (asked.left_out[cell], &mesh.leaves[cell].element) {
+            (false, Some(element)) => element.load.iter().sum(),
+            _ => 0.0,
+        };
+        let found = (0..=count)
+            .into_par_iter()
+            .map(|place| match place == count {
+                true => fluxes.of(&source),
+                false => fluxes.from(place),
+            });
+        let found = found.collect::<Result<Vec<_>, _>>()?;
+        let gap = |place: usize| Gap {
+            flux: &found[place],
+            values: &values[place],
+            source: if place == count { &source } else { &|_| 0.0 },
+        };
+        let held = |values: &[f64]| values.iter().zip(&loads).map(|(a, b)| a * b).sum::<f64>();
+        let energy = |place: usize| field.energy(nodes, &values[place]);
+        let capacities: Vec<[f64; 2]> = (0..count)
+            .map(|place| [found[place].capacity, energy(place)])
+            .collect();
+        let mut squares: Vec<f64> = capacities
+            .iter()
+            .map(|[lower, upper]| upper - lower)
+            .collect();
+        squares.push(found[count].cost - held(&values[count]));
+        let size = |place: usize| squares[place].max(0.0).sqrt();
+        // What is missing in a product of two problems.
+        let missing = |i: usize, j: usize| {
+            let products = fluxes.products(mesh, nodes, &gap(i), &gap(j));
+            let (middle, off) = (products.iter().sum::<f64>(), size(i) * size(j));
+            (0.5 * middle, 0.5 * off)
+        };
+        let around = |value: f64, (middle, off): (f64, f64)| Bounded {
+            value: (value + middle).max(0.0),
+            ends: [-off, off].map(|off| (value + middle + off).max(0.0)),
+        };
+        let occupations: Vec<Bounded> = (0..count)
+            .map(|place| around(held(&values[place]), missing(place, count)))
+            .collect();
+        let flow = |i: usize, j: usize| {
+            let out = system.fluxes(&values[i]);
+            let into = pins.iter().zip(out).filter(|(pin, _)| **pin == Some(j));
+            around(-into.map(|(_, flux)| flux).sum::<f64>(), missing(i, j))
+        };
+        let between = |i: usize, j: usize| match i == j {
+            true => Bounded::default(),
+            false => flow(i.max(j), i.min(j)),
+        };
+        let flows = (0..count)
+            .map(|i| (0..count).map(|j| between(i, j)).collect())
+            .collect();
+        // How far the bounds of capacity over occupation are apart, by cells.
+        let mut shares = vec![0.0; mesh.leaves.len()];
+        let square = |place: usize| fluxes.products(mesh, nodes, &gap(place), &gap(place));
+        let relaxing = square(count);
+        (0..count).for_each(|place| {
+            let per = |of: usize, other: usize| {
+                0.5 * size(other) / size(of).max(f64::MIN_POSITIVE) / held(&values[place])
+            };
+            let by_own = 1.0 / energy(place) + per(place, count);
+            let by_other = per(count, place);
+            for ((share, own), other) in shares.iter_mut().zip(square(place)).zip(&relaxing) {
+                *share += own.max(0.0) * by_own + other.max(0.0) * by_other;
+            }
+        });
+        Ok(Self {
+            capacities,
+            flows,
+            occupations,
+            shares,
+        })
+    }
+
+    /// Bounds of the capacity of a place against all others (rad).
+    pub fn capacity(&self, place: usize) -> [f64; 2] {
+        self.capacities[place]
+    }
+
+    /// Bounds of what flows between two places (rad).
+    pub fn flow(&self, i: usize, j: usize) -> Bounded {
+        self.flows[i][j]
+    }
+
+    /// Bounds of the integral of a place's committor times the load.
+    pub fn occupation(&self, place: usize) -> Bounded {
+        self.occupations[place]
+    }
+}

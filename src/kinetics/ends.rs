@@ -1,0 +1,178 @@
+//! The ends of an exit on a mesh, and what the mesh says of it.
+
+use super::bracket::{Asked, Bracket, Step};
+use super::exit::{ExitError, ExitSettings, MeshExit};
+use super::field::{Earlier, Field};
+use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
+use super::sets::{basin, is_at_the_rim, pass};
+use crate::configuration::Configuration;
+
+/// How far (in kT) below the pass an end or a start lies in equilibrium: of the flux no more than
+/// e^-12 is left there.
+const DEEP: f64 = 12.0;
+/// Bounds are of a start in the well, which reaches so many kT above the pose, or as deep as it is
+/// taken to be in equilibrium.
+const NEAR: f64 = 0.5;
+
+/// Cells in which a tile is bound, and, where the start is deep in a well, those of the well.
+pub(super) struct Ends {
+    bound: Vec<bool>,
+    well: Option<Vec<bool>>,
+    /// The cells about the start that bounds are of.
+    near: Option<Vec<bool>>,
+}
+
+/// Why the value at a corner is given.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pin {
+    None,
+    Well,
+    Bound,
+    Free,
+}
+
+impl Ends {
+    pub fn new(
+        field: &mut Field,
+        bond: &Configuration,
+        asked: &ExitSettings,
+    ) -> Result<Self, ExitError> {
+        let beside = field.mesh.neighbours();
+        let around = |field: &Field, q: &Configuration, limit: f64| {
+            basin(&field.mesh, &beside, &field.mesh.holding(q), limit)
+        };
+        let inside = around(field, bond, asked.basin_energy);
+        let leaves = field.mesh.leaves.iter();
+        let rim: Vec<bool> = leaves
+            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
+            .collect();
+        if inside.iter().zip(&rim).any(|(inside, rim)| *inside && *rim) {
+            return Err(ExitError::Open(asked.basin_energy));
+        }
+        let held = field.mesh.holding(&asked.start);
+        let is_low = field.energy_at(&asked.start) < asked.basin_energy;
+        if is_low && held.iter().any(|&id| inside[id]) {
+            return Err(ExitError::Bound(asked.basin_energy));
+        }
+        let level = pass(&field.mesh, &beside, &held, &|id| inside[id] || rim[id]);
+        field.set_level(level.unwrap_or(0.0));
+        let deep = field.level() - DEEP * field.kt;
+        let is_deep = field.energy_at(&asked.start) < deep;
+        let bound = around(field, bond, asked.basin_energy.max(deep));
+        let top = field.energy_at(&asked.start) + NEAR * field.kt;
+        let near = around(field, &asked.start, deep.max(top));
+        let is_apart = |(id, near): (usize, &bool)| !near || !(bound[id] || rim[id]);
+        let is_well = near.iter().enumerate().all(is_apart);
+        Ok(Self {
+            bound,
+            well: is_deep.then(|| around(field, &asked.start, deep)),
+            near: is_well.then_some(near),
+        })
+    }
+
+    /// For each corner whether its value is given. Where ends meet, which they do on coarse meshes
+    /// only, being free comes first.
+    fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Pin> {
+        let outer = field.mesh.chart.cells[0] * UNITS;
+        let mut pins = vec![Pin::None; nodes.len()];
+        for (id, leaf, _) in field.mesh.live() {
+            let in_well = well.is_some_and(|well| well[id]);
+            for (number, &node) in nodes.corners[id].iter().enumerate() {
+                let pin = &mut pins[node as usize];
+                if leaf.corner(number)[0] == outer {
+                    *pin = Pin::Free;
+                } else if self.bound[id] {
+                    *pin = Pin::Bound;
+                } else if in_well && *pin == Pin::None {
+                    *pin = Pin::Well;
+                }
+            }
+        }
+        pins
+    }
+
+    /// The exit on a mesh, and the functions it was found from.
+    ///
+    /// Far below the passes the start's well is in equilibrium before anything leaves it. Then one
+    /// function tells all: the probability h to come back to the well before an end is reached.
+    /// What flows into the ends is the capacity C, and the mean exit time is the integral of
+    /// h e^(-U/kT) over D C. No small difference of large numbers is taken.
+    pub fn solve(
+        &self,
+        field: &Field,
+        nodes: &Nodes,
+        start: &Configuration,
+        earlier: Option<&Earlier>,
+    ) -> Result<(MeshExit, Vec<Vec<f64>>), Unsolved> {
+        let pins = self.pins(field, nodes, self.well.as_ref());
+        let pinned: Vec<bool> = pins.iter().map(|pin| *pin != Pin::None).collect();
+        let system = System::new(&field.mesh, nodes, &pinned);
+        let none = vec![0.0; nodes.len()];
+        let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
+        let guess = |i: usize| {
+            let known = guesses.as_ref().and_then(|guesses| guesses.get(i));
+            known.unwrap_or(&none)
+        };
+        let one_on = |end: Pin| -> Vec<f64> {
+            let one = |pin: &Pin| if *pin == end { 1.0 } else { 0.0 };
+            pins.iter().map(one).collect()
+        };
+        let loads = loads(&field.mesh, nodes, &self.bound);
+        let exit = |time: f64, bound: f64| MeshExit {
+            time: time * ((field.level() - field.ground()) / field.kt).exp(),
+            bound: bound.clamp(0.0, 1.0),
+            unknowns: system.len(),
+            error: f64::INFINITY,
+        };
+        if self.well.is_none() {
+            let committor = system.solve(&one_on(Pin::Bound), &none, guess(0))?;
+            let time = system.solve(&none, &loads, guess(1))?;
+            let at = |values: &[f64]| nodes.at(&field.mesh, values, start).unwrap_or(f64::NAN);
+            return Ok((exit(at(&time), at(&committor)), vec![committor, time]));
+        }
+        let back = system.solve(&one_on(Pin::Well), &none, guess(0))?;
+        let flux = system.fluxes(&back);
+        let into = |end: Pin| {
+            let ends = pins.iter().zip(&flux).filter(|(pin, _)| **pin == end);
+            -ends.map(|(_, flux)| flux).sum::<f64>()
+        };
+        let (bound, free) = (into(Pin::Bound), into(Pin::Free));
+        let products = loads.iter().zip(&back).map(|(load, value)| load * value);
+        let time = products.sum::<f64>() / (bound + free);
+        Ok((exit(time, bound / (bound + free)), vec![back]))
+    }
+
+    /// Bounds of the mean exit time times D (m^2) from the well about the start, and what refining
+    /// the cells may bring to them: as in [`Self::solve`] it is an integral over a capacity,
+    /// whatever the well.
+    pub fn bounds(&self, field: &Field, nodes: &Nodes) -> Result<Option<Step>, Unsolved> {
+        let Some(near) = &self.near else {
+            return Ok(None);
+        };
+        let place = |pin: &Pin| match pin {
+            Pin::None => None,
+            Pin::Well => Some(0),
+            Pin::Bound => Some(1),
+            Pin::Free => Some(2),
+        };
+        let pins = self.pins(field, nodes, Some(near));
+        let asked = Asked {
+            field,
+            nodes,
+            pins: &pins.iter().map(place).collect::<Vec<_>>(),
+            rim: 2,
+            left_out: &self.bound,
+        };
+        let bracket = Bracket::new(&asked, 1)?;
+        let scale = ((field.level() - field.ground()) / field.kt).exp();
+        let [least, most] = bracket.occupation(0).ends;
+        let [lower, upper] = bracket.capacity(0);
+        Ok(Some(Step {
+            bounds: vec![[scale * least / upper, scale * most / lower]],
+            deciding: 1,
+            unknowns: nodes.len(),
+            shares: bracket.shares,
+            rates: None,
+        }))
+    }
+}

@@ -1,0 +1,284 @@
+//! Fluxes through the sides of cells, and the least that they cost: what Thomson's principle asks
+//! for.
+//!
+//! In each cell the flux is linear between opposite sides (Raviart and Thomas 1977,
+//! doi:10.1007/BFb0064470, of the lowest order), through no side that contact closes. The flux of
+//! least cost with a given current is found from potentials on the sides, which is a positive
+//! system (Arnold and Brezzi 1985, doi:10.1051/m2an/1985190100071).
+//!
+//! A flux J that leaves the place where h = 1 with the current I, and of which the amount d is lost
+//! or added on the way, gives `I - d <= -int J . grad h <= sqrt(C int J . M J / w)` for every
+//! committor 0 <= h <= 1 with the capacity C: a lower bound of C whatever is left to rounding.
+
+use nalgebra::{Matrix6, Vector6};
+use rayon::prelude::*;
+
+use super::element::shapes;
+use super::equations::{Entries, Equations, Unsolved};
+use super::nodes::Nodes;
+use super::octree::Octree;
+use super::profile::Profile;
+use super::sides::{Side, sides};
+
+/// A cell with what flows out of it: `out = share * source - matrix * potentials` by sides.
+struct Conductor {
+    cell: usize,
+    sides: [Side; 6],
+    matrix: Matrix6<f64>,
+    share: Vector6<f64>,
+    /// What it costs to let so much out (1/rad).
+    cost: Matrix6<f64>,
+}
+
+/// All fluxes on a mesh whose chart begins at contact, between places whose potential is given.
+pub(in crate::kinetics) struct Fluxes<'a> {
+    network: &'a Network,
+    equations: Equations<'a>,
+}
+
+/// The cells of a mesh as conductors.
+pub(in crate::kinetics) struct Network {
+    conductors: Vec<Conductor>,
+    profile: Profile,
+    /// For each face the place that it is the end of.
+    ends: Vec<Option<usize>>,
+}
+
+impl Network {
+    /// Between the places that corners belong to, and the rim, which is the place `rim`. A cell
+    /// belongs to a place if all of its corners do, so that a function which is 1 at the place's
+    /// corners is so all over it. `None` where the chart holds what is blocked.
+    ///
+    /// `resistance` has what fluxes cost in a cell, spread as the profile says.
+    pub fn new(
+        mesh: &Octree,
+        nodes: &Nodes,
+        pins: &[Option<usize>],
+        rim: usize,
+        profile: Profile,
+        resistance: &(dyn Fn(usize) -> Matrix6<f64> + Sync),
+    ) -> Option<Self> {
+        if !mesh.chart.is_fitted() {
+            return None;
+        }
+        let place = |id: usize| -> Option<usize> {
+            let sources = nodes.corners[id]
+                .iter()
+                .flat_map(|&n| &nodes.sources[n as usize]);
+            let mut places = sources.map(|&(of, _)| pins[of as usize]);
+            let first = places.next()??;
+            places.all(|other| other == Some(first)).then_some(first)
+        };
+        let (sides, mut ends) = sides(mesh, rim, &profile);
+        let mut cells = Vec::new();
+        for (id, ..) in mesh.live() {
+            let Some(place) = place(id) else {
+                cells.push(id);
+                continue;
+            };
+            for (face, _) in sides[id].iter().flat_map(Side::faces) {
+                ends[face] = Some(place);
+            }
+        }
+        let conductor = |&id: &usize| Conductor::new(id, sides[id], resistance(id));
+        let conductors = cells.par_iter().map(conductor).collect::<Option<_>>()?;
+        Some(Self {
+            conductors,
+            profile,
+            ends,
+        })
+    }
+
+    fn entries(&self) -> Entries<'_> {
+        Box::new(|call| {
+            for conductor in &self.conductors {
+                for (a, first) in conductor.sides.iter().enumerate() {
+                    for (b, second) in conductor.sides.iter().enumerate() {
+                        let entry = conductor.matrix[(a, b)];
+                        for (i, by_row) in first.faces() {
+                            for (j, by_column) in second.faces() {
+                                call(i, j, entry * by_row * by_column);
+                            }
+                        }
+                    }
+                }
+            }
+        })
+    }
+
+    /// The fluxes, ready to be found.
+    pub fn fluxes(&self) -> Fluxes<'_> {
+        let is_asked = |face: usize| self.ends[face].is_none();
+        Fluxes {
+            network: self,
+            equations: Equations::new(self.ends.len(), &is_asked, self.entries()),
+        }
+    }
+}
+
+impl Conductor {
+    fn new(cell: usize, sides: [Side; 6], resistances: Matrix6<f64>) -> Option<Self> {
+        // Flux is counted outwards from here on.
+        let outwards = |a: usize| if a.is_multiple_of(2) { -1.0 } else { 1.0 };
+        let is_closed = |a: usize| sides[a] == Side::Closed;
+        let cost = Matrix6::from_fn(|a, b| match is_closed(a) || is_closed(b) {
+            true if a == b => 1.0,
+            true => 0.0,
+            false => resistances[(a, b)] * outwards(a) * outwards(b),
+        });
+        let mut conductance = cost.try_inverse()?;
+        for a in (0..6).filter(|a| is_closed(*a)) {
+            conductance[(a, a)] = 0.0;
+        }
+        let sums = conductance.column_sum();
+        let share = sums / sums.sum();
+        Some(Self {
+            cell,
+            sides,
+            matrix: conductance - sums * share.transpose(),
+            share,
+            cost,
+        })
+    }
+
+    /// What flows out through the sides, with potentials on the faces and a source in the cell.
+    fn out(&self, potentials: &[f64], source: f64) -> Vector6<f64> {
+        let mean = Vector6::from_fn(|a, _| {
+            let faces = self.sides[a].faces();
+            faces.map(|(face, share)| share * potentials[face]).sum()
+        });
+        self.share * source - self.matrix * mean
+    }
+}
+
+/// A flux of least cost.
+pub(in crate::kinetics) struct Flux {
+    /// Out of each conductor's sides.
+    out: Vec<Vector6<f64>>,
+    /// What it costs.
+    pub cost: f64,
+    /// What it says of the capacity from below; of fluxes from a place.
+    pub capacity: f64,
+}
+
+impl Fluxes<'_> {
+    /// From a place to all others. Its capacity (rad) is no greater than theirs, but for the
+    /// quadrature.
+    ///
+    /// # Errors
+    /// Where the linear system is not solved.
+    pub fn from(&self, place: usize) -> Result<Flux, Unsolved> {
+        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
+        let given: Vec<f64> = self.network.ends.iter().map(one).collect();
+        let none = vec![0.0; given.len()];
+        let potentials = self.equations.solve(&given, &none, &none)?;
+        Ok(self.flux(&potentials, &|_| 0.0, &given))
+    }
+
+    /// From a source in each cell to the places. Its cost is no less than the integral of the source
+    /// times the function that it belongs to, but for the quadrature and for how the source changes
+    /// within cells.
+    ///
+    /// # Errors
+    /// Where the linear system is not solved.
+    pub fn of(&self, source: &(dyn Fn(usize) -> f64 + Sync)) -> Result<Flux, Unsolved> {
+        let none = vec![0.0; self.network.ends.len()];
+        let mut right = none.clone();
+        for conductor in &self.network.conductors {
+            let shares = conductor.share * source(conductor.cell);
+            for (side, own) in conductor.sides.iter().zip(&shares) {
+                for (face, share) in side.faces() {
+                    right[face] += share * own;
+                }
+            }
+        }
+        let potentials = self.equations.solve(&none, &right, &none)?;
+        Ok(self.flux(&potentials, source, &none))
+    }
+
+    fn flux(&self, potentials: &[f64], source: &dyn Fn(usize) -> f64, given: &[f64]) -> Flux {
+        let mut into = vec![0.0; given.len()];
+        let (mut cost, mut lost) = (0.0, 0.0);
+        let mut all = Vec::new();
+        for conductor in &self.network.conductors {
+            let own = source(conductor.cell);
+            let out = conductor.out(potentials, own);
+            cost += out.dot(&(conductor.cost * out));
+            lost += (out.sum() - own).abs();
+            for (side, flux) in conductor.sides.iter().zip(&out) {
+                for (face, share) in side.faces() {
+                    into[face] += share * flux;
+                }
+            }
+            all.push(out);
+        }
+        let mut current = 0.0;
+        for ((flux, end), one) in into.iter().zip(&self.network.ends).zip(given) {
+            match end {
+                None => lost += flux.abs(),
+                Some(_) => current -= one * flux,
+            }
+        }
+        let carried = (current - lost).max(0.0);
+        Flux {
+            out: all,
+            cost,
+            capacity: if carried > 0.0 {
+                carried * carried / cost
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// For each cell the integral of the product of two gaps, `(J / w + grad f) w (J' / w + grad f')`.
+    pub fn products(&self, mesh: &Octree, nodes: &Nodes, first: &Gap, second: &Gap) -> Vec<f64> {
+        let mut products = vec![0.0; mesh.leaves.len()];
+        for (number, conductor) in self.network.conductors.iter().enumerate() {
+            let id = conductor.cell;
+            let Some(element) = &mesh.leaves[id].element else {
+                continue;
+            };
+            let mean = self.network.profile.mean(mesh.along(id));
+            let of = |gap: &Gap| (gap.flux.out[number], nodes.of(id, gap.values));
+            let ((out, own), (others_out, others)) = (of(first), of(second));
+            let flows = out.dot(&(conductor.cost * others_out));
+            let slopes: f64 = element
+                .times(&own)
+                .iter()
+                .zip(others)
+                .map(|(a, b)| a * b)
+                .sum();
+            let mixed = carried(&out, (first.source)(id), &others, mean)
+                + carried(&others_out, (second.source)(id), &own, mean);
+            products[id] = flows + slopes + mixed;
+        }
+        products
+    }
+}
+
+/// A flux and a function that would be one if both were exact.
+pub(in crate::kinetics) struct Gap<'a> {
+    pub flux: &'a Flux,
+    pub values: &'a [f64],
+    /// What flows out of each cell.
+    pub source: &'a dyn Fn(usize) -> f64,
+}
+
+/// The integral of J . grad f over a cell: what f has at the sides, less what it has at the source.
+/// Where J crosses the sides on average is given in parts of the cell's depth.
+fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], mean: f64) -> f64 {
+    let at = |part: [f64; 3]| -> f64 {
+        shapes(part)
+            .iter()
+            .zip(values)
+            .map(|(shape, value)| shape * value)
+            .sum()
+    };
+    let across = (0..6).map(|side| {
+        let mut part = [mean, 0.5, 0.5];
+        part[side / 2] = (side % 2) as f64;
+        out[side] * at(part)
+    });
+    across.sum::<f64>() - source * at([mean, 0.5, 0.5])
+}

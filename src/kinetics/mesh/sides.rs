@@ -1,0 +1,84 @@
+//! The sides of cells, and the faces that they are made of.
+
+use super::octree::Octree;
+use super::profile::Profile;
+
+/// What lies beyond a cell's side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Side {
+    /// Nothing.
+    Closed,
+    /// A face.
+    Whole([(u32, f64); 1]),
+    /// The faces of four smaller cells, with the shares of the flux that go through them.
+    Split([(u32, f64); 4]),
+}
+
+impl Side {
+    /// Its faces, with the shares of the flux that go through them.
+    pub fn faces(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+        let faces: &[_] = match self {
+            Self::Closed => &[],
+            Self::Whole(face) => face,
+            Self::Split(faces) => faces,
+        };
+        faces.iter().map(|&(face, share)| (face as usize, share))
+    }
+}
+
+/// For each cell its sides, and for each face whether it is an end: those at the rim are.
+pub(super) fn sides(
+    mesh: &Octree,
+    rim: usize,
+    profile: &Profile,
+) -> (Vec<[Side; 6]>, Vec<Option<usize>>) {
+    let mut sides = vec![[Side::Closed; 6]; mesh.leaves.len()];
+    let mut ends = Vec::new();
+    let mut parts: Vec<(usize, usize, u32, usize)> = Vec::new();
+    for (id, leaf, _) in mesh.live() {
+        for side in 0..6 {
+            let half = leaf.size() / 2;
+            let mut place = leaf.low.map(|low| low + half);
+            let (axis, is_upper) = (side / 2, side % 2 == 1);
+            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
+            let face = ends.len() as u32;
+            let Some(other) = mesh.find(place) else {
+                // Contact, or the rim.
+                if is_upper {
+                    ends.push(Some(rim));
+                    sides[id][side] = Side::Whole([(face, 1.0)]);
+                }
+                continue;
+            };
+            let beyond = &mesh.leaves[other];
+            if beyond.element.is_none() || beyond.level > leaf.level {
+                continue;
+            }
+            if beyond.level < leaf.level {
+                parts.push((other, side ^ 1, face, id));
+            } else if is_upper {
+                sides[other][side ^ 1] = Side::Whole([(face, 1.0)]);
+            } else {
+                continue;
+            }
+            ends.push(None);
+            sides[id][side] = Side::Whole([(face, 1.0)]);
+        }
+    }
+    parts.sort_unstable();
+    for four in parts.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let (cell, side, ..) = four[0];
+        let share = |part: usize| {
+            let (whole, [from, to]) = (mesh.along(cell), mesh.along(part));
+            match side / 2 {
+                0 => 0.25,
+                _ => 0.5 * (profile.share(to, whole) - profile.share(from, whole)),
+            }
+        };
+        let faces: Vec<_> = four.iter().map(|part| (part.2, share(part.3))).collect();
+        if let Ok(faces) = faces.try_into() {
+            sides[cell][side] = Side::Split(faces);
+        }
+    }
+    (sides, ends)
+}

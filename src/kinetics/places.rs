@@ -1,0 +1,223 @@
+//! Basins and `free` on a mesh, and the rates between them that the mesh says.
+
+use super::bracket::{Asked, Bounded, Bracket, Step};
+use super::field::{Earlier, Field};
+use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
+use super::rates::{Basin, MeshRates, RateSettings, RatesError};
+use super::sets::{basin, is_at_the_rim, pass};
+
+/// How far (in kT) below its lowest pass a well lies in equilibrium.
+const DEEP: f64 = 12.0;
+
+/// Which cell belongs to which basin.
+pub(super) struct Places {
+    of: Vec<Option<usize>>,
+    /// How many places there are, `free` among them.
+    pub count: usize,
+    /// Cells that two basins reach into, with the limit (J) of the later one.
+    pub shared: Vec<(usize, f64)>,
+}
+
+impl Places {
+    pub fn new(field: &mut Field, settings: &RateSettings) -> Result<Self, RatesError> {
+        let beside = field.mesh.neighbours();
+        let around = |field: &Field, basin: &Basin, limit: f64| {
+            let held = field.mesh.holding(&basin.at);
+            self::basin(&field.mesh, &beside, &held, limit)
+        };
+        let leaves = field.mesh.leaves.iter();
+        let rim: Vec<bool> = leaves
+            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
+            .collect();
+        let wells: Vec<Vec<bool>> = settings
+            .basins
+            .iter()
+            .map(|basin| around(field, basin, basin.below))
+            .collect();
+        let reaches_rim = |well: &Vec<bool>| well.iter().zip(&rim).any(|(well, rim)| *well && *rim);
+        if wells.iter().any(reaches_rim) {
+            return Err(RatesError::NoFree(settings.free_at));
+        }
+        let passes: Vec<f64> = (0..wells.len())
+            .map(|own| {
+                let others = wells.iter().enumerate().filter(|(k, _)| *k != own);
+                let ends = |id: usize| rim[id] || others.clone().any(|(_, well)| well[id]);
+                let from = field.mesh.holding(&settings.basins[own].at);
+                pass(&field.mesh, &beside, &from, &ends).unwrap_or(0.0)
+            })
+            .collect();
+        field.set_level(passes.iter().copied().fold(f64::INFINITY, f64::min));
+        let mut places = Self {
+            of: vec![None; field.mesh.leaves.len()],
+            count: wells.len() + 1,
+            shared: Vec::new(),
+        };
+        for (number, (basin, pass)) in settings.basins.iter().zip(passes).enumerate() {
+            let limit = basin.below.max(pass - DEEP * settings.kt);
+            let inside = around(field, basin, limit);
+            for id in (0..inside.len()).filter(|&id| inside[id]) {
+                match places.of[id] {
+                    Some(_) => places.shared.push((id, limit)),
+                    None => places.of[id] = Some(number),
+                }
+            }
+        }
+        Ok(places)
+    }
+
+    /// For each corner the place in which its value is given.
+    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
+        let outer = field.mesh.chart.cells[0] * UNITS;
+        let mut pins = vec![None; nodes.len()];
+        for (id, leaf, _) in field.mesh.live() {
+            for (number, &node) in nodes.corners[id].iter().enumerate() {
+                let pin = &mut pins[node as usize];
+                if leaf.corner(number)[0] == outer {
+                    *pin = Some(self.count - 1);
+                } else if pin.is_none() {
+                    *pin = self.of[id];
+                }
+            }
+        }
+        pins
+    }
+
+    /// The rates on a mesh, and the committors of all places but `free`. `beyond` is the occupation
+    /// of the table outside the mesh.
+    pub fn solve(
+        &self,
+        field: &Field,
+        nodes: &Nodes,
+        beyond: f64,
+        earlier: Option<&Earlier>,
+    ) -> Result<(MeshRates, Vec<Vec<f64>>), Unsolved> {
+        let pins = self.pins(field, nodes);
+        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
+        let system = System::new(&field.mesh, nodes, &pinned);
+        let none = vec![0.0; nodes.len()];
+        let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
+        let committors: Vec<Vec<f64>> = (0..self.count - 1)
+            .map(|place| {
+                let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
+                let given: Vec<f64> = pins.iter().map(one).collect();
+                let guess = guesses.as_ref().map_or(&none, |guesses| &guesses[place]);
+                system.solve(&given, &none, guess)
+            })
+            .collect::<Result<_, _>>()?;
+        let copies = field.mesh.chart.copies() as f64;
+        let occupied = |place: usize| -> f64 {
+            // What is another place's in cells at its rim is not counted.
+            let others: Vec<bool> = self
+                .of
+                .iter()
+                .map(|of| of.is_some_and(|of| of != place))
+                .collect();
+            let loads = loads(&field.mesh, nodes, &others);
+            let part = |node: usize| match committors.get(place) {
+                Some(committor) => committor[node],
+                None => 1.0 - committors.iter().map(|h| h[node]).sum::<f64>(),
+            };
+            let sum: f64 = (0..nodes.len()).map(|node| loads[node] * part(node)).sum();
+            copies * sum + if place + 1 == self.count { beyond } else { 0.0 }
+        };
+        let occupations: Vec<f64> = (0..self.count).map(occupied).collect();
+        let mut flows = vec![vec![0.0; self.count]; self.count];
+        for (from, committor) in committors.iter().enumerate() {
+            for (pin, flux) in pins.iter().zip(system.fluxes(committor)) {
+                if let Some(to) = pin.filter(|&to| to != from) {
+                    flows[from][to] -= flux;
+                }
+            }
+        }
+        let last = self.count - 1;
+        // As symmetric as they are without rounding.
+        let flow = |i: usize, j: usize| match (i == last, j == last) {
+            (true, true) => 0.0,
+            (true, false) => flows[j][i],
+            (false, true) => flows[i][j],
+            (false, false) => 0.5 * (flows[i][j] + flows[j][i]),
+        };
+        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let rate = |from: usize, to: usize| (scale * flow(from, to) / occupations[from]).max(0.0);
+        let all: f64 = occupations.iter().sum();
+        let found = MeshRates {
+            rates: (0..self.count)
+                .map(|from| (0..self.count).map(|to| rate(from, to)).collect())
+                .collect(),
+            occupation: occupations.iter().map(|own| own / all).collect(),
+            unknowns: system.len(),
+            error: f64::INFINITY,
+        };
+        Ok((found, committors))
+    }
+
+    /// Bounds of the rates out of each place, then of those from each place to each other, divided
+    /// by D (1/m^2), and what refining the cells may bring to them. `beyond` is the occupation of
+    /// the table outside the mesh.
+    pub fn bounds(&self, field: &Field, nodes: &Nodes, beyond: f64) -> Result<Step, Unsolved> {
+        let asked = Asked {
+            field,
+            nodes,
+            pins: &self.pins(field, nodes),
+            rim: self.count - 1,
+            left_out: &vec![false; field.mesh.leaves.len()],
+        };
+        let bracket = Bracket::new(&asked, self.count)?;
+        let copies = field.mesh.chart.copies() as f64;
+        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let places = 0..self.count;
+        let held: Vec<Bounded> = places
+            .clone()
+            .map(|place| {
+                let rest = if place + 1 == self.count { beyond } else { 0.0 };
+                let Bounded { value, ends } = bracket.occupation(place);
+                let whole = |part: f64| copies * part + rest;
+                Bounded {
+                    value: whole(value),
+                    ends: ends.map(whole),
+                }
+            })
+            .collect();
+        let over = |[lower, upper]: [f64; 2], place: usize| {
+            let [least, most] = held[place].ends;
+            [scale * lower / most, scale * upper / least]
+        };
+        let mut bounds: Vec<[f64; 2]> = places
+            .clone()
+            .map(|place| over(bracket.capacity(place), place))
+            .collect();
+        let mut shares = bracket.shares.clone();
+        if !self.shared.is_empty() {
+            // Basins that the mesh does not tell apart.
+            bounds[0] = [0.0, f64::INFINITY];
+            for &(cell, _) in &self.shared {
+                shares[cell] = f64::MAX.sqrt();
+            }
+        }
+        let widest = |far: f64, [lower, upper]: &[f64; 2]| far.max(upper / lower - 1.0);
+        let error = bounds[..self.count - 1].iter().fold(0.0, widest);
+        let all: f64 = held.iter().map(|own| own.value).sum();
+        let rates = MeshRates {
+            rates: places
+                .clone()
+                .map(|i| {
+                    let rate = |j| scale * bracket.flow(i, j).value / held[i].value;
+                    places.clone().map(rate).collect()
+                })
+                .collect(),
+            occupation: held.iter().map(|own| own.value / all).collect(),
+            unknowns: nodes.len(),
+            error,
+        };
+        for i in places.clone() {
+            bounds.extend(places.clone().map(|j| over(bracket.flow(i, j).ends, i)));
+        }
+        Ok(Step {
+            bounds,
+            deciding: self.count - 1,
+            unknowns: nodes.len(),
+            shares,
+            rates: Some(rates),
+        })
+    }
+}

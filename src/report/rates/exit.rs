@@ -1,0 +1,144 @@
+//! Exits from a start.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::{Motion, NO_BOUNDS, ON_THE_MESH, SCOPE, apart, area, finite};
+use crate::design::Design;
+use crate::dynamics::exits::ExitRuns;
+use crate::kinetics::exit::{Exit, ExitSettings};
+use crate::report::values;
+use crate::units::si;
+
+/// Bounds of the mean exit time (s) that are numbers.
+fn bounds(motion: &Motion, exit: &Exit) -> Option<[f64; 2]> {
+    let bounds = exit.bracket()?.map(|end| end / motion.diffusion);
+    bounds.iter().all(|end| end.is_finite()).then_some(bounds)
+}
+
+/// An exit as an object.
+pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
+    let finest = exit.finest();
+    let [time, bound] = exit.spread();
+    json!({
+        "diffusion_m2_s": motion.diffusion,
+        "mean_exit_s": finest.time / motion.diffusion,
+        "mean_exit_bounds_s": bounds(motion, exit),
+        // Proved are the inequalities, not the integrals over cells.
+        "bounds_hold": exit.bracket().map(|_| "on the mesh"),
+        "exits": {"bound": finest.bound, "free": 1.0 - finest.bound},
+        "kt_J": asked.kt,
+        "drag_per_s": motion.drag,
+        "start": values::pose(&asked.start),
+        "basin_energy_J": asked.basin_energy,
+        "free_at_m": asked.free_at,
+        "mesh": {
+            "unknowns": finest.unknowns,
+            "mean_exit_spread": time,
+            "exits_spread": bound,
+        },
+    })
+}
+
+/// An exit in a few lines.
+pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit: &Exit) -> String {
+    let finest = exit.finest();
+    let [time, bound] = exit.spread().map(|spread| 100.0 * spread);
+    let mean = finest.time / motion.diffusion;
+    let share = 100.0 * finest.bound;
+    let [x, y, theta] = asked.start.to_array();
+    let mut text = format!(
+        "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first in \
+         {share:.1} % of all cases, free first in {:.1} %\n",
+        design.name,
+        si(mean, "s", 3),
+        100.0 - share,
+    );
+    let _ = writeln!(
+        text,
+        "  kT = {}, drag {} /s: D = {}; the mean exit time times D is {}",
+        si(asked.kt, "J", 4),
+        motion.drag,
+        si(motion.diffusion, "m²/s", 4),
+        area(finest.time),
+    );
+    let _ = writeln!(
+        text,
+        "  bound: U < {} in the basin of the bond or of one of its copies; free: centres {} apart",
+        si(asked.basin_energy, "J", 4),
+        si(asked.free_at, "m", 4),
+    );
+    let _ = writeln!(
+        text,
+        "  the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
+         points in the shares",
+        finest.unknowns,
+    );
+    let _ = match bounds(motion, exit) {
+        Some([lower, upper]) => writeln!(
+            text,
+            "  from the well about the start the mean exit time is between {} and {} ({} apart);\n  \
+             {ON_THE_MESH}",
+            si(lower, "s", 3),
+            si(upper, "s", 3),
+            apart([lower, upper]),
+        ),
+        None => writeln!(text, "  {NO_BOUNDS}"),
+    };
+    text.push_str(SCOPE);
+    text
+}
+
+/// What moving tiles say of an exit, as an object; ratios are theirs over the overdamped motion's.
+pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
+    let mean = exit.finest().time / motion.diffusion;
+    let [bound, free] = runs.ends;
+    json!({
+        "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
+        "mean_exit_s": finite(runs.time[0]),
+        "standard_error_s": finite(runs.time[1]),
+        "ratio": finite(runs.time[0] / mean),
+        "bound": finite(bound as f64 / (bound + free) as f64),
+        "kinetic_over_kt": finite(runs.warmth),
+    })
+}
+
+/// The kinetic energy of moving tiles may differ from that of kT by this share.
+const WARM: f64 = 0.1;
+
+/// What moving tiles say of an exit, in a few lines.
+pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
+    let mean = exit.finest().time / motion.diffusion;
+    let [bound, free] = runs.ends;
+    let [time, error] = runs.time;
+    let mut text = format!(
+        "check: {} rigid bodies with inertia take {} +- {} on average, {:.2} +- {:.2} times as \
+         long; bound first in {:.0} % ({bound} of {})\n",
+        bound + free + runs.given_up,
+        si(time, "s", 3),
+        si(error, "s", 2),
+        time / mean,
+        error / mean,
+        100.0 * bound as f64 / (bound + free) as f64,
+        bound + free,
+    );
+    if runs.given_up > 0 {
+        let _ = writeln!(
+            text,
+            "  {} were given up under way: the mean is too short",
+            runs.given_up
+        );
+    }
+    let _ = writeln!(
+        text,
+        "  their kinetic energy is {:.2} times that of kT{}",
+        runs.warmth,
+        if (runs.warmth - 1.0).abs() > WARM {
+            ": knocks take energy that the shaking does not give back, so no temperature exists"
+        } else {
+            ""
+        },
+    );
+    text
+}

@@ -1,0 +1,65 @@
+//! Exits and rates of overdamped motion, for people and for programs.
+
+mod exit;
+mod table;
+
+pub use exit::{check_entry, check_summary, exit_entry, exit_summary};
+pub use table::{Place, Table};
+
+use crate::design::Design;
+
+/// Overdamped motion on an air table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Drag rate c / mass (1/s).
+    pub drag: f64,
+    /// D = kT / c (m^2/s).
+    pub diffusion: f64,
+}
+
+impl Motion {
+    /// Of a design's moving tile at kT (J) with this drag rate (1/s).
+    pub fn new(design: &Design, kt: f64, drag: f64) -> Self {
+        Self {
+            drag,
+            diffusion: kt / (drag * design.pair.moving.mass),
+        }
+    }
+}
+
+/// Where kT means something.
+const SCOPE: &str = "  overdamped motion, knocks without loss: drag of 50 /s and more; at less \
+                     drag, or where knocks\n  take energy that shaking does not give back, there \
+                     is no such kT\n";
+
+/// What is said of bounds.
+const ON_THE_MESH: &str = "bounds hold on the mesh (Dirichlet, Thomson); what its integrals over \
+                           cells are off by is not bounded";
+const NO_BOUNDS: &str = "no bounds: they need convex outlines, and a start in a well";
+
+/// How far apart bounds are, in percent of the lower one.
+fn apart([lower, upper]: [f64; 2]) -> String {
+    match lower > 0.0 {
+        true => format!("{:.1} %", 100.0 * (upper / lower - 1.0)),
+        false => "any factor".to_owned(),
+    }
+}
+
+/// A rate with three digits.
+fn per_second(rate: f64) -> String {
+    format!("{rate:.2e} /s")
+}
+
+/// A number that JSON has.
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// An area with four digits; small and large ones with a power of ten, for m² takes no prefix well.
+fn area(value: f64) -> String {
+    if (1e-4..1e4).contains(&value) {
+        format!("{value:.4} m²")
+    } else {
+        format!("{value:.3e} m²")
+    }
+}
