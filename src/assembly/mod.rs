@@ -148,6 +148,18 @@ impl TileSet {
         table
     }
 
+    /// The same with 0 where glues repel, for xgrow: it adds and takes away rates as they change, and
+    /// beside that of a repelled tile, which leaves at once either way, sums lose the slow ones of
+    /// growth.
+    pub fn without_repulsion(&self) -> Self {
+        let mut set = self.clone();
+        set.links.retain(|link| link.2 > 0.0);
+        for glue in &mut set.glues {
+            glue.strength = glue.strength.max(0.0);
+        }
+        set
+    }
+
     /// The least strength that holds a tile; 2, as is usual, where the set does not say.
     pub fn tau(&self) -> f64 {
         self.tau.unwrap_or(2.0)

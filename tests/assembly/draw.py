@@ -13,7 +13,7 @@ from study import EXCESS, NAMES, TREE, blocks_of, ideal, whole  # noqa: E402
 
 
 def show(axis, grown, text, title):
-    """A canvas in the colours of its tiles, wrong contacts in black."""
+    """A canvas in the colours of its tiles; tiles with errors that are there to stay have a cross."""
     lines = [it for it in text.splitlines() if it.startswith("- {name:") and "edges:" in it]
     colours = [re.search(r'color: "(#\w{6})"', line) for line in lines]
     colours = [it[1] if it else "#888888" for it in colours]
@@ -22,18 +22,18 @@ def show(axis, grown, text, title):
     low, high = (rows.min(), columns.min()), (rows.max() + 1, columns.max() + 1)
     inside = grown.canvas[low[0] : high[0], low[1] : high[1]]
     axis.imshow(palette[inside], interpolation="nearest")
-    wrong = np.array(grown.places).reshape(-1, 2) - low
+    wrong = np.array(grown.settled).reshape(-1, 2) - low
     axis.plot(wrong[:, 1], wrong[:, 0], "kx", markersize=4, markeredgewidth=1)
     axis.set_title(title, fontsize=9)
     axis.set_axis_off()
 
 
-def contacts(count):
-    return "1 wrong contact" if count == 1 else f"{count} wrong contacts"
+def errors(grown):
+    return "1 error" if len(grown.settled) == 1 else f"{len(grown.settled)} errors"
 
 
 def save(figure, path):
-    figure.savefig(path, dpi=110, metadata={"Software": None})
+    figure.savefig(path, dpi=110, bbox_inches="tight", metadata={"Software": None})
     plt.close(figure)
 
 
@@ -45,15 +45,15 @@ def draw(program, folder, out):
         report = at_growth(program, folder / "drawn", given, EXCESS)
         path = folder / "drawn" / "assembly.yaml"
         grown = Grown(path, size=whole(report))
-        title = f"{name}: {grown.count} tiles,\n{contacts(grown.errors)}"
+        title = f"{name}: {grown.count} tiles,\n{errors(grown)}"
         show(axis, grown, path.read_text(), title)
     save(figure, out / "grown.png")
-    figure, axes = plt.subplots(2, 3, figsize=(9, 6.4), constrained_layout=True)
-    for row, wrong in zip(axes, (0.25, 0.5)):
-        for axis, k in zip(row, (1, 2, 3)):
+    figure, axes = plt.subplots(2, 2, figsize=(7.5, 7.5), constrained_layout=True)
+    for row, wrong in zip(axes, (0.0, 0.5)):
+        for axis, k in zip(row, (1, 2)):
             text = blocks_of(program, folder, k)
             path = ideal(folder, text, 8.0, 16.0 - EXCESS, wrong)
             grown = Grown(path, size=400 * k * k, plain=True)
-            title = f"wrong {wrong}, blocks {k} x {k}: {contacts(grown.errors)}"
+            title = f"wrong {wrong}, blocks {k} x {k}: {errors(grown)}"
             show(axis, grown, text, title)
     save(figure, out / "proofreading.png")

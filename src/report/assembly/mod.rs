@@ -116,7 +116,10 @@ pub fn files(assembly: &Assembly, command: &str) -> Files {
     let engine = assembly.built.engine();
     let remarks = text::remarks(assembly);
     add("assembly.yaml", rgrow::write(&engine, &remarks));
-    add("assembly.tiles", xgrow::write(&engine, &remarks));
+    add(
+        "assembly.tiles",
+        xgrow::write(&engine.without_repulsion(), &remarks),
+    );
     add("tileset.yaml", rgrow::write(&assembly.built.set, &[]));
     add("matrix.csv", matrix_csv(assembly));
     let slides = assembly.slides();

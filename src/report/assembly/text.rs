@@ -115,7 +115,7 @@ pub(super) fn remarks(assembly: &Assembly) -> Vec<String> {
             built.shaking.kt, built.shaking.coverage
         ),
         "X is a word on east or north faces, X* its mate on west or south faces;".to_owned(),
-        "wrong meetings have their own energies, below 0 where they repel".to_owned(),
+        "wrong meetings have their own energies, below 0 where they repel (for xgrow 0)".to_owned(),
     ]
 }
 

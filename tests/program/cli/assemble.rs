@@ -78,12 +78,18 @@ fn both_engines_get_the_same_strengths() {
     }
     let table = text(out, "matrix.csv");
     let rows = rows(&table);
-    // Every two of twelve faces once, at their energy.
+    // Every two of twelve faces once, at their energy; for xgrow those that attract.
+    let all = yaml.lines().filter(|line| line.starts_with("- [\""));
+    assert_eq!(all.count(), 12 * 11 / 2);
     let links: Vec<&str> = tiles
         .lines()
         .filter(|line| line.starts_with("g("))
         .collect();
-    assert_eq!(links.len(), 12 * 11 / 2);
+    let attract = |row: &Vec<&str>| row[2..].iter().filter(|it| it.starts_with('-')).count();
+    // Each in two rows, or on the diagonal.
+    let own = (1..13).filter(|k| rows[*k][k + 1].starts_with('-')).count();
+    let count: usize = rows[1..].iter().map(attract).sum();
+    assert_eq!(links.len(), (count - own) / 2);
     for link in links {
         let (at, strength) = link[2..].split_once(")=").unwrap();
         let (a, b) = at.split_once(',').unwrap();
