@@ -114,26 +114,28 @@ impl Contact {
 
     /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
     pub(crate) fn is_clear_by(&self, q: &Configuration, least: f64) -> bool {
+        self.circles_are_clear_by(q, least) || self.hulls_are_clear_by(&Placement::of(q), least)
+    }
+
+    fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
         q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius() >= least
-            || separated(
-                &self.fixed_hull,
-                &self.moving_hull,
-                &Placement::of(q),
-                least,
-            )
+    }
+
+    fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
+        separated(&self.fixed_hull, &self.moving_hull, at, least)
     }
 
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
     fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
-        self.is_clear_by(q, 0.0)
-            || (separated(
-                &self.fixed_core,
-                &self.moving_core,
-                &Placement::of(q),
-                -depth,
-            ) && self.close_parts(q, |fixed, moving| {
-                separated(fixed, moving, &Placement::none(), -depth)
-            }))
+        if self.circles_are_clear_by(q, 0.0) {
+            return true;
+        }
+        let at = Placement::of(q);
+        self.hulls_are_clear_by(&at, 0.0)
+            || (separated(&self.fixed_core, &self.moving_core, &at, -depth)
+                && self.close_parts(&at, |fixed, moving| {
+                    separated(fixed, moving, &Placement::none(), -depth)
+                }))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -141,11 +143,12 @@ impl Contact {
         if q.x.hypot(q.y) >= self.fixed.circumradius() + self.moving.circumradius() {
             return 0.0;
         }
-        if separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q)) >= 0.0 {
+        let at = Placement::of(q);
+        if self.hulls_are_clear_by(&at, 0.0) {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        self.close_parts(q, |fixed, moving| {
+        self.close_parts(&at, |fixed, moving| {
             deepest = deepest.max(-separation(fixed, moving, &Placement::none()));
             true
         });
@@ -156,10 +159,10 @@ impl Contact {
     /// overlap; stops at the first for which it does not.
     fn close_parts(
         &self,
-        q: &Configuration,
+        at: &Placement,
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
-        let (rotation, position) = (q.rotation(), q.position());
+        let Placement { rotation, position } = *at;
         let mut part = ConvexPart::default();
         let mut placed = None;
         self.fixed_tree.near_pairs(
@@ -243,7 +246,10 @@ impl Placement {
 
     /// Of a part given where it lies.
     pub fn none() -> Self {
-        Self::of(&Configuration::new(0.0, 0.0, 0.0))
+        Self {
+            rotation: Rotation2::identity(),
+            position: Vector2::zeros(),
+        }
     }
 
     /// A direction in the part's frame.

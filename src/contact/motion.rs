@@ -81,12 +81,13 @@ impl Contact {
             return !blocked;
         }
         let mut reach = reach / 2.0;
-        let mut level: Vec<(Stretch, Range<usize>)> = Vec::new();
+        let mut level: Vec<([Configuration; 2], Range<usize>)> = Vec::new();
         level.extend(whole.halves().map(|half| (half, 0..open.len())));
         while !level.is_empty() && reach > SHORTEST {
             let mut kept = Vec::new();
             let mut finer = Vec::new();
-            for (stretch, pairs) in &level {
+            for (ends, pairs) in &level {
+                let stretch = Stretch::new(*ends, allowed);
                 let first = kept.len();
                 for &pair in &open[pairs.clone()] {
                     if stretch.motion.separates(parts(pair)) {
@@ -159,9 +160,10 @@ impl Stretch {
         }
     }
 
-    fn halves(&self) -> [Self; 2] {
+    /// The ends of the two halves.
+    fn halves(&self) -> [[Configuration; 2]; 2] {
         let [a, b] = self.ends;
-        [[a, self.middle], [self.middle, b]].map(|ends| Self::new(ends, self.motion.allowed))
+        [[a, self.middle], [self.middle, b]]
     }
 
     /// Whether a fixed part and a moving one overlap by no more than is let pass half way.

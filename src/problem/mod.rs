@@ -166,6 +166,18 @@ impl Problem {
         self.energy.potential.energy(q)
     }
 
+    /// U (J) of many configurations, counted.
+    pub fn energies(&self, qs: &[Configuration]) -> Vec<f64> {
+        self.count(qs.len() as u64);
+        let potential = &self.energy.potential;
+        if qs.len() < WORTH_A_BATCH {
+            return qs.iter().map(|q| potential.energy(q)).collect();
+        }
+        let mut out = vec![0.0; qs.len()];
+        potential.energies(qs, &mut out);
+        out
+    }
+
     /// U (J) and its gradient, counted as one evaluation.
     pub fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
         self.count(1);
