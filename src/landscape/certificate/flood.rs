@@ -76,7 +76,7 @@ pub(super) struct Step {
     pub deed: Deed,
     /// The highest rank so far.
     pub top: u64,
-    /// The highest estimate (J) so far.
+    /// The highest estimate (J) so far, or up to the first pass.
     pub highest: f64,
 }
 
@@ -186,11 +186,13 @@ impl Flood {
         step.deed = Deed::Nothing;
         step.top = step.top.max(entry.rank());
         if self.state[id as usize] & (side | DIVIDE) == 0 {
-            step.highest = step.highest.max(if entry.before() == NONE {
-                unordered(entry.rank())
-            } else {
-                store.leaf(id).known.estimate
-            });
+            if self.pass.is_none() {
+                step.highest = step.highest.max(if entry.before() == NONE {
+                    unordered(entry.rank())
+                } else {
+                    store.leaf(id).known.estimate
+                });
+            }
             if let Some(meeting) = self.meeting(store, id, side) {
                 step.deed = Deed::Divided;
                 self.state[id as usize] |= DIVIDE;

@@ -99,10 +99,8 @@ impl<'q, 'a> Query<'q, 'a> {
             let store = &self.certifier.store;
             let most = SPLITS.max(store.len() / SPLIT_SHARE);
             let mut flood = match last.take() {
-                Some((flood, divided)) if flood.level == level => {
-                    flood.after(store, &divided, &seeds)
-                }
-                _ => Flood::new(store, &seeds, level),
+                Some((flood, divided)) => flood.after(store, &divided, &seeds, level),
+                None => Flood::new(store, &seeds, level),
             };
             let found = flood.rise(store, most);
             let going_on = watch(&Progress {
@@ -118,7 +116,10 @@ impl<'q, 'a> Query<'q, 'a> {
             let mut to_divide = found.divide;
             if pass < level + (1.0 - WORTHWHILE) * self.effort.tolerance {
                 match self.improve(&chain) {
-                    Ok(()) => continue,
+                    Ok(()) => {
+                        last = Some((flood, Vec::new()));
+                        continue;
+                    }
                     Err(blamed) => {
                         to_divide.extend(blamed);
                         to_divide.sort_unstable();

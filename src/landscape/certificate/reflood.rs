@@ -2,8 +2,9 @@
 //!
 //! A flood is a sequence of steps, each of which takes the lowest entry from the queue. After some
 //! leaves have been replaced by their parts the steps are the same up to the first that took an
-//! entry of a replaced leaf, or before which an entry of a part would have been taken. Up to there
-//! they need not be done again: what is found is the same as if all were.
+//! entry of a replaced leaf, or before which an entry of a part would have been taken; where the
+//! level has fallen, up to the first that took an entry of a leaf which it bars. Up to there they
+//! need not be done again: what is found is the same as if all were.
 
 use std::cmp::Reverse;
 
@@ -12,15 +13,26 @@ use super::level::ordered;
 use super::store::Store;
 
 impl Flood {
-    /// Floods for leaves some of which, those in `divided` that do not live any more, were replaced
-    /// by their parts since these rose.
-    pub fn after(self, store: &Store, divided: &[u32], seeds: &Seeds) -> Self {
+    /// Floods up to `level` (J) for leaves some of which, those in `divided` that do not live any
+    /// more, were replaced by their parts since these rose.
+    pub fn after(self, store: &Store, divided: &[u32], seeds: &Seeds, level: f64) -> Self {
         let known = self.state.len();
         let is_new = |seed: &&(u32, f64)| seed.0 as usize >= known;
-        if seeds.from.iter().chain(&seeds.to).any(|seed| is_new(&seed)) {
-            return Self::new(store, seeds, self.level);
+        let seeds_are_known = !seeds.from.iter().chain(&seeds.to).any(|seed| is_new(&seed));
+        // Without a level the ranks are others.
+        let is_lower = self.level < f64::INFINITY && level <= self.level;
+        if !seeds_are_known || (level != self.level && !is_lower) {
+            return Self::new(store, seeds, level);
         }
         let mut flood = self;
+        if level < flood.level {
+            flood.level = level;
+            for (state, lower) in flood.state.iter_mut().zip(store.lowers()) {
+                if *lower > level {
+                    *state |= BARRED;
+                }
+            }
+        }
         flood.extend(store);
         let fresh = known as u32..store.len() as u32;
         let kept = flood.unaffected(store, divided, fresh.clone());
@@ -39,9 +51,12 @@ impl Flood {
         let in_divide = self.divided.iter().copied();
         let in_divide = in_divide.filter(|&step| is_gone(self.steps[step as usize].entry.id()));
         let first = flooded.chain(in_divide).min().unwrap_or(NONE) as usize;
-        let mut kept = first.min(self.steps.len());
+        let is_barred = |id: u32| self.state[id as usize] & BARRED != 0;
+        let steps = &self.steps[..first.min(self.steps.len())];
+        let barred = steps.iter().position(|step| is_barred(step.entry.id()));
+        let mut kept = barred.unwrap_or(steps.len());
         let ranks = self.ranks(store);
-        for id in fresh.filter(|&id| self.state[id as usize] & BARRED == 0) {
+        for id in fresh.filter(|&id| !is_barred(id)) {
             let around = store.leaf(id).neighbours.iter();
             let touched = around.map(|&n| self.time[n as usize]).min().unwrap_or(NONE) as usize;
             if touched < kept {
@@ -69,7 +84,7 @@ impl Flood {
                 self.state[entry.id() as usize] &= !(entry.side() << TOUCHED);
                 return false;
             }
-            store.leaf(entry.id()).live
+            store.leaf(entry.id()).live && self.state[entry.id() as usize] & BARRED == 0
         });
         for step in &undone {
             let id = step.entry.id() as usize;
@@ -151,10 +166,10 @@ mod tests {
                 from: vec![(3, f64::NEG_INFINITY)],
                 to: vec![(900, 0.1), (500, 0.2)],
             };
-            let level = 0.8;
+            let mut level = 0.8;
             let mut flood = Flood::new(&store, &seeds, level);
             let mut spared = 0;
-            for _ in 0..40 {
+            for round in 0..40 {
                 let found = flood.rise(&store, 12);
                 let afresh = Flood::new(&store, &seeds, level).rise(&store, 12);
                 assert_eq!(found.divide, afresh.divide);
@@ -171,7 +186,8 @@ mod tests {
                         store.replace(id, &parts);
                     }
                 }
-                flood = flood.after(&store, &divided, &seeds);
+                level -= if round % 5 == 0 { 0.01 } else { 0.0 };
+                flood = flood.after(&store, &divided, &seeds, level);
                 spared += flood.steps.len();
             }
             assert!(spared > 0);
