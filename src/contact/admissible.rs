@@ -1,6 +1,6 @@
 //! The admissible motion closest to a wanted one: a small quadratic program.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use ordered_float::OrderedFloat;
 
 use super::Constraint;
@@ -17,17 +17,13 @@ pub fn closest_admissible(
     constraints: &[Constraint],
 ) -> Option<(Vector3<f64>, Vec<f64>)> {
     let inverse = metric.try_inverse()?;
+    let norms: Vec<f64> = constraints.iter().map(|c| norm(c, &inverse)).collect();
     let mut working: Vec<usize> = Vec::new();
     let mut point = wanted;
     let mut multipliers = Vec::new();
     for _ in 0..100 {
         let violated = (0..constraints.len())
-            .map(|k| {
-                (
-                    k,
-                    slack(&constraints[k], &point) / norm(&constraints[k], &inverse),
-                )
-            })
+            .map(|k| (k, slack(&constraints[k], &point) / norms[k]))
             .min_by_key(|(_, slack)| OrderedFloat(*slack));
         let scale = 1e-13 * (1.0 + point.norm());
         match violated {
@@ -67,60 +63,113 @@ fn best_subset(
     constraints: &[Constraint],
     working: &[usize],
 ) -> Option<Optimum> {
-    let tolerance = 1e-11 * (1.0 + wanted.norm());
-    let mut best: Option<(f64, Optimum)> = None;
-    for set in subsets(working) {
-        let Some((point, lambda)) = equality_optimum(wanted, inverse, constraints, &set) else {
-            continue;
-        };
-        let feasible = working
-            .iter()
-            .all(|&k| slack(&constraints[k], &point) >= -tolerance);
-        if feasible && lambda.iter().all(|&l| l >= 0.0) {
-            let cost = (point - wanted).norm_squared();
-            if best.as_ref().is_none_or(|b| cost < b.0) {
-                best = Some((cost, (point, set, lambda)));
-            }
-        }
-    }
-    best.map(|(_, optimum)| optimum)
-}
-
-fn subsets(working: &[usize]) -> Vec<Vec<usize>> {
+    let mut search = SubsetSearch {
+        wanted,
+        inverse,
+        constraints,
+        working,
+        tolerance: 1e-11 * (1.0 + wanted.norm()),
+        best: None,
+    };
     let n = working.len();
-    let mut sets = Vec::new();
     for i in 0..n {
-        sets.push(vec![working[i]]);
+        search.look_at([working[i]]);
         for j in i + 1..n {
-            sets.push(vec![working[i], working[j]]);
+            search.look_at([working[i], working[j]]);
             for k in j + 1..n {
-                sets.push(vec![working[i], working[j], working[k]]);
+                search.look_at([working[i], working[j], working[k]]);
             }
         }
     }
-    sets
+    search.best.map(|(_, optimum)| optimum)
 }
 
-fn equality_optimum(
+struct SubsetSearch<'a> {
     wanted: Vector3<f64>,
-    inverse: &Matrix3<f64>,
-    constraints: &[Constraint],
-    set: &[usize],
-) -> Option<(Vector3<f64>, Vec<f64>)> {
-    let m = set.len();
-    let gram = nalgebra::DMatrix::from_fn(m, m, |a, b| {
-        constraints[set[a]]
-            .gradient
-            .dot(&(inverse * constraints[set[b]].gradient))
-    });
-    let missing = nalgebra::DVector::from_fn(m, |a, _| -slack(&constraints[set[a]], &wanted));
-    let scale = (0..m).map(|a| gram[(a, a)]).product::<f64>();
-    if gram.determinant() <= 1e-12 * scale {
-        return None;
+    inverse: &'a Matrix3<f64>,
+    constraints: &'a [Constraint],
+    working: &'a [usize],
+    tolerance: f64,
+    /// With its cost.
+    best: Option<(f64, Optimum)>,
+}
+
+impl SubsetSearch<'_> {
+    /// Keeps the optimum over a subset, taken as equalities, if it is better than all before.
+    fn look_at<const M: usize>(&mut self, set: [usize; M]) {
+        let Some((point, lambda)) = self.equality_optimum(&set) else {
+            return;
+        };
+        let cost = (point - self.wanted).norm_squared();
+        let is_better = self.best.as_ref().is_none_or(|best| cost < best.0);
+        let holds = |&k: &usize| slack(&self.constraints[k], &point) >= -self.tolerance;
+        if is_better && lambda.iter().all(|&l| l >= 0.0) && self.working.iter().all(holds) {
+            let lambda = lambda.iter().copied().collect();
+            self.best = Some((cost, (point, set.to_vec(), lambda)));
+        }
     }
-    let lambda = gram.cholesky()?.solve(&missing);
-    let push: Vector3<f64> = (0..m)
-        .map(|a| constraints[set[a]].gradient * lambda[a])
-        .sum();
-    Some((wanted + inverse * push, lambda.iter().copied().collect()))
+
+    fn equality_optimum<const M: usize>(
+        &self,
+        set: &[usize; M],
+    ) -> Option<(Vector3<f64>, SVector<f64, M>)> {
+        let gradients = set.map(|k| self.constraints[k].gradient);
+        let pushes = gradients.map(|gradient| self.inverse * gradient);
+        let mut gram = SMatrix::<f64, M, M>::from_fn(|a, b| gradients[a].dot(&pushes[b]));
+        let missing =
+            SVector::<f64, M>::from_fn(|a, _| -slack(&self.constraints[set[a]], &self.wanted));
+        let scale = (0..M).map(|a| gram[(a, a)]).product::<f64>();
+        let factor = factored(&mut gram)?;
+        // The determinant is the square of the factor's diagonal.
+        if factor <= 1e-12 * scale {
+            return None;
+        }
+        let lambda = solved(&gram, missing);
+        let push: Vector3<f64> = (0..M).map(|a| gradients[a] * lambda[a]).sum();
+        Some((self.wanted + self.inverse * push, lambda))
+    }
+}
+
+/// Puts Cholesky's factor in the lower half of a symmetric matrix, and returns the determinant;
+/// `None` where the matrix is not positive definite.
+fn factored<const M: usize>(matrix: &mut SMatrix<f64, M, M>) -> Option<f64> {
+    let mut determinant = 1.0;
+    for j in 0..M {
+        let mut pivot = matrix[(j, j)];
+        for k in 0..j {
+            pivot -= matrix[(j, k)] * matrix[(j, k)];
+        }
+        if pivot <= 0.0 || pivot.is_nan() {
+            return None;
+        }
+        determinant *= pivot;
+        let root = pivot.sqrt();
+        matrix[(j, j)] = root;
+        for i in j + 1..M {
+            let mut entry = matrix[(i, j)];
+            for k in 0..j {
+                entry -= matrix[(i, k)] * matrix[(j, k)];
+            }
+            matrix[(i, j)] = entry / root;
+        }
+    }
+    Some(determinant)
+}
+
+/// The solution of the linear equations whose matrix has this Cholesky factor.
+fn solved<const M: usize>(factor: &SMatrix<f64, M, M>, right: SVector<f64, M>) -> SVector<f64, M> {
+    let mut x = right;
+    for i in 0..M {
+        for k in 0..i {
+            x[i] -= factor[(i, k)] * x[k];
+        }
+        x[i] /= factor[(i, i)];
+    }
+    for i in (0..M).rev() {
+        for k in i + 1..M {
+            x[i] -= factor[(k, i)] * x[k];
+        }
+        x[i] /= factor[(i, i)];
+    }
+    x
 }

@@ -4,7 +4,7 @@
 use nalgebra::{Vector2, Vector3};
 use ordered_float::OrderedFloat;
 
-use super::{Contact, TOUCH};
+use super::{Contact, Placement, TOUCH};
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 
@@ -48,12 +48,12 @@ struct Meeting<'a> {
     a: &'a Outline,
     b: &'a Outline,
     /// Where `a` lies in `b`'s frame.
-    pose: Configuration,
+    pose: Placement,
 }
 
 impl Meeting<'_> {
     fn vertex(&self, i: usize) -> Vector2<f64> {
-        self.pose.transform(self.a.vertices()[i])
+        self.pose.position + self.pose.rotation * self.a.vertices()[i]
     }
 
     /// Calls `found(vertex, edge)` for every convex vertex of `a` within `margin` of an edge of
@@ -125,7 +125,7 @@ impl Meeting<'_> {
     /// the vertex.
     fn wedge_is_beyond(&self, i: usize, normal: Vector2<f64>) -> bool {
         let n = self.a.vertices().len();
-        let rotation = self.pose.rotation();
+        let rotation = self.pose.rotation;
         [(i + 1) % n, (i + n - 1) % n].iter().all(|&k| {
             let along = rotation * (self.a.vertices()[k] - self.a.vertices()[i]);
             normal.dot(&along) >= -1e-6 * along.norm()
@@ -153,16 +153,26 @@ enum Facing {
 impl Contact {
     /// The constraint of one vertex and one edge, wherever they are.
     pub fn constraint(&self, touch: Touch, q: &Configuration) -> Constraint {
-        let identity = Configuration::new(0.0, 0.0, 0.0);
-        let (edges, edge_pose, vertices, vertex_pose) = match touch.edge_of {
-            EdgeOf::Fixed => (self.fixed(), identity, self.moving(), *q),
-            EdgeOf::Moving => (self.moving(), *q, self.fixed(), identity),
+        self.constraint_at(touch, &Placement::of(q))
+    }
+
+    fn constraint_at(&self, touch: Touch, moving: &Placement) -> Constraint {
+        let at = |p: Vector2<f64>| moving.position + moving.rotation * p;
+        let (fixed_outline, moving_outline) = (self.fixed(), self.moving());
+        let (normal, start, vertex) = match touch.edge_of {
+            EdgeOf::Fixed => (
+                fixed_outline.normals()[touch.edge],
+                fixed_outline.vertices()[touch.edge],
+                at(moving_outline.vertices()[touch.vertex]),
+            ),
+            EdgeOf::Moving => (
+                moving.rotation * moving_outline.normals()[touch.edge],
+                at(moving_outline.vertices()[touch.edge]),
+                fixed_outline.vertices()[touch.vertex],
+            ),
         };
-        let normal = edge_pose.rotation() * edges.normals()[touch.edge];
-        let start = edge_pose.transform(edges.vertices()[touch.edge]);
-        let vertex = vertex_pose.transform(vertices.vertices()[touch.vertex]);
         let gap = normal.dot(&(vertex - start));
-        let arm = vertex - q.position();
+        let arm = vertex - moving.position;
         let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
         let gradient = match touch.edge_of {
             EdgeOf::Fixed => along,
@@ -181,18 +191,19 @@ impl Contact {
     /// the one that does so most clearly is taken.
     pub fn constraints(&self, q: &Configuration, margin: f64) -> Vec<Constraint> {
         let mut found = Vec::new();
-        if self.clearance_bound(q) > margin {
+        if self.is_clear_by(q, margin.next_up()) {
             return found;
         }
+        let pose = Placement::of(q);
         let on_fixed = Meeting {
             a: self.moving(),
             b: self.fixed(),
-            pose: *q,
+            pose,
         };
         let on_moving = Meeting {
             a: self.fixed(),
             b: self.moving(),
-            pose: q.inverse(),
+            pose: Placement::of(&q.inverse()),
         };
         let touch = |edge_of, edge, vertex| Touch {
             edge_of,
@@ -202,12 +213,16 @@ impl Contact {
         let mut corners: Vec<(usize, usize)> = Vec::new();
         on_fixed.find(
             margin,
-            |vertex, edge| found.push(self.constraint(touch(EdgeOf::Fixed, edge, vertex), q)),
+            |vertex, edge| {
+                found.push(self.constraint_at(touch(EdgeOf::Fixed, edge, vertex), &pose))
+            },
             |vertex, corner| corners.push((vertex, corner)),
         );
         on_moving.find(
             margin,
-            |vertex, edge| found.push(self.constraint(touch(EdgeOf::Moving, edge, vertex), q)),
+            |vertex, edge| {
+                found.push(self.constraint_at(touch(EdgeOf::Moving, edge, vertex), &pose))
+            },
             |_, _| {},
         );
         for (vertex, corner) in corners {
@@ -219,7 +234,7 @@ impl Contact {
                 .map(|edge| touch(EdgeOf::Moving, edge, corner));
             let clearest = by_fixed
                 .chain(by_moving)
-                .map(|touch| self.constraint(touch, q))
+                .map(|touch| self.constraint_at(touch, &pose))
                 .max_by_key(|constraint| OrderedFloat(constraint.gap));
             found.extend(clearest);
         }

@@ -90,22 +90,30 @@ impl Contact {
         let fixed: Vec<[f64; 2]> = self.fixed().vertices().iter().map(seen).collect();
         let mut found = Vec::new();
         // (lateral position, height) of vertices, and of edges that span the lateral position.
-        meet(&moving, &fixed, |vertex, edge| found.push(edge - vertex));
-        meet(&fixed, &moving, |vertex, edge| found.push(vertex - edge));
+        let sideways = |of: &[[f64; 2]]| {
+            let mut sorted = of.to_vec();
+            sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            sorted
+        };
+        meet(&sideways(&moving), &fixed, |vertex, edge| {
+            found.push(edge - vertex);
+        });
+        meet(&sideways(&fixed), &moving, |vertex, edge| {
+            found.push(vertex - edge);
+        });
         found
     }
 }
 
 /// Calls `found(height of vertex, height of edge)` for each vertex and each edge of another polygon
-/// at the same lateral position.
+/// at the same lateral position. The vertices come in the order of their lateral positions.
 fn meet(vertices: &[[f64; 2]], polygon: &[[f64; 2]], mut found: impl FnMut(f64, f64)) {
     for (i, a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
         let (low, high) = (a[0].min(b[0]), a[0].max(b[0]));
-        for [lateral, height] in vertices {
-            if *lateral < low || *lateral > high {
-                continue;
-            }
+        let first = vertices.partition_point(|vertex| vertex[0] < low);
+        let beside = vertices[first..].iter().take_while(|v| v[0] <= high);
+        for [lateral, height] in beside {
             if high > low {
                 let share = (lateral - a[0]) / (b[0] - a[0]);
                 found(*height, a[1] + (b[1] - a[1]) * share);

@@ -113,17 +113,30 @@ impl Contact {
         self.overlaps_at_most(q, TOUCH)
     }
 
+    /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
+    pub(crate) fn is_clear_by(&self, q: &Configuration, least: f64) -> bool {
+        self.circles_are_clear_by(q, least) || self.hulls_are_clear_by(&Placement::of(q), least)
+    }
+
+    fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
+        q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius() >= least
+    }
+
+    fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
+        separated(&self.fixed_hull, &self.moving_hull, at, least)
+    }
+
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
     fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
-        self.clearance_bound(q) >= -depth
-            || (separated(
-                &self.fixed_core,
-                &self.moving_core,
-                &Placement::of(q),
-                -depth,
-            ) && self.close_parts(q, |fixed, moving| {
-                separated(fixed, moving, &Placement::none(), -depth)
-            }))
+        if self.circles_are_clear_by(q, 0.0) {
+            return true;
+        }
+        let at = Placement::of(q);
+        self.hulls_are_clear_by(&at, 0.0)
+            || (separated(&self.fixed_core, &self.moving_core, &at, -depth)
+                && self.close_parts(&at, |fixed, moving| {
+                    separated(fixed, moving, &Placement::none(), -depth)
+                }))
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -131,11 +144,12 @@ impl Contact {
         if q.x.hypot(q.y) >= self.fixed.circumradius() + self.moving.circumradius() {
             return 0.0;
         }
-        if separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q)) >= 0.0 {
+        let at = Placement::of(q);
+        if self.hulls_are_clear_by(&at, 0.0) {
             return 0.0;
         }
         let mut deepest: f64 = 0.0;
-        self.close_parts(q, |fixed, moving| {
+        self.close_parts(&at, |fixed, moving| {
             deepest = deepest.max(-separation(fixed, moving, &Placement::none()));
             true
         });
@@ -146,16 +160,16 @@ impl Contact {
     /// overlap; stops at the first for which it does not.
     fn close_parts(
         &self,
-        q: &Configuration,
+        at: &Placement,
         mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
     ) -> bool {
-        let (rotation, position) = (q.rotation(), q.position());
+        let Placement { rotation, position } = *at;
         let mut part = ConvexPart::default();
         let mut placed = None;
         self.fixed_tree.near_pairs(
             &self.moving_tree,
             &|p| position + rotation * p,
-            0.0,
+            &|_| 0.0,
             &mut |i, j| {
                 let bounds = match placed {
                     Some((k, bounds)) if k == j => bounds,
@@ -178,9 +192,23 @@ pub(crate) fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement
 }
 
 /// Whether the separation is at least `least` (m); looks no farther than the first edge that says
-/// so.
+/// so, and at each edge no farther than the first point that does not.
 fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
-    separations(fixed, moving, at).any(|separation| separation >= least)
+    let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+        let direction = at.direction(normal);
+        let level = normal.dot(&(at.position - point));
+        moving
+            .points
+            .iter()
+            .all(|p| direction.dot(p) + level >= least)
+    };
+    let by_moving = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+        let world = at.rotation * normal;
+        let level = -world.dot(&at.position) - normal.dot(point);
+        fixed.points.iter().all(|x| world.dot(x) + level >= least)
+    };
+    fixed.points.iter().zip(&fixed.normals).any(by_fixed)
+        || moving.points.iter().zip(&moving.normals).any(by_moving)
 }
 
 /// How far (m) each polygon lies outside each edge of the other.
@@ -195,18 +223,15 @@ fn separations<'a>(
     });
     let by_moving = moving.points.iter().zip(&moving.normals);
     let by_moving = by_moving.map(|(point, normal)| {
-        let outside = |x: &Vector2<f64>| normal.dot(&(at.point(x) - point));
-        fixed
-            .points
-            .iter()
-            .map(outside)
-            .fold(f64::INFINITY, f64::min)
+        let world = at.rotation * normal;
+        support(fixed, &world) - world.dot(&at.position) - normal.dot(point)
     });
     by_fixed.chain(by_moving)
 }
 
 /// Where a convex part lies. What is outside it is brought into its own frame, so that the part
 /// need not be moved.
+#[derive(Clone, Copy)]
 pub(crate) struct Placement {
     rotation: Rotation2<f64>,
     position: Vector2<f64>,
@@ -222,12 +247,10 @@ impl Placement {
 
     /// Of a part given where it lies.
     pub fn none() -> Self {
-        Self::of(&Configuration::new(0.0, 0.0, 0.0))
-    }
-
-    /// A point in the part's frame.
-    fn point(&self, p: &Vector2<f64>) -> Vector2<f64> {
-        self.direction(&(p - self.position))
+        Self {
+            rotation: Rotation2::identity(),
+            position: Vector2::zeros(),
+        }
     }
 
     /// A direction in the part's frame.

@@ -1,6 +1,11 @@
 //! Whether a straight motion is free of overlap, from its start to its end and everywhere between.
 
-use super::{Contact, Placement, TOUCH};
+use std::ops::Range;
+
+use nalgebra::Vector2;
+
+use super::tree::Circle;
+use super::{Contact, Placement, TOUCH, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -11,8 +16,8 @@ impl Contact {
     /// Whether the motion from `a` to `b` (straight in x, y and theta, the shorter way round) is
     /// free all along. Both ends are taken to be free.
     ///
-    /// Nothing thin can be stepped over: a stretch is accepted where it
-    /// [stays separated](Self::stays_separated); otherwise it is halved, and the motion refused at
+    /// Nothing thin can be stepped over: a stretch is accepted where all convex parts
+    /// [stay separated](Self::stays_separated); otherwise it is halved, and the motion refused at
     /// the first configuration that overlaps.
     pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
         self.motion_overlaps_at_most(a, b, TOUCH)
@@ -42,23 +47,66 @@ impl Contact {
         // What is closer to an end than its clearance is free, and a motion that brings no point
         // farther than their sum passes from the one's surroundings into the other's.
         clearances[0].max(0.0) + clearances[1].max(0.0) >= reach
-            || self.stretch_overlaps_at_most(a, b, reach, allowed)
+            || reach <= SHORTEST
+            || self.stretches_overlap_at_most([*a, *b], reach, allowed)
     }
 
-    fn stretch_overlaps_at_most(
+    /// Halves the motion where pairs of convex parts are not proved to stay separated, again and
+    /// again, with an eye on these pairs only. All stretches of one length are looked at before any
+    /// shorter one: what blocks a motion is found soon.
+    fn stretches_overlap_at_most(
         &self,
-        a: &Configuration,
-        b: &Configuration,
+        ends: [Configuration; 2],
         reach: f64,
         allowed: f64,
     ) -> bool {
-        if reach <= SHORTEST || self.stays_separated(a, b, allowed) {
+        let whole = Stretch::new(ends, allowed);
+        let hulls = (&self.fixed_hull, &self.moving_hull);
+        let cores = (&self.fixed_core, &self.moving_core);
+        if whole.motion.separates(hulls) {
             return true;
         }
-        let middle = a.interpolate(b, 0.5);
-        self.overlaps_at_most(&middle, allowed)
-            && self.stretch_overlaps_at_most(a, &middle, reach / 2.0, allowed)
-            && self.stretch_overlaps_at_most(&middle, b, reach / 2.0, allowed)
+        if !whole.is_separated_half_way(cores) {
+            return false;
+        }
+        let parts = |[i, j]: [usize; 2]| (&self.fixed.parts()[i], &self.moving.parts()[j]);
+        let mut open: Vec<[usize; 2]> = Vec::new();
+        let blocked = !self.near_pairs(&whole.motion, &mut |i, j| {
+            whole.motion.separates(parts([i, j])) || {
+                open.push([i, j]);
+                whole.is_separated_half_way(parts([i, j]))
+            }
+        });
+        if blocked || open.is_empty() {
+            return !blocked;
+        }
+        let mut reach = reach / 2.0;
+        let mut level: Vec<([Configuration; 2], Range<usize>)> = Vec::new();
+        level.extend(whole.halves().map(|half| (half, 0..open.len())));
+        while !level.is_empty() && reach > SHORTEST {
+            let mut kept = Vec::new();
+            let mut finer = Vec::new();
+            for (ends, pairs) in &level {
+                let stretch = Stretch::new(*ends, allowed);
+                let first = kept.len();
+                for &pair in &open[pairs.clone()] {
+                    if stretch.motion.separates(parts(pair)) {
+                        continue;
+                    }
+                    if !stretch.is_separated_half_way(parts(pair)) {
+                        return false;
+                    }
+                    kept.push(pair);
+                }
+                let pairs = first..kept.len();
+                if !pairs.is_empty() {
+                    finer.extend(stretch.halves().map(|half| (half, pairs.clone())));
+                }
+            }
+            (open, level) = (kept, finer);
+            reach /= 2.0;
+        }
+        true
     }
 
     /// Whether every pair of convex parts is proved to stay separated by the line of one of their
@@ -72,31 +120,63 @@ impl Contact {
     /// `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference point, and a line
     /// of the moving one.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
-        let step = a.step_to(b);
-        let motion = Motion {
-            ends: [Placement::of(a), Placement::of(b)],
-            path: step.xy().norm(),
-            turn: step.z.abs(),
-            allowed,
-        };
-        if motion.separates(&self.fixed_hull, &self.moving_hull) {
-            return true;
-        }
-        let reach = motion.path + motion.turn * self.moving.circumradius() - allowed.min(0.0);
-        let (rotation, position) = (a.rotation(), a.position());
+        let motion = Motion::new([a, b], allowed);
+        motion.separates((&self.fixed_hull, &self.moving_hull))
+            || self.near_pairs(&motion, &mut |i, j| {
+                motion.separates((&self.fixed.parts()[i], &self.moving.parts()[j]))
+            })
+    }
+
+    /// Calls `found` for the pairs of convex parts that may meet in a motion, until it returns
+    /// false; returns whether it never did.
+    fn near_pairs(&self, motion: &Motion, found: &mut impl FnMut(usize, usize) -> bool) -> bool {
+        // From half way no point gets farther than half the motion takes it.
+        let Placement { rotation, position } = motion.middle;
+        let lever = |(centre, radius): &Circle| centre.norm() + radius;
+        let room = (-motion.allowed).max(0.0);
         self.fixed_tree.near_pairs(
             &self.moving_tree,
             &|p| position + rotation * p,
-            reach,
-            &mut |i, j| motion.separates(&self.fixed.parts()[i], &self.moving.parts()[j]),
+            &|circle| (motion.path + motion.turn * lever(circle)) / 2.0 + room,
+            found,
         )
+    }
+}
+
+/// A motion, or a part of one.
+struct Stretch {
+    ends: [Configuration; 2],
+    middle: Configuration,
+    motion: Motion,
+}
+
+impl Stretch {
+    fn new(ends: [Configuration; 2], allowed: f64) -> Self {
+        let [a, b] = &ends;
+        Self {
+            middle: a.interpolate(b, 0.5),
+            motion: Motion::new([a, b], allowed),
+            ends,
+        }
+    }
+
+    /// The ends of the two halves.
+    fn halves(&self) -> [[Configuration; 2]; 2] {
+        let [a, b] = self.ends;
+        [[a, self.middle], [self.middle, b]]
+    }
+
+    /// Whether a fixed part and a moving one overlap by no more than is let pass half way.
+    fn is_separated_half_way(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
+        separated(fixed, moving, &self.motion.middle, -self.motion.allowed)
     }
 }
 
 /// What of a motion counts for proofs of separation.
 struct Motion {
-    /// The moving tile at both ends.
+    /// The moving tile at both ends, and half way.
     ends: [Placement; 2],
+    middle: Placement,
     /// Length of the reference point's way (m).
     path: f64,
     /// Magnitude of the turn (rad).
@@ -106,40 +186,68 @@ struct Motion {
 }
 
 impl Motion {
+    fn new([a, b]: [&Configuration; 2], allowed: f64) -> Self {
+        let step = a.step_to(b);
+        Self {
+            ends: [Placement::of(a), Placement::of(b)],
+            middle: Placement::of(&a.interpolate(b, 0.5)),
+            path: step.xy().norm(),
+            turn: step.z.abs(),
+            allowed,
+        }
+    }
+
     /// Whether the line of one edge keeps a fixed part and a moving one, given in its own frame,
     /// apart throughout.
-    fn separates(&self, fixed: &ConvexPart, moving: &ConvexPart) -> bool {
-        let turn_squared = self.turn * self.turn;
-        let by_fixed = fixed
-            .points
-            .iter()
-            .zip(&fixed.normals)
-            .any(|(point, normal)| {
-                let normals = [0, 1].map(|k| self.ends[k].direction(normal));
-                let levels = [0, 1].map(|k| normal.dot(&(self.ends[k].position - point)));
-                moving.points.iter().all(|v| {
-                    let gap = |k: usize| normals[k].dot(v) + levels[k];
-                    let least = gap(0).min(gap(1)) + self.allowed;
-                    least >= 0.0 && least >= turn_squared * v.norm() / 8.0
-                })
-            });
+    fn separates(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
+        let by_fixed = fixed.points.iter().zip(&fixed.normals);
+        let by_moving = moving.points.iter().zip(&moving.normals);
         by_fixed
-            || moving
-                .points
-                .iter()
-                .zip(&moving.normals)
-                .any(|(point, normal)| {
-                    let level = normal.dot(point);
-                    fixed.points.iter().all(|x| {
-                        let seen = [0, 1].map(|k| self.ends[k].point(x));
-                        let gap = |k: usize| normal.dot(&seen[k]) - level;
-                        let least = gap(0).min(gap(1)) + self.allowed;
-                        let sag = || {
-                            let lever = seen[0].norm().max(seen[1].norm());
-                            (turn_squared * lever + 2.0 * self.turn * self.path) / 8.0
-                        };
-                        least >= 0.0 && least >= sag()
-                    })
-                })
+            .into_iter()
+            .any(|(point, normal)| self.stays_outside_fixed(point, normal, moving))
+            || by_moving
+                .into_iter()
+                .any(|(point, normal)| self.stays_outside_moving(point, normal, fixed))
+    }
+
+    /// Whether a moving part stays beyond the line of a fixed edge.
+    fn stays_outside_fixed(
+        &self,
+        point: &Vector2<f64>,
+        normal: &Vector2<f64>,
+        moving: &ConvexPart,
+    ) -> bool {
+        let turn = self.turn * self.turn;
+        let normals = [0, 1].map(|k| self.ends[k].direction(normal));
+        let levels = [0, 1].map(|k| normal.dot(&(self.ends[k].position - point)) + self.allowed);
+        moving.points.iter().all(|v| {
+            let gap = |k: usize| normals[k].dot(v) + levels[k];
+            let least = gap(0).min(gap(1));
+            // 8 least >= turn^2 |v|, without the root.
+            least >= 0.0 && 64.0 * least * least >= turn * turn * v.norm_squared()
+        })
+    }
+
+    /// Whether a fixed part stays beyond the line of a moving edge.
+    fn stays_outside_moving(
+        &self,
+        point: &Vector2<f64>,
+        normal: &Vector2<f64>,
+        fixed: &ConvexPart,
+    ) -> bool {
+        let turn = self.turn * self.turn;
+        let both = 2.0 * self.turn * self.path;
+        let normals = [0, 1].map(|k| self.ends[k].rotation * normal);
+        let level = normal.dot(point) - self.allowed;
+        let levels = [0, 1].map(|k| -normals[k].dot(&self.ends[k].position) - level);
+        fixed.points.iter().all(|x| {
+            let gap = |k: usize| normals[k].dot(x) + levels[k];
+            let rest = 8.0 * gap(0).min(gap(1)) - both;
+            if rest < 0.0 {
+                return false;
+            }
+            let lever = |k: usize| (x - self.ends[k].position).norm_squared();
+            rest * rest >= turn * turn * lever(0).max(lever(1))
+        })
     }
 }

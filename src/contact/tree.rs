@@ -25,7 +25,12 @@ struct Node {
 pub(super) struct CircleTree {
     nodes: Vec<Node>,
     order: Vec<usize>,
+    /// Of the pieces, by their numbers.
+    circles: Vec<Circle>,
 }
+
+/// A circle: its centre and its radius (m).
+pub(super) type Circle = (Vector2<f64>, f64);
 
 /// A node of a tree and the circle around all its pieces.
 #[derive(Clone, Copy, Debug)]
@@ -58,16 +63,17 @@ impl CircleTree {
     }
 
     /// A tree over circles (centre, radius), of which there is at least one.
-    pub fn new(circles: &[(Vector2<f64>, f64)]) -> Self {
+    pub fn new(circles: &[Circle]) -> Self {
         let mut tree = Self {
             nodes: Vec::new(),
             order: (0..circles.len()).collect(),
+            circles: circles.to_vec(),
         };
         tree.build(circles, 0, circles.len());
         tree
     }
 
-    fn build(&mut self, circles: &[(Vector2<f64>, f64)], first: usize, end: usize) {
+    fn build(&mut self, circles: &[Circle], first: usize, end: usize) {
         let pieces = &mut self.order[first..end];
         let centres = || pieces.iter().map(|&k| circles[k].0);
         let low = centres().fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
@@ -184,48 +190,91 @@ impl CircleTree {
     }
 
     /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
-    /// `place`, that may come within `distance` of each other, until it returns false; returns
-    /// whether it never did.
+    /// `place`, that may come as near to each other as `distance` says of the other's circle, until
+    /// it returns false; returns whether it never did.
     pub fn near_pairs(
         &self,
         other: &Self,
         place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
-        distance: f64,
+        distance: &impl Fn(&Circle) -> f64,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
-        self.near_pairs_below(&self.root(), other, &other.root(), place, distance, found)
+        let search = PairSearch {
+            ours: self,
+            theirs: other,
+            place,
+            distance,
+        };
+        search.below(&self.root(), &search.placed(other.root()), found)
+    }
+}
+
+/// A search for pairs of pieces of two trees.
+struct PairSearch<'a, P, D> {
+    ours: &'a CircleTree,
+    theirs: &'a CircleTree,
+    place: &'a P,
+    distance: &'a D,
+}
+
+/// A branch of the placed tree: where its centre is, and how near (m) another may come to that
+/// without coming near its pieces.
+struct Placed {
+    branch: Branch,
+    centre: Vector2<f64>,
+    reach: f64,
+}
+
+impl<P, D> PairSearch<'_, P, D>
+where
+    P: Fn(Vector2<f64>) -> Vector2<f64>,
+    D: Fn(&Circle) -> f64,
+{
+    fn placed(&self, branch: Branch) -> Placed {
+        Placed {
+            branch,
+            centre: (self.place)(branch.centre),
+            reach: branch.radius + (self.distance)(&(branch.centre, branch.radius)),
+        }
     }
 
-    fn near_pairs_below(
-        &self,
-        a: &Branch,
-        other: &Self,
-        b: &Branch,
-        place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
-        distance: f64,
-        found: &mut impl FnMut(usize, usize) -> bool,
-    ) -> bool {
-        let most = distance + a.radius + b.radius;
-        if (a.centre - place(b.centre)).norm_squared() > most * most {
+    fn below(&self, a: &Branch, b: &Placed, found: &mut impl FnMut(usize, usize) -> bool) -> bool {
+        let most = a.radius + b.reach;
+        if (a.centre - b.centre).norm_squared() > most * most {
             return true;
         }
-        match (self.below(a), other.below(b)) {
-            (Below::Pieces(ours), Below::Pieces(theirs)) => {
-                theirs.iter().all(|&j| ours.iter().all(|&i| found(i, j)))
-            }
+        match (self.ours.below(a), self.theirs.below(&b.branch)) {
+            (Below::Pieces(ours), Below::Pieces(theirs)) => self.among(ours, theirs, found),
             (Below::Branches(ours), theirs)
-                if a.radius >= b.radius || matches!(theirs, Below::Pieces(_)) =>
+                if a.radius >= b.branch.radius || matches!(theirs, Below::Pieces(_)) =>
             {
-                ours.iter()
-                    .all(|a| self.near_pairs_below(a, other, b, place, distance, found))
+                ours.iter().all(|a| self.below(a, b, found))
             }
             (_, Below::Branches(theirs)) => theirs
                 .iter()
-                .all(|b| self.near_pairs_below(a, other, b, place, distance, found)),
-            (Below::Branches(ours), Below::Pieces(_)) => ours
-                .iter()
-                .all(|a| self.near_pairs_below(a, other, b, place, distance, found)),
+                .all(|b| self.below(a, &self.placed(*b), found)),
+            (Below::Branches(ours), Below::Pieces(_)) => {
+                ours.iter().all(|a| self.below(a, b, found))
+            }
         }
+    }
+
+    fn among(
+        &self,
+        ours: &[usize],
+        theirs: &[usize],
+        found: &mut impl FnMut(usize, usize) -> bool,
+    ) -> bool {
+        theirs.iter().all(|&j| {
+            let circle = &self.theirs.circles[j];
+            let centre = (self.place)(circle.0);
+            let reach = circle.1 + (self.distance)(circle);
+            ours.iter().all(|&i| {
+                let (ours, radius) = self.ours.circles[i];
+                let most = radius + reach;
+                (ours - centre).norm_squared() > most * most || found(i, j)
+            })
+        })
     }
 }
 
@@ -252,7 +301,7 @@ mod tests {
             let shift = Vector2::new(0.4, -0.2);
             let gap = |i: usize, j: usize| (a[i].0 - b[j].0 - shift).norm() - a[i].1 - b[j].1;
             let mut pairs = Vec::new();
-            ta.near_pairs(&tb, &|p| p + shift, 0.1, &mut |i, j| {
+            ta.near_pairs(&tb, &|p| p + shift, &|_| 0.1, &mut |i, j| {
                 pairs.push((i, j));
                 true
             });

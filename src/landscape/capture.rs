@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::minimum::{Outcome, drift};
+use super::minimum::{Outcome, Verified, approach};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -43,17 +43,19 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 
 /// Where each far start comes to rest by overdamped motion (mass metric, sliding along contact);
 /// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
-/// corners of both tiles meet, the last check may fail a micrometre from one.
-pub fn ends(problem: &Problem, starts: &FarStarts) -> Vec<Option<Configuration>> {
+/// corners of both tiles meet, the last check may fail a micrometre from one. `known` are minima
+/// that need not be verified again.
+pub fn ends(problem: &Problem, starts: &FarStarts, known: &Verified) -> Vec<Option<Configuration>> {
     (0..starts.count)
         .into_par_iter()
-        .map(
-            |number| match drift(problem, &start(problem, starts, number)) {
+        .map(|number| {
+            let start = start(problem, starts, number);
+            match approach(problem, &start, known).outcome {
                 Outcome::Minimum(found) => Some(found.point.q),
                 Outcome::Stuck(q) => Some(q),
                 Outcome::Free => None,
-            },
-        )
+            }
+        })
         .collect()
 }
 

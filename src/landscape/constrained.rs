@@ -133,10 +133,30 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
     let metric = problem.mass_metric(point.q.theta);
     let wanted = direction * size;
     let margin = reach(problem, &wanted) + MARGIN;
-    let near = constraints(problem, &point.q, margin);
-    let (straight, _) = closest_admissible(wanted, &metric, &near)?;
+    let (straight, settled) = if problem.has_room(&point.q, margin) {
+        (wanted, point.q.moved(wanted))
+    } else {
+        let near = constraints(problem, &point.q, margin);
+        let (straight, _) = closest_admissible(wanted, &metric, &near)?;
+        let settled = slid(problem, point, &straight, (&pressed, margin), size)?;
+        (straight, settled)
+    };
     let promised = point.gradient.dot(&straight);
-    let moved = point.q.moved(straight);
+    let next = Point::new(problem, settled);
+    let is_lower = promised < 0.0 && next.energy <= point.energy + FULFILLED * promised;
+    (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
+}
+
+/// Where a straight step of `size` (m, mass metric) among contacts ends, those pressed on kept closed that
+/// stay within the margin (m); `None` where it does not lead to a free configuration by a free motion.
+fn slid(
+    problem: &Problem,
+    point: &Point,
+    straight: &Vector3<f64>,
+    (pressed, margin): (&[Touch], f64),
+    size: f64,
+) -> Option<Configuration> {
+    let moved = point.q.moved(*straight);
     let closed = if pressed.is_empty() {
         moved
     } else {
@@ -149,12 +169,8 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
         close(problem, &still, &moved).unwrap_or(moved)
     };
     let settled = settle(problem, &closed, size)?;
-    if !problem.motion_overlaps_at_most(&point.q, &settled, GRAZE) {
-        return None;
-    }
-    let next = Point::new(problem, settled);
-    let is_lower = promised < 0.0 && next.energy <= point.energy + FULFILLED * promised;
-    (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
+    let is_free = problem.motion_overlaps_at_most(&point.q, &settled, GRAZE);
+    is_free.then_some(settled)
 }
 
 /// Whether the energy along a step, as energies and slopes at its ends tell of it by the cubic

@@ -19,6 +19,8 @@ const TRY_NEWTON: f64 = 2e-4;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
+/// A minimum this close (m, metric of the space) to a verified one is the same, found again.
+const SAME: f64 = 1e-7;
 /// A configuration is clearly lower than another if its energy is by this fraction.
 const CLEARLY: f64 = 1e-9;
 
@@ -43,29 +45,57 @@ pub struct Descent {
     pub outcome: Outcome,
 }
 
+/// Minima around which all is known to lie higher: a motion that ends in one of them need not look
+/// around again.
+#[derive(Clone, Debug, Default)]
+pub struct Verified(Vec<Configuration>);
+
+impl Verified {
+    /// These minima, and what the problem's symmetries make of them.
+    pub fn new<'a>(problem: &Problem, minima: impl Iterator<Item = &'a Stationary>) -> Self {
+        let images = |minimum: &'a Stationary| {
+            let all = problem.symmetries.iter();
+            all.map(move |symmetry| symmetry.apply(&minimum.point.q))
+        };
+        Self(minima.flat_map(images).collect())
+    }
+
+    fn hold(&self, problem: &Problem, q: &Configuration) -> bool {
+        let is_same = |known: &Configuration| problem.space.distance(known, q) <= SAME;
+        self.0.iter().any(is_same)
+    }
+}
+
 /// Overdamped motion from `start`: `v = -M^-1 grad U`, sliding along contact, until a minimum or
 /// far apart.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
+    descend_among(problem, start, &Verified::default())
+}
+
+/// The same where some minima are known.
+pub fn descend_among(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, |q| problem.space.is_far(q));
+    let outcome = follow(problem, &mut way, known, |q| problem.space.is_far(q));
     Descent { way, outcome }
 }
 
 /// Where overdamped motion from `start` leads: into a minimum or over the table's rim.
 pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
-    approach(problem, start).outcome
+    approach(problem, start, &Verified::default()).outcome
 }
 
-/// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim.
-pub fn approach(problem: &Problem, start: &Configuration) -> Descent {
+/// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim, where
+/// some minima are known.
+pub fn approach(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, |q| !problem.space.contains(q));
+    let outcome = follow(problem, &mut way, known, |q| !problem.space.contains(q));
     Descent { way, outcome }
 }
 
 fn follow(
     problem: &Problem,
     way: &mut Vec<Point>,
+    known: &Verified,
     is_free: impl Fn(&Configuration) -> bool,
 ) -> Outcome {
     let mut size = LONGEST_STEP;
@@ -85,7 +115,7 @@ fn follow(
         if size < newton_below {
             // Ever finer, so that a failing attempt costs little.
             newton_below = size / 8.0;
-            if let Some(found) = verified_minimum(problem, way) {
+            if let Some(found) = verified_minimum(problem, way, known) {
                 return Outcome::Minimum(Box::new(found));
             }
         }
@@ -104,7 +134,11 @@ fn follow(
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free
 /// configuration around it lies lower. Where one does, the way goes on from there.
-fn verified_minimum(problem: &Problem, way: &mut Vec<Point>) -> Option<Stationary> {
+fn verified_minimum(
+    problem: &Problem,
+    way: &mut Vec<Point>,
+    known: &Verified,
+) -> Option<Stationary> {
     let here = *way.last()?;
     let found = stationary::minimum(problem, &here.q)?;
     let noise = problem.potential().noise() * found.point.energy.abs();
@@ -112,7 +146,9 @@ fn verified_minimum(problem: &Problem, way: &mut Vec<Point>) -> Option<Stationar
     if !near || found.point.energy > here.energy + noise || !problem.is_free(&found.point.q) {
         return None;
     }
-    if let Some(lower) = lower_neighbour(problem, &found.point) {
+    if !known.hold(problem, &found.point.q)
+        && let Some(lower) = lower_neighbour(problem, &found.point)
+    {
         way.push(lower);
         return None;
     }

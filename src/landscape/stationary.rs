@@ -315,18 +315,27 @@ impl<'a> Surface<'a> {
             return Some(Vec::new());
         }
         let h = DIFFERENCE;
-        let at = |step: Vector3<f64>| {
-            let q = self.retract(&point.q.moved(step))?;
-            Some(self.problem.energy(&q))
-        };
-        let mut hessian = DMatrix::zeros(n, n);
+        let mut steps = Vec::new();
         for i in 0..n {
-            let both = at(tangent[i] * h)? + at(tangent[i] * -h)?;
-            hessian[(i, i)] = (both - 2.0 * point.energy) / (h * h);
+            steps.extend([tangent[i] * h, tangent[i] * -h]);
             for j in 0..i {
                 let (sum, difference) = (tangent[i] + tangent[j], tangent[i] - tangent[j]);
-                let mixed =
-                    at(sum * h)? + at(sum * -h)? - at(difference * h)? - at(difference * -h)?;
+                steps.extend([sum * h, sum * -h, difference * h, difference * -h]);
+            }
+        }
+        let places: Option<Vec<Configuration>> = steps
+            .into_iter()
+            .map(|step| self.retract(&point.q.moved(step)))
+            .collect();
+        // Asked for together: they share the vectors of the potential's batches.
+        let mut energies = self.problem.energies(&places?).into_iter();
+        let mut next = || energies.next().unwrap_or(f64::NAN);
+        let mut hessian = DMatrix::zeros(n, n);
+        for i in 0..n {
+            let both = next() + next();
+            hessian[(i, i)] = (both - 2.0 * point.energy) / (h * h);
+            for j in 0..i {
+                let mixed = next() + next() - next() - next();
                 hessian[(i, j)] = mixed / (4.0 * h * h);
                 hessian[(j, i)] = hessian[(i, j)];
             }

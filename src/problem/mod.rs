@@ -23,6 +23,9 @@ pub use symmetry::Symmetry;
 /// wait for each other.
 const COUNTERS: usize = 64;
 
+/// Fewer configurations are asked for one by one; the bits are the same.
+const WORTH_A_BATCH: usize = 5;
+
 #[repr(align(128))]
 #[derive(Default)]
 struct Counter(AtomicU64);
@@ -171,10 +174,34 @@ impl Problem {
         self.energy.potential.energy(q)
     }
 
+    /// U (J) of many configurations, counted.
+    pub fn energies(&self, qs: &[Configuration]) -> Vec<f64> {
+        self.count(qs.len() as u64);
+        let potential = &self.energy.potential;
+        if qs.len() < WORTH_A_BATCH {
+            return qs.iter().map(|q| potential.energy(q)).collect();
+        }
+        let mut out = vec![0.0; qs.len()];
+        potential.energies(qs, &mut out);
+        out
+    }
+
     /// U (J) and its gradient, counted as one evaluation.
     pub fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
         self.count(1);
         self.energy.potential.energy_and_gradient(q)
+    }
+
+    /// The same of many configurations; `out` has the length of `qs`.
+    pub fn energies_and_gradients(&self, qs: &[Configuration], out: &mut [(f64, Vector3<f64>)]) {
+        self.count(qs.len() as u64);
+        if qs.len() >= WORTH_A_BATCH {
+            self.energy.potential.energies_and_gradients(qs, out);
+            return;
+        }
+        for (q, result) in qs.iter().zip(out) {
+            *result = self.energy.potential.energy_and_gradient(q);
+        }
     }
 
     /// How many energies have been computed so far.
@@ -225,6 +252,13 @@ impl Problem {
         self.contact
             .as_ref()
             .map_or(f64::INFINITY, |contact| contact.clearance_bound(q))
+    }
+
+    /// Whether a cheap test says that the tiles are at least `least` (m) apart.
+    pub(crate) fn has_room(&self, q: &Configuration, least: f64) -> bool {
+        self.contact
+            .as_ref()
+            .is_none_or(|contact| contact.is_clear_by(q, least))
     }
 
     /// The same as [`Self::motion_is_free`], for ends whose clearances are known to be at least

@@ -63,7 +63,8 @@ impl<'a> Search<'a> {
                 count: FAR_STARTS,
                 seed: self.query.settings.seed,
             };
-            let ends = capture::ends(self.problem, &far_starts);
+            let known = survey.verified(self.problem);
+            let ends = capture::ends(self.problem, &far_starts, &known);
             capture::arrivals(self.problem, &far_starts, &ends)
         });
         survey.add_arrivals(self.problem, arrivals, &self.roadmap.edges);

@@ -5,7 +5,6 @@ use std::borrow::Borrow;
 
 use super::columns::{self, Cell, Column, Output, StateRow};
 use super::names::place_name;
-use super::values::positive_zero;
 use crate::design::Design;
 use crate::landscape::{Barrier, Pathway, PathwayPoint};
 use crate::pipeline::Analysis;
@@ -149,15 +148,44 @@ pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    let rounded = positive_zero(rounded);
-    let plain = rounded.to_string();
-    let scientific = format!("{rounded:e}");
+    let text = format!("{value:.9e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let unsigned = mantissa.trim_start_matches('-');
+    let digits = unsigned.replace('.', "");
+    let digits = digits.trim_end_matches('0');
+    if digits.is_empty() {
+        return "0".to_owned();
+    }
+    let sign = if unsigned.len() < mantissa.len() {
+        "-"
+    } else {
+        ""
+    };
+    let (first, rest) = digits.split_at(1);
+    let point = if rest.is_empty() { "" } else { "." };
+    let scientific = format!("{sign}{first}{point}{rest}e{exponent}");
+    let plain = plain(sign, digits, exponent);
     if scientific.len() < plain.len() {
         scientific
     } else {
         plain
     }
+}
+
+/// Digits with the decimal point `exponent` places behind the first of them.
+fn plain(sign: &str, digits: &str, exponent: i32) -> String {
+    let before = exponent + 1;
+    if before <= 0 {
+        let zeros = before.unsigned_abs() as usize;
+        return format!("{sign}0.{:0<zeros$}{digits}", "");
+    }
+    let before = before as usize;
+    if before >= digits.len() {
+        return format!("{sign}{digits:0<before$}");
+    }
+    let (whole, fraction) = digits.split_at(before);
+    format!("{sign}{whole}.{fraction}")
 }
 
 #[cfg(test)]
@@ -187,6 +215,11 @@ mod tests {
         assert_eq!(number(0.43), "0.43");
         assert_eq!(number(0.1 + 0.2), "0.3");
         assert_eq!(number(-1.234_567_890_123_4e-9), "-1.23456789e-9");
+        assert_eq!(number(1200.0), "1200");
+        assert_eq!(number(3e12), "3e12");
+        assert_eq!(number(12.5), "12.5");
+        assert_eq!(number(-0.001_25), "-0.00125");
+        assert_eq!(number(9.999_999_999_99), "10");
     }
 
     #[test]

@@ -46,6 +46,8 @@ pub struct EdgeSettings {
 
 /// Pairs whose edges are collected together.
 const TOGETHER: usize = 1 << 20;
+/// Pairs whose energies are asked for together.
+const SIDE_BY_SIDE: usize = 64;
 
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
@@ -59,21 +61,30 @@ pub fn edges(
         .par_iter()
         .map(|milestone| problem.clearance_bound(&milestone.configuration))
         .collect();
-    let edge = |&(from, to): &(u32, u32)| {
-        let ends = [from, to].map(|end| &milestones[end as usize]);
+    let is_free = |&(from, to): &(u32, u32)| {
+        let ends = [from, to].map(|end| &milestones[end as usize].configuration);
         let clearances = [from, to].map(|end| clearances[end as usize]);
-        let [a, b] = ends.map(|end| &end.configuration);
-        let free = problem.known_motion_is_free([a, b], clearances);
-        free.then(|| Edge {
-            from,
-            to,
-            costs: costs(problem, ends, settings),
-        })
+        problem.known_motion_is_free(ends, clearances)
+    };
+    let weighed = |some: &[(u32, u32)]| {
+        let free: Vec<(u32, u32)> = some.iter().copied().filter(is_free).collect();
+        let ends: Vec<[&Milestone; 2]> = free
+            .iter()
+            .map(|&(from, to)| [from, to].map(|end| &milestones[end as usize]))
+            .collect();
+        let profiles = Profile::of_many(problem, &ends, &settings.tolerance);
+        let costs = profiles.iter().zip(ends);
+        let costs = costs.map(|(profile, ends)| costs_of_profile(problem, profile, ends, settings));
+        let edge = |((from, to), costs)| Edge { from, to, costs };
+        free.into_iter().zip(costs).map(edge).collect::<Vec<_>>()
     };
     let mut edges = Vec::with_capacity(pairs.len());
     // In parts, as collecting in parallel takes twice the memory.
     for part in pairs.chunks(TOGETHER) {
-        let found: Vec<Edge> = part.par_iter().with_min_len(64).filter_map(edge).collect();
+        let found: Vec<Edge> = part
+            .par_chunks(SIDE_BY_SIDE)
+            .flat_map_iter(weighed)
+            .collect();
         edges.extend(found);
     }
     edges
@@ -82,6 +93,15 @@ pub fn edges(
 /// The costs of the straight motion between two milestones.
 pub fn costs(problem: &Problem, [a, b]: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
     let profile = Profile::new(problem, a, b, &settings.tolerance);
+    costs_of_profile(problem, &profile, [a, b], settings)
+}
+
+fn costs_of_profile(
+    problem: &Problem,
+    profile: &Profile,
+    [a, b]: [&Milestone; 2],
+    settings: &EdgeSettings,
+) -> EdgeCosts {
     let peak = profile.peak();
     let work = profile.work();
     let length = problem.space.distance(&a.configuration, &b.configuration);

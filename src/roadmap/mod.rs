@@ -5,6 +5,7 @@ pub mod edge;
 pub mod milestone;
 pub mod neighbour;
 pub mod profile;
+mod stretch;
 
 use nalgebra::Vector3;
 

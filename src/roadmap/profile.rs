@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
-use crate::configuration::Configuration;
+use super::Milestone;
+use super::stretch::{Motion, Stretch};
 use crate::problem::Problem;
-use crate::roadmap::Milestone;
 
 /// How closely a profile follows the energy.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -61,47 +61,82 @@ impl Profile {
         b: &Milestone,
         tolerance: &ProfileTolerance,
     ) -> Self {
-        let step = a.configuration.step_to(&b.configuration);
-        let end = |t: f64, milestone: &Milestone| Knot {
-            t,
-            energy: milestone.energy,
-            slope: milestone.gradient.dot(&step),
-        };
-        let mut profile = Self {
-            knots: Vec::with_capacity(16),
-        };
-        profile.knots.push(end(0.0, a));
-        let whole = Motion {
-            problem,
-            from: a.configuration,
-            step,
-            displacement: problem.potential().displacement(step),
-            tolerance,
-        };
-        profile.refine(&whole, [end(0.0, a), end(1.0, b)], f64::INFINITY, 0);
-        profile
+        let mut one = Self::of_many(problem, &[[a, b]], tolerance);
+        one.pop().expect("one profile for one motion")
     }
 
-    /// `fourth` is a bound of the fourth derivative that holds on a longer stretch.
-    fn refine(&mut self, motion: &Motion, [a, b]: [Knot; 2], fourth: f64, depth: u32) {
-        let mut fourth = fourth;
-        if depth >= DEEPEST || motion.is_settled(&a, &b, &mut fourth) {
-            self.finish(&a, &b);
-            return;
+    /// Samples many motions at once, so that the energies asked for share the vectors of the
+    /// potential's batches; each is sampled as it would be alone.
+    pub fn of_many(
+        problem: &Problem,
+        pairs: &[[&Milestone; 2]],
+        tolerance: &ProfileTolerance,
+    ) -> Vec<Self> {
+        let motions: Vec<Motion> = pairs
+            .iter()
+            .map(|[a, b]| Motion::new(problem, a, b, tolerance))
+            .collect();
+        let mut open: Vec<Stretch> = (0..pairs.len())
+            .map(|number| Stretch {
+                number,
+                ends: motions[number].ends(pairs[number]),
+                fourth: f64::INFINITY,
+                depth: 0,
+            })
+            .collect();
+        let mut settled: Vec<(usize, [Knot; 2])> = Vec::new();
+        let (mut places, mut known) = (Vec::new(), Vec::new());
+        while !open.is_empty() {
+            open.retain_mut(|stretch| {
+                let is_settled = stretch.depth >= DEEPEST
+                    || motions[stretch.number].is_settled(&stretch.ends, &mut stretch.fourth);
+                if is_settled {
+                    settled.push((stretch.number, stretch.ends));
+                }
+                !is_settled
+            });
+            places.clear();
+            places.extend(open.iter().map(|s| motions[s.number].at(s.middle())));
+            known.resize(places.len(), (0.0, Vector3::zeros()));
+            problem.energies_and_gradients(&places, &mut known);
+            let mut finer = Vec::with_capacity(2 * open.len());
+            for (stretch, (energy, gradient)) in open.iter().zip(&known) {
+                let motion = &motions[stretch.number];
+                let middle = Knot {
+                    t: stretch.middle(),
+                    energy: *energy,
+                    slope: gradient.dot(&motion.step),
+                };
+                let [a, b] = stretch.ends;
+                let halves = [[a, middle], [middle, b]];
+                if stretch.fourth == f64::INFINITY && motion.is_foreseen(&a, &middle, &b) {
+                    settled.extend(halves.map(|half| (stretch.number, half)));
+                } else {
+                    finer.extend(halves.map(|ends| Stretch {
+                        ends,
+                        depth: stretch.depth + 1,
+                        ..*stretch
+                    }));
+                }
+            }
+            open = finer;
         }
-        let middle = motion.knot((a.t + b.t) / 2.0);
-        if fourth == f64::INFINITY && motion.is_foreseen(&a, &middle, &b) {
-            self.finish(&a, &middle);
-            self.finish(&middle, &b);
-            return;
-        }
-        self.refine(motion, [a, middle], fourth, depth + 1);
-        self.refine(motion, [middle, b], fourth, depth + 1);
+        settled.sort_by_key(|(number, [a, _])| (*number, OrderedFloat(a.t)));
+        settled
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(Self::of_stretches)
+            .collect()
     }
 
-    fn finish(&mut self, a: &Knot, b: &Knot) {
-        self.knots.extend(inner_extremes(a, b));
-        self.knots.push(*b);
+    /// From the settled stretches of one motion, in order.
+    fn of_stretches(stretches: &[(usize, [Knot; 2])]) -> Self {
+        let mut knots = Vec::with_capacity(16);
+        knots.push(stretches[0].1[0]);
+        for (_, [a, b]) in stretches {
+            knots.extend(inner_extremes(a, b));
+            knots.push(*b);
+        }
+        Self { knots }
     }
 
     /// The highest knot.
@@ -138,7 +173,7 @@ impl Profile {
 }
 
 /// The cubic through the values and slopes of two knots.
-fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
+pub(super) fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
     let h = b.t - a.t;
     let u = (t - a.t) / h;
     let (u2, u3) = (u * u, u * u * u);
@@ -176,89 +211,4 @@ pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
                 slope: 0.0,
             }
         })
-}
-
-struct Motion<'a> {
-    problem: &'a Problem,
-    from: Configuration,
-    /// The whole motion (m, m, rad).
-    step: Vector3<f64>,
-    /// Displacement of the whole motion, as the potential counts it (m).
-    displacement: f64,
-    tolerance: &'a ProfileTolerance,
-}
-
-impl Motion<'_> {
-    fn at(&self, t: f64) -> Configuration {
-        self.from.moved(self.step * t)
-    }
-
-    fn knot(&self, t: f64) -> Knot {
-        let (energy, gradient) = self.problem.energy_and_gradient(&self.at(t));
-        let slope = gradient.dot(&self.step);
-        Knot { t, energy, slope }
-    }
-
-    /// Error (J) allowed on a stretch.
-    fn allowed(&self, a: &Knot, b: &Knot) -> f64 {
-        let highest = a.energy.max(b.energy);
-        self.tolerance.absolute + self.tolerance.relative * highest.abs()
-    }
-
-    /// Whether a stretch shorter than the energy's own features has in its middle what the cubic
-    /// through its ends says.
-    fn is_foreseen(&self, a: &Knot, middle: &Knot, b: &Knot) -> bool {
-        let length = self.displacement * (b.t - a.t);
-        length <= self.problem.potential().feature_length()
-            && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
-    }
-
-    /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
-    /// where that is worth while.
-    fn is_settled(&self, a: &Knot, b: &Knot, fourth: &mut f64) -> bool {
-        let allowed = self.allowed(a, b);
-        let duration = b.t - a.t;
-        let is_close =
-            |fourth: f64| fourth * (self.displacement * duration).powi(4) <= 384.0 * allowed;
-        if is_close(*fourth) {
-            return true;
-        }
-        let middle = self.at((a.t + b.t) / 2.0);
-        let reach = self.displacement * duration / 2.0;
-        let potential = self.problem.potential();
-        *fourth = fourth.min(potential.fourth_derivative_bound(&middle, reach));
-        if fourth.is_finite() {
-            return is_close(*fourth);
-        }
-        // Where the middle can be asked it tells more, and sooner.
-        if potential.feature_length() > 0.0 {
-            return false;
-        }
-        let bound = potential.curvature_bound(&middle, reach);
-        let curvature = bound * self.displacement * self.displacement;
-        upper_bound(a, b, duration, curvature) - a.energy.max(b.energy) <= allowed
-    }
-}
-
-/// Upper bound of a function on an interval from its values and slopes at the ends and a bound of
-/// its second derivative: the highest point of the smaller of the two parabolas.
-fn upper_bound(a: &Knot, b: &Knot, duration: f64, curvature: f64) -> f64 {
-    if !curvature.is_finite() {
-        return f64::INFINITY;
-    }
-    // The parabolas U_a + s_a t + B t^2/2 and U_b - s_b (h - t) + B (h - t)^2/2 differ by a linear
-    // function of t; each is convex, so the lower one peaks at an end or where they cross.
-    let left = |t: f64| a.energy + a.slope * t + curvature * t * t / 2.0;
-    let back = duration;
-    let right_at_0 = b.energy - b.slope * back + curvature * back * back / 2.0;
-    let difference_at_0 = left(0.0) - right_at_0;
-    let difference_at_h = left(duration) - b.energy;
-    let highest = a.energy.max(b.energy);
-    if difference_at_0 >= 0.0 || difference_at_h <= 0.0 {
-        return highest
-            .max(left(0.0).min(right_at_0))
-            .max(left(duration).min(b.energy));
-    }
-    let crossing = duration * difference_at_0 / (difference_at_0 - difference_at_h);
-    highest.max(left(crossing))
 }

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::ends::Ends;
 use super::landscape::Landscape;
 use super::lower::Assessment;
 use super::query::{Goal, Query};
@@ -20,6 +21,7 @@ const HALVINGS: usize = 3;
 pub struct Certifier<'a> {
     pub(super) landscape: Landscape<'a>,
     pub(super) store: Store,
+    pub(super) ends: Ends,
     pub(super) assessed: usize,
 }
 
@@ -46,6 +48,7 @@ impl<'a> Certifier<'a> {
         Self {
             landscape,
             store,
+            ends: Ends::default(),
             assessed,
         }
     }

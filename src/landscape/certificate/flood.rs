@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::level::{ordered, unordered};
 use super::store::Store;
 
 /// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
@@ -21,123 +22,225 @@ pub(super) struct Watershed {
     pub pass: Option<(f64, Vec<u32>)>,
 }
 
-const DRY: u8 = 0;
-const FROM: u8 = 1;
-const TO: u8 = 2;
-const DIVIDE: u8 = 3;
-const NONE: u32 = u32::MAX;
+/// What a flood knows of a leaf: which flood it belongs to, if any,
+pub(super) const FROM: u8 = 1;
+pub(super) const TO: u8 = 2;
+/// whether it keeps the two apart,
+pub(super) const DIVIDE: u8 = 4;
+/// whether no path below the level may pass it,
+pub(super) const BARRED: u8 = 8;
+/// and, shifted by this, the floods that touch it: they have it in the queue as one to spread to.
+pub(super) const TOUCHED: u8 = 4;
+/// In place of a leaf, or of the time of a leaf that is dry.
+pub(super) const NONE: u32 = u32::MAX >> 1;
 
-/// Lets two floods rise from the ends over the passable leaves, those with a lower bound of at
+/// A leaf to spread to: its rank, its number, the side, and the leaf before it. In this order they
+/// decide which comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Entry(u128);
+
+impl Entry {
+    pub fn new(rank: f64, id: u32, side: u8, before: u32) -> Self {
+        let from = u32::from(side == TO) << 31 | before;
+        Self(u128::from(ordered(rank)) << 64 | u128::from(id) << 32 | u128::from(from))
+    }
+
+    pub fn rank(self) -> u64 {
+        (self.0 >> 64) as u64
+    }
+
+    pub fn id(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
+    pub fn side(self) -> u8 {
+        if self.0 as u32 >> 31 == 0 { FROM } else { TO }
+    }
+
+    pub fn before(self) -> u32 {
+        self.0 as u32 & NONE
+    }
+}
+
+/// What was done with an entry.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Deed {
+    Nothing,
+    Flooded,
+    Divided,
+}
+
+/// An entry that was taken from the queue.
+pub(super) struct Step {
+    pub entry: Entry,
+    pub deed: Deed,
+    /// The highest rank so far.
+    pub top: u64,
+    /// The highest estimate (J) so far, or up to the first pass.
+    pub highest: f64,
+}
+
+/// Two floods that rise from the ends over the passable leaves, those with a lower bound of at
 /// most `level`, in the order of their rank. A leaf at which one flood would meet the other stays
 /// dry and becomes part of the divide: it lies at the top of the lowest pass that is left between
 /// them (Meyer's flooding; Beucher and Meyer 1993).
-pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64) -> Watershed {
-    let ranks = if level < f64::INFINITY {
-        store.by_energy()
-    } else {
-        store.by_overlap()
-    };
-    let mut flood = Flood {
-        store,
-        ranks,
-        level,
-        label: vec![DRY; store.len()],
-        parent: vec![NONE; store.len()],
-        queued: vec![0; store.len()],
-        queue: BinaryHeap::new(),
-        waiting: [0; 3],
-        highest: f64::NEG_INFINITY,
-    };
-    for (ids, side) in [(&seeds.from, FROM), (&seeds.to, TO)] {
-        for &(id, energy) in ids.iter().filter(|seed| store.lower(seed.0) <= level) {
-            flood.push(energy, id, side, NONE);
+///
+/// All steps are kept, so that the floods can fall again to where a subdivision of leaves makes a
+/// difference (see `reflood`).
+pub(super) struct Flood {
+    pub level: f64,
+    pub state: Vec<u8>,
+    parent: Vec<u32>,
+    /// The number of the step in which a leaf was flooded.
+    pub time: Vec<u32>,
+    pub queue: BinaryHeap<Reverse<Entry>>,
+    pub steps: Vec<Step>,
+    /// The steps in which a leaf was found to be in the divide.
+    pub divided: Vec<u32>,
+    pub pass: Option<(f64, Vec<u32>)>,
+    /// Entries of each flood in the queue. When one has none left the floods cannot meet any more.
+    pub waiting: [usize; 3],
+}
+
+impl Flood {
+    /// Floods that have not risen yet.
+    pub fn new(store: &Store, seeds: &Seeds, level: f64) -> Self {
+        let mut flood = Self {
+            level,
+            state: Vec::new(),
+            parent: Vec::new(),
+            time: Vec::new(),
+            queue: BinaryHeap::new(),
+            steps: Vec::new(),
+            divided: Vec::new(),
+            pass: None,
+            waiting: [0; 3],
+        };
+        flood.extend(store);
+        for (ids, side) in [(&seeds.from, FROM), (&seeds.to, TO)] {
+            for &(id, energy) in ids.iter().filter(|seed| store.lower(seed.0) <= level) {
+                flood.push(Entry::new(energy, id, side, NONE));
+            }
+        }
+        flood
+    }
+
+    /// Takes note of the leaves that were added to the store.
+    pub fn extend(&mut self, store: &Store) {
+        let fresh = &store.lowers()[self.state.len()..];
+        let barred = |lower: &f64| if *lower <= self.level { 0 } else { BARRED };
+        self.state.extend(fresh.iter().map(barred));
+        self.parent.resize(store.len(), NONE);
+        self.time.resize(store.len(), NONE);
+    }
+
+    pub fn push(&mut self, entry: Entry) {
+        self.queue.push(Reverse(entry));
+        self.waiting[usize::from(entry.side())] += 1;
+    }
+
+    /// The rank of each leaf.
+    pub fn ranks<'s>(&self, store: &'s Store) -> &'s [f64] {
+        if self.level < f64::INFINITY {
+            store.by_energy()
+        } else {
+            store.by_overlap()
         }
     }
-    flood.rise()
-}
 
-struct Flood<'a> {
-    store: &'a Store,
-    ranks: &'a [f64],
-    level: f64,
-    label: Vec<u8>,
-    parent: Vec<u32>,
-    /// The sides of the floods that have a leaf in the queue as one to spread to: once is enough,
-    /// as its rank is the same from everywhere.
-    queued: Vec<u8>,
-    queue: BinaryHeap<Reverse<(u64, u32, u8, u32)>>,
-    /// Entries of each flood in the queue. When one has none left the floods cannot meet any more.
-    waiting: [usize; 3],
-    /// Highest estimate (J) on the way so far.
-    highest: f64,
-}
-
-impl Flood<'_> {
-    fn push(&mut self, rank: f64, id: u32, side: u8, before: u32) {
-        self.queue.push(Reverse((ordered(rank), id, side, before)));
-        self.waiting[usize::from(side)] += 1;
-    }
-
-    fn rise(mut self) -> Watershed {
-        let mut divide = Vec::new();
-        let mut pass = None;
-        while self.waiting[usize::from(FROM)] > 0 && self.waiting[usize::from(TO)] > 0 {
-            let Some(Reverse((rank, id, side, before))) = self.queue.pop() else {
+    /// Lets the floods rise. Of a divide of more than `most` leaves (at least one) those of the
+    /// lowest passes are found.
+    pub fn rise(&mut self, store: &Store, most: usize) -> Watershed {
+        while self.waiting[usize::from(FROM)] > 0
+            && self.waiting[usize::from(TO)] > 0
+            && self.divided.len() < most
+        {
+            let Some(Reverse(entry)) = self.queue.pop() else {
                 break;
             };
-            self.waiting[usize::from(side)] -= 1;
-            let label = self.label[id as usize];
-            if label == side || label == DIVIDE {
-                continue;
+            self.waiting[usize::from(entry.side())] -= 1;
+            self.step(store, entry);
+        }
+        let divide = self.divided.iter();
+        Watershed {
+            divide: divide
+                .map(|&step| self.steps[step as usize].entry.id())
+                .collect(),
+            pass: self.pass.clone(),
+        }
+    }
+
+    fn step(&mut self, store: &Store, entry: Entry) {
+        let (id, side) = (entry.id(), entry.side());
+        let number = self.steps.len() as u32;
+        let mut step = match self.steps.last() {
+            Some(last) => Step { ..*last },
+            None => Step {
+                entry,
+                deed: Deed::Nothing,
+                top: 0,
+                highest: f64::NEG_INFINITY,
+            },
+        };
+        step.entry = entry;
+        step.deed = Deed::Nothing;
+        step.top = step.top.max(entry.rank());
+        if self.state[id as usize] & (side | DIVIDE) == 0 {
+            if self.pass.is_none() {
+                step.highest = step.highest.max(if entry.before() == NONE {
+                    unordered(entry.rank())
+                } else {
+                    store.leaf(id).known.estimate
+                });
             }
-            self.highest = self.highest.max(if before == NONE {
-                unordered(rank)
+            if let Some(meeting) = self.meeting(store, id, side) {
+                step.deed = Deed::Divided;
+                self.state[id as usize] |= DIVIDE;
+                self.divided.push(number);
+                if self.pass.is_none() {
+                    self.pass = Some((step.highest, self.chain(entry, meeting)));
+                }
             } else {
-                self.store.leaf(id).known.estimate
-            });
-            let Some(meeting) = self.meeting(id, side) else {
-                self.label[id as usize] = side;
-                self.parent[id as usize] = before;
-                self.spread(id, side);
-                continue;
-            };
-            self.label[id as usize] = DIVIDE;
-            divide.push(id);
-            if pass.is_none() {
-                pass = Some((self.highest, self.chain(before, id, meeting, side)));
+                step.deed = Deed::Flooded;
+                self.state[id as usize] |= side;
+                self.parent[id as usize] = entry.before();
+                self.time[id as usize] = number;
+                self.spread(store, id, side);
             }
         }
-        Watershed { divide, pass }
+        self.steps.push(step);
     }
 
     /// A leaf of the other flood that this one touches, or itself, if it belongs to both.
-    fn meeting(&self, id: u32, side: u8) -> Option<u32> {
+    fn meeting(&self, store: &Store, id: u32, side: u8) -> Option<u32> {
         let other = FROM + TO - side;
-        let belongs = |n: u32| self.label[n as usize] == other;
+        let belongs = |n: u32| self.state[n as usize] & (other | DIVIDE) == other;
         if belongs(id) {
             return Some(id);
         }
-        let around = &self.store.leaf(id).neighbours;
+        if self.state[id as usize] & other << TOUCHED == 0 {
+            return None;
+        }
+        let around = &store.leaf(id).neighbours;
         around.iter().copied().find(|&n| belongs(n))
     }
 
-    fn spread(&mut self, id: u32, side: u8) {
-        let store = self.store;
+    fn spread(&mut self, store: &Store, id: u32, side: u8) {
+        let ranks = self.ranks(store);
+        let not = FROM | TO | DIVIDE | BARRED | side << TOUCHED;
         for &n in &store.leaf(id).neighbours {
-            if self.label[n as usize] == DRY
-                && self.queued[n as usize] & side == 0
-                && store.lower(n) <= self.level
-            {
-                self.queued[n as usize] |= side;
-                self.push(self.ranks[n as usize], n, side, id);
+            if self.state[n as usize] & not == 0 {
+                self.state[n as usize] |= side << TOUCHED;
+                self.push(Entry::new(ranks[n as usize], n, side, id));
             }
         }
     }
 
-    /// The chain of leaves from end to end over the leaf `id`, which one flood reaches from
-    /// `before` and the other one from `meeting`.
-    fn chain(&self, before: u32, id: u32, meeting: u32, side: u8) -> Vec<u32> {
-        let mut chain = trace(&self.parent, before);
+    /// The chain of leaves from end to end over the leaf of an entry, which the other flood reaches
+    /// from `meeting`.
+    fn chain(&self, entry: Entry, meeting: u32) -> Vec<u32> {
+        let id = entry.id();
+        let mut chain = trace(&self.parent, entry.before());
         chain.reverse();
         chain.push(id);
         let rest = if meeting == id {
@@ -146,7 +249,7 @@ impl Flood<'_> {
             meeting
         };
         chain.extend(trace(&self.parent, rest));
-        if side == TO {
+        if entry.side() == TO {
             chain.reverse();
         }
         chain
@@ -160,71 +263,4 @@ fn trace(parent: &[u32], mut id: u32) -> Vec<u32> {
         id = parent[id as usize];
     }
     chain
-}
-
-/// The least level (J) at which a chain of touching leaves with lower bounds of at most that level
-/// joins the ends: no free path between them stays below it. Infinite where no chain does.
-pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
-    let mut seen = vec![false; store.len()];
-    let mut goal = vec![false; store.len()];
-    for &(id, _) in &seeds.to {
-        goal[id as usize] = true;
-    }
-    let mut queue = BinaryHeap::new();
-    for &(id, _) in &seeds.from {
-        seen[id as usize] = true;
-        queue.push(Reverse((ordered(store.lower(id)), id)));
-    }
-    let mut level = f64::NEG_INFINITY;
-    while let Some(Reverse((lower, id))) = queue.pop() {
-        level = level.max(unordered(lower));
-        if goal[id as usize] {
-            return level;
-        }
-        for &n in &store.leaf(id).neighbours {
-            if !std::mem::replace(&mut seen[n as usize], true) {
-                queue.push(Reverse((ordered(store.lower(n)), n)));
-            }
-        }
-    }
-    f64::INFINITY
-}
-
-/// A number ordered like the float.
-fn ordered(x: f64) -> u64 {
-    let bits = x.to_bits();
-    if bits >> 63 == 1 {
-        !bits
-    } else {
-        bits | 1 << 63
-    }
-}
-
-/// The float with that number.
-fn unordered(number: u64) -> f64 {
-    f64::from_bits(if number >> 63 == 1 {
-        number ^ 1 << 63
-    } else {
-        !number
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn floats_keep_their_order_as_numbers() {
-        let floats = [
-            f64::NEG_INFINITY,
-            -3.5,
-            -1e-300,
-            0.0,
-            2e-8,
-            7.0,
-            f64::INFINITY,
-        ];
-        assert!(floats.map(ordered).is_sorted());
-        assert_eq!(floats.map(|x| unordered(ordered(x))), floats);
-    }
 }

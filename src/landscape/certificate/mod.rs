@@ -37,10 +37,13 @@
 //! the limit of time cuts it short. A bracket that was cut short is as true, only wider.
 
 mod certifier;
+mod ends;
 mod flood;
 mod landscape;
+mod level;
 pub(crate) mod lower;
 mod query;
+mod reflood;
 mod store;
 pub(super) mod upper;
 
@@ -88,7 +91,8 @@ pub struct Progress {
     pub cells: usize,
     /// Rounds of subdivision in this query.
     pub rounds: usize,
-    /// Cells in the divide between the two ends: 0 when the bracket is narrow enough.
+    /// Cells in the divide between the two ends, or as many of them as can be subdivided at once: 0
+    /// when the bracket is narrow enough.
     pub divide: usize,
     /// The upper bound (J) so far.
     pub upper: Option<f64>,

@@ -3,12 +3,10 @@
 use std::time::Instant;
 
 use super::certifier::Certifier;
-use super::flood::{Seeds, least_level, watershed};
-use super::landscape::Landscape;
-use super::store::Leaf;
+use super::flood::{Flood, Seeds};
+use super::level::least_level;
 use super::upper::ProvedPath;
 use super::{Bracket, Effort, End, Progress};
-use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
 
@@ -93,9 +91,18 @@ impl<'q, 'a> Query<'q, 'a> {
 
     /// Searches until the bracket is narrow enough or the effort is spent.
     pub fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bracket {
+        // The floods of the last round, and what was subdivided since.
+        let mut last: Option<(Flood, Vec<u32>)> = None;
         while self.level() > self.floor {
             let level = self.level();
-            let found = watershed(&self.certifier.store, &self.seeds(), level);
+            let seeds = self.seeds();
+            let store = &self.certifier.store;
+            let most = SPLITS.max(store.len() / SPLIT_SHARE);
+            let mut flood = match last.take() {
+                Some((flood, divided)) => flood.after(store, &divided, &seeds, level),
+                None => Flood::new(store, &seeds, level),
+            };
+            let found = flood.rise(store, most);
             let going_on = watch(&Progress {
                 cells: self.cells(),
                 rounds: self.rounds,
@@ -107,10 +114,12 @@ impl<'q, 'a> Query<'q, 'a> {
                 break;
             };
             let mut to_divide = found.divide;
-            to_divide.truncate(SPLITS.max(self.certifier.store.len() / SPLIT_SHARE));
             if pass < level + (1.0 - WORTHWHILE) * self.effort.tolerance {
                 match self.improve(&chain) {
-                    Ok(()) => continue,
+                    Ok(()) => {
+                        last = Some((flood, Vec::new()));
+                        continue;
+                    }
                     Err(blamed) => {
                         to_divide.extend(blamed);
                         to_divide.sort_unstable();
@@ -122,6 +131,7 @@ impl<'q, 'a> Query<'q, 'a> {
                 break;
             }
             self.rounds += 1;
+            last = Some((flood, to_divide));
         }
         self.conclude()
     }
@@ -235,34 +245,19 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     /// The leaves that hold either end.
-    fn seeds(&self) -> Seeds {
+    fn seeds(&mut self) -> Seeds {
         let Certifier {
-            store, landscape, ..
-        } = &*self.certifier;
-        let holding = |holds: &dyn Fn(&Leaf, &Cell) -> Option<f64>| {
-            store
-                .live()
-                .filter_map(|(id, leaf)| Some((id, holds(leaf, &store.cell(&leaf.key))?)))
-                .collect()
-        };
-        let at = |q: &Configuration, cell: &Cell| cell.contains(q).then_some(f64::NEG_INFINITY);
-        Seeds {
-            from: holding(&|_, cell| at(&self.from, cell)),
-            to: match &self.to {
-                Goal::At(to) => holding(&|_, cell| at(to, cell)),
-                Goal::Free => holding(&|leaf, cell| energy_far_off(landscape, leaf, cell)),
-                Goal::Any(goals) => holding(&|leaf, cell| {
-                    goals
-                        .iter()
-                        .find_map(|goal| at(goal, cell))
-                        .or_else(|| energy_far_off(landscape, leaf, cell))
-                }),
-            },
-        }
+            store,
+            landscape,
+            ends,
+            ..
+        } = &mut *self.certifier;
+        ends.seeds(store, landscape, &self.from, &self.to)
     }
 
-    fn conclude(self) -> Bracket {
-        let lower = least_level(&self.certifier.store, &self.seeds()).max(self.floor);
+    fn conclude(mut self) -> Bracket {
+        let seeds = self.seeds();
+        let lower = least_level(&self.certifier.store, &seeds).max(self.floor);
         let (cells, rounds) = (self.cells(), self.rounds);
         let (upper, saddle, pathway) = match self.best {
             Some(path) => (Some(path.upper), Some(path.peak), path.points),
@@ -281,13 +276,4 @@ impl<'q, 'a> Query<'q, 'a> {
             rounds,
         }
     }
-}
-
-/// An energy (J) with the tiles far apart in a leaf that holds such configurations.
-fn energy_far_off(landscape: &Landscape, leaf: &Leaf, cell: &Cell) -> Option<f64> {
-    if landscape.space.is_far(&cell.centre) {
-        return Some(leaf.known.estimate);
-    }
-    let end = landscape.far_end(cell)?;
-    Some(landscape.proof().value(&end).1)
 }

@@ -32,6 +32,16 @@ impl Key {
         Some([lower, upper])
     }
 
+    /// Whether the cell may hold what lies at a [place](Store::place).
+    pub fn may_hold(&self, place: &[f64; 3]) -> bool {
+        let holds = |i: usize, at: f64| {
+            f64::from(self.low[i]) <= at + 1.0 && at - 1.0 <= f64::from(self.low[i] + self.size[i])
+        };
+        let turn = f64::from(UNITS);
+        let turns = [place[2], place[2] - turn, place[2] + turn];
+        holds(0, place[0]) && holds(1, place[1]) && turns.iter().any(|&at| holds(2, at))
+    }
+
     /// Whether two closed cells share a point. The angle is periodic.
     fn touches(&self, other: &Self) -> bool {
         let meet = |i: usize| {
@@ -110,6 +120,12 @@ impl Store {
         }
     }
 
+    /// Where a configuration lies, in units of each coordinate, to less than one.
+    pub fn place(&self, q: &Configuration) -> [f64; 3] {
+        let [x, y] = self.half_size;
+        [q.x / x, q.y / y, q.theta / PI].map(|share| (share + 1.0) * f64::from(UNITS / 2))
+    }
+
     pub fn leaf(&self, id: u32) -> &Leaf {
         &self.leaves[id as usize]
     }
@@ -117,6 +133,11 @@ impl Store {
     /// A leaf's lower bound of the energy (J).
     pub fn lower(&self, id: u32) -> f64 {
         self.lower[id as usize]
+    }
+
+    /// Those of all leaves that are or ever were.
+    pub fn lowers(&self) -> &[f64] {
+        &self.lower
     }
 
     /// The rank of each leaf in a flood by energy.
@@ -134,6 +155,7 @@ impl Store {
         self.leaves.len()
     }
 
+    #[cfg(test)]
     pub fn live(&self) -> impl Iterator<Item = (u32, &Leaf)> {
         (0..).zip(&self.leaves).filter(|(_, leaf)| leaf.live)
     }

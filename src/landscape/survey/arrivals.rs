@@ -40,7 +40,11 @@ impl Survey {
         };
         let starts: Vec<Configuration> =
             far.iter().filter(wanted).map(|(start, _)| *start).collect();
-        let descents: Vec<_> = starts.par_iter().map(|q| approach(problem, q)).collect();
+        let known = self.verified(problem);
+        let descents: Vec<_> = starts
+            .par_iter()
+            .map(|q| approach(problem, q, &known))
+            .collect();
         for mut descent in descents {
             // What lies behind is free as well.
             let is_far = |point: &Point| problem.space.is_far(&point.q);

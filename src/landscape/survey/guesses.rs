@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::{Survey, SurveySettings, siblings};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
-use crate::landscape::minimum::{Descent, descend};
+use crate::landscape::minimum::{Descent, descend_among};
 use crate::problem::Problem;
 
 /// No minimum is looked for closer than this (m) to a known one.
@@ -58,7 +58,11 @@ impl Survey {
             .into_iter()
             .filter(|q| self.state_at(problem, q, KNOWN).is_none())
             .collect();
-        let descents: Vec<Descent> = places.par_iter().map(|q| descend(problem, q)).collect();
+        let verified = self.verified(problem);
+        let descents: Vec<Descent> = places
+            .par_iter()
+            .map(|q| descend_among(problem, q, &verified))
+            .collect();
         for descent in &descents {
             if let Some(end) = self.arrive(problem, descent)
                 && self.network.is_isolated(end)

@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use nalgebra::Vector3;
 
 use super::constrained::{self, Point};
-use super::minimum::{Descent, Outcome, descend};
+use super::minimum::{Descent, Outcome, Verified, descend_among};
 use super::network::{Merge, Network, Way};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
@@ -36,6 +36,8 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
+/// Descents that are followed at once.
+const TOGETHER: usize = 64;
 /// How far (m, mass metric) from a transition state its descents start.
 const OFF_SADDLE: f64 = 2e-4;
 
@@ -174,24 +176,33 @@ impl Survey {
             let q = self.network.nodes[node]?.0;
             (!problem.space.is_far(&q)).then_some((Some(node), q))
         }));
-        let descents: Vec<Descent> = starts
-            .par_iter()
-            .map(|(_, q)| descend(problem, q))
-            .collect();
-        for ((node, _), descent) in starts.into_iter().zip(descents) {
-            let end = self.arrive(problem, &descent);
-            match (node, end) {
-                (Some(node), Some(end)) => {
-                    self.network
-                        .add_way(problem, node, end, descent.way, &settings.edge);
+        // What some find the next ones need not verify.
+        for some in starts.chunks(TOGETHER) {
+            let known = self.verified(problem);
+            let descents: Vec<Descent> = some
+                .par_iter()
+                .map(|(_, q)| descend_among(problem, q, &known))
+                .collect();
+            for ((node, _), descent) in some.iter().zip(descents) {
+                let end = self.arrive(problem, &descent);
+                match (*node, end) {
+                    (Some(node), Some(end)) => {
+                        self.network
+                            .add_way(problem, node, end, descent.way, &settings.edge);
+                    }
+                    // A guess is not in the network yet.
+                    (None, Some(end)) if self.network.is_isolated(end) => {
+                        self.join(problem, end, settings);
+                    }
+                    _ => {}
                 }
-                // A guess is not in the network yet.
-                (None, Some(end)) if self.network.is_isolated(end) => {
-                    self.join(problem, end, settings);
-                }
-                _ => {}
             }
         }
+    }
+
+    /// The minima found so far.
+    pub fn verified(&self, problem: &Problem) -> Verified {
+        Verified::new(problem, self.states.iter().map(|state| &state.minimum))
     }
 
     /// The node in which a descent ended, made if need be.
@@ -296,9 +307,10 @@ impl Survey {
                 }
             }
         }
+        let known = self.verified(problem);
         let joined: Vec<[Option<Descent>; 2]> = fresh
             .par_iter()
-            .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign)))
+            .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
             .collect();
         for (saddle, sides) in fresh.into_iter().zip(joined) {
             self.add_transition_state(problem, saddle, sides, settings);
@@ -344,10 +356,15 @@ impl Survey {
 }
 
 /// The descent from a transition state to one of its sides.
-fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64) -> Option<Descent> {
+fn off_saddle(
+    problem: &Problem,
+    saddle: &Stationary,
+    sign: f64,
+    known: &Verified,
+) -> Option<Descent> {
     let unstable = saddle.modes.first()?.1;
     let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
     let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
-    let descent = descend(problem, &start);
+    let descent = descend_among(problem, &start, known);
     (descent.way[0].energy <= saddle.point.energy).then_some(descent)
 }

@@ -186,7 +186,7 @@ fn indexed_png(bitmap: &Bitmap) -> Result<Vec<u8>, png::EncodingError> {
     let mut encoder = png::Encoder::new(&mut bytes, bitmap.width as u32, height as u32);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_palette(bitmap.palette.concat());
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Balanced);
     encoder.write_header()?.write_image_data(&bitmap.pixels)?;
     Ok(bytes)
 }

@@ -178,6 +178,9 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
             let second = Vectors::splat(l, &moved);
             let arm = moved.position - self.q.position();
             for from in (0..self.fixed.len()).step_by(L::WIDTH) {
+                if mask[from..from + L::WIDTH].iter().all(|act| *act == 0.0) {
+                    continue;
+                }
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
                 closest = closest.min(l.least(way.square));

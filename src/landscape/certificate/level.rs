@@ -1,0 +1,74 @@
+//! The least level at which the ends of a query are joined, and energies as ordered numbers.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::flood::Seeds;
+use super::store::Store;
+
+/// The least level (J) at which a chain of touching leaves with lower bounds of at most that level
+/// joins the ends: no free path between them stays below it. Infinite where no chain does.
+pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
+    let mut seen = vec![false; store.len()];
+    let mut goal = vec![false; store.len()];
+    for &(id, _) in &seeds.to {
+        goal[id as usize] = true;
+    }
+    let mut queue = BinaryHeap::new();
+    for &(id, _) in &seeds.from {
+        seen[id as usize] = true;
+        queue.push(Reverse((ordered(store.lower(id)), id)));
+    }
+    let mut level = f64::NEG_INFINITY;
+    while let Some(Reverse((lower, id))) = queue.pop() {
+        level = level.max(unordered(lower));
+        if goal[id as usize] {
+            return level;
+        }
+        for &n in &store.leaf(id).neighbours {
+            if !std::mem::replace(&mut seen[n as usize], true) {
+                queue.push(Reverse((ordered(store.lower(n)), n)));
+            }
+        }
+    }
+    f64::INFINITY
+}
+
+/// A number ordered like the float.
+pub(super) fn ordered(x: f64) -> u64 {
+    let bits = x.to_bits();
+    if bits >> 63 == 1 {
+        !bits
+    } else {
+        bits | 1 << 63
+    }
+}
+
+/// The float with that number.
+pub(super) fn unordered(number: u64) -> f64 {
+    f64::from_bits(if number >> 63 == 1 {
+        number ^ 1 << 63
+    } else {
+        !number
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floats_keep_their_order_as_numbers() {
+        let floats = [
+            f64::NEG_INFINITY,
+            -3.5,
+            -1e-300,
+            0.0,
+            2e-8,
+            7.0,
+            f64::INFINITY,
+        ];
+        assert!(floats.map(ordered).is_sorted());
+        assert_eq!(floats.map(|x| unordered(ordered(x))), floats);
+    }
+}

@@ -1,0 +1,128 @@
+//! A motion along which the energy is followed, and when a stretch of it is known well enough.
+
+use nalgebra::Vector3;
+
+use super::Milestone;
+use super::profile::{Knot, ProfileTolerance, cubic};
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+
+/// A stretch of one of many motions.
+#[derive(Clone, Copy)]
+pub(super) struct Stretch {
+    /// Of the motion.
+    pub number: usize,
+    pub ends: [Knot; 2],
+    /// A bound of the fourth derivative that holds on a stretch around this one.
+    pub fourth: f64,
+    pub depth: u32,
+}
+
+impl Stretch {
+    pub fn middle(&self) -> f64 {
+        (self.ends[0].t + self.ends[1].t) / 2.0
+    }
+}
+
+pub(super) struct Motion<'a> {
+    problem: &'a Problem,
+    from: Configuration,
+    /// The whole motion (m, m, rad).
+    pub step: Vector3<f64>,
+    /// Displacement of the whole motion, as the potential counts it (m).
+    displacement: f64,
+    tolerance: &'a ProfileTolerance,
+}
+
+impl<'a> Motion<'a> {
+    pub fn new(
+        problem: &'a Problem,
+        a: &Milestone,
+        b: &Milestone,
+        tolerance: &'a ProfileTolerance,
+    ) -> Self {
+        let step = a.configuration.step_to(&b.configuration);
+        Self {
+            problem,
+            from: a.configuration,
+            step,
+            displacement: problem.potential().displacement(step),
+            tolerance,
+        }
+    }
+
+    pub fn ends(&self, [a, b]: [&Milestone; 2]) -> [Knot; 2] {
+        [(0.0, a), (1.0, b)].map(|(t, milestone)| Knot {
+            t,
+            energy: milestone.energy,
+            slope: milestone.gradient.dot(&self.step),
+        })
+    }
+
+    pub fn at(&self, t: f64) -> Configuration {
+        self.from.moved(self.step * t)
+    }
+
+    /// Error (J) allowed on a stretch.
+    fn allowed(&self, a: &Knot, b: &Knot) -> f64 {
+        let highest = a.energy.max(b.energy);
+        self.tolerance.absolute + self.tolerance.relative * highest.abs()
+    }
+
+    /// Whether a stretch shorter than the energy's own features has in its middle what the cubic
+    /// through its ends says.
+    pub fn is_foreseen(&self, a: &Knot, middle: &Knot, b: &Knot) -> bool {
+        let length = self.displacement * (b.t - a.t);
+        length <= self.problem.potential().feature_length()
+            && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
+    }
+
+    /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
+    /// where that is worth while.
+    pub fn is_settled(&self, [a, b]: &[Knot; 2], fourth: &mut f64) -> bool {
+        let allowed = self.allowed(a, b);
+        let duration = b.t - a.t;
+        let is_close =
+            |fourth: f64| fourth * (self.displacement * duration).powi(4) <= 384.0 * allowed;
+        if is_close(*fourth) {
+            return true;
+        }
+        let middle = self.at((a.t + b.t) / 2.0);
+        let reach = self.displacement * duration / 2.0;
+        let potential = self.problem.potential();
+        *fourth = fourth.min(potential.fourth_derivative_bound(&middle, reach));
+        if fourth.is_finite() {
+            return is_close(*fourth);
+        }
+        // Where the middle can be asked it tells more, and sooner.
+        if potential.feature_length() > 0.0 {
+            return false;
+        }
+        let bound = potential.curvature_bound(&middle, reach);
+        let curvature = bound * self.displacement * self.displacement;
+        upper_bound(a, b, duration, curvature) - a.energy.max(b.energy) <= allowed
+    }
+}
+
+/// Upper bound of a function on an interval from its values and slopes at the ends and a bound of
+/// its second derivative: the highest point of the smaller of the two parabolas.
+fn upper_bound(a: &Knot, b: &Knot, duration: f64, curvature: f64) -> f64 {
+    if !curvature.is_finite() {
+        return f64::INFINITY;
+    }
+    // The parabolas U_a + s_a t + B t^2/2 and U_b - s_b (h - t) + B (h - t)^2/2 differ by a linear
+    // function of t; each is convex, so the lower one peaks at an end or where they cross.
+    let left = |t: f64| a.energy + a.slope * t + curvature * t * t / 2.0;
+    let back = duration;
+    let right_at_0 = b.energy - b.slope * back + curvature * back * back / 2.0;
+    let difference_at_0 = left(0.0) - right_at_0;
+    let difference_at_h = left(duration) - b.energy;
+    let highest = a.energy.max(b.energy);
+    if difference_at_0 >= 0.0 || difference_at_h <= 0.0 {
+        return highest
+            .max(left(0.0).min(right_at_0))
+            .max(left(duration).min(b.energy));
+    }
+    let crossing = duration * difference_at_0 / (difference_at_0 - difference_at_h);
+    highest.max(left(crossing))
+}
