@@ -17,7 +17,8 @@ pub(in crate::kinetics) struct Element {
     pub load: [f64; 8],
     /// The least U met (J).
     pub lowest: f64,
-    /// In the cell's middle the gradients by x, y and theta of the parts of its size, as columns.
+    /// In the cell's middle the gradients of the parts of its size, as columns: along the ray from
+    /// the centre, across it and by theta.
     pub gradients: Matrix3<f64>,
 }
 

@@ -111,7 +111,7 @@ impl<'a> Integrator<'a> {
             element: Element::new(Matrix3::zeros()),
         };
         let middle = sum.ray([0.5; 2]);
-        sum.element.gradients = sum.gradients(&middle, sum.along(0.5));
+        sum.element.gradients = middle.upright() * sum.gradients(&middle, sum.along(0.5));
         let add = |sum: &mut Sum, point: &Point| {
             sum.add(
                 point.part,

@@ -102,6 +102,12 @@ impl Ray {
         Configuration::new(r * phi.cos(), r * phi.sin(), theta)
     }
 
+    /// From the directions of x, y and theta to those along the ray, across it and of theta.
+    pub fn upright(&self) -> Matrix3<f64> {
+        let (sin, cos) = self.at[0].sin_cos();
+        Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
+    }
+
     /// The volume element by (s, phi, theta) (m^2).
     pub fn volume(&self, s: f64) -> f64 {
         self.radius(s) * self.length
