@@ -244,8 +244,11 @@ fn far_starts_end_in_either_well_alike() {
     let problem = Problem::without_contact(SPACE, Box::new(AT_ORIGIN));
     let count = 200;
     let mut captured = [0, 0];
-    let starts = FarStarts { count, seed: 1 };
-    for end in ends(&problem, &starts, &Verified::default()) {
+    for end in ends(
+        &problem,
+        &FarStarts { count, seed: 1 },
+        &Verified::default(),
+    ) {
         captured[AT_ORIGIN.well_at(&end.unwrap()).unwrap()] += 1;
     }
     // Five standard deviations of a fair coin's count.
