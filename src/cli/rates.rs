@@ -8,20 +8,13 @@ use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
 use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
-use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
-use tilebind::landscape::Place as End;
+use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
 use tilebind::observer::Observer;
 use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt, memory, print};
-
-/// Part of the bond's energy below which a tile counts as bound, and part of the way up to its
-/// lowest barrier to which the basin of a state reaches.
-const BASIN: f64 = 0.5;
-/// Barriers of states with rates are at least so many kT high.
-const LEAST_BARRIER: f64 = 2.0;
 
 /// Mean exit times after which a moving tile is given up.
 const PATIENCE: f64 = 30.0;
@@ -193,11 +186,8 @@ impl Rates {
         let progress = self.print.progress();
         let analysis = pipeline::analyse(design, &settings, &progress);
         progress.stage("rates", 0.9);
-        let places = self.places(&analysis);
-        let basins = places.iter().map(|place| Basin {
-            at: place.at,
-            below: place.below,
-        });
+        let places = report::Place::held(&analysis, self.kt, self.traps, self.basin_energy);
+        let basins = places.iter().map(report::Place::basin);
         let asked = RateSettings {
             certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
             ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
@@ -232,24 +222,5 @@ impl Rates {
             milestones: Settings::default().milestones,
             ..Settings::without_proofs(self.work.seed)
         }
-    }
-
-    /// The bond and the deepest traps that hold at this kT.
-    fn places(&self, analysis: &pipeline::Analysis) -> Vec<report::Place> {
-        let inventory = &analysis.inventory;
-        let held = inventory.kinds().filter_map(|kind| {
-            let state = kind.first();
-            let barrier = analysis.escape(state.id)?.forward();
-            let holds = kind.is_bond() || barrier >= LEAST_BARRIER * self.kt;
-            let below = self.basin_energy.filter(|_| kind.is_bond());
-            holds.then(|| report::Place {
-                name: inventory.name_of(End::State(state.id)),
-                at: state.configuration,
-                energy: state.energy,
-                below: below.unwrap_or(state.energy + BASIN * barrier),
-                copies: kind.copies(),
-            })
-        });
-        held.take(1 + self.traps).collect()
     }
 }

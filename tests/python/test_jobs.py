@@ -205,6 +205,8 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="coverage"):
         analysis.bond(3e-3, 30)
+    with pytest.raises(ValueError, match="kt"):
+        analysis.rates(0.0)
 
 
 def test_yields(design):

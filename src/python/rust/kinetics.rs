@@ -1,13 +1,16 @@
 //! What shaken tiles do: exits from a pose, how strongly bond and traps hold, what is yielded.
 
 use pyo3::prelude::*;
+use tilebind::Analysis;
 use tilebind::design::Design;
+use tilebind::kinetics::Certify;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
+use tilebind::kinetics::rates::{RateSettings, RatesError, rates as solved};
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
-use tilebind::report::{json, rates, yields as yields_report};
+use tilebind::report::{json, rates as report, yields as yields_report};
 use tilebind::yields::{Question, YieldError, yields};
 
 use crate::{barrier, convert, fault, job};
@@ -46,9 +49,43 @@ pub fn exits<'py>(
         ExitError::Unsolved(_) => fault::run(error),
         _ => fault::value(error),
     })?;
-    let motion = rates::Motion::new(design, asked.kt, asked.drag);
-    let entry = json::text(&rates::exit_entry(&settings, &motion, &found));
+    let motion = report::Motion::new(design, asked.kt, asked.drag);
+    let entry = json::text(&report::exit_entry(&settings, &motion, &found));
     convert::json(py, &entry)
+}
+
+/// Rates between the bond, the deepest traps and free.
+pub fn rates<'py>(
+    py: Python<'py>,
+    (design, analysis): (&Design, &Analysis),
+    asked: &Asked,
+    traps: usize,
+    certify: Option<f64>,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("kt", Some(asked.kt))?;
+    fault::positive("drag", Some(asked.drag))?;
+    fault::positive("free_at", asked.free_at)?;
+    fault::positive("certify", certify)?;
+    let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
+    let basins = places.iter().map(report::Place::basin).collect();
+    let free_at = asked.free_at.unwrap_or(design.space().free_distance);
+    let settings = RateSettings {
+        certify: Some(certify.map_or_else(Certify::default, Certify::to)),
+        ..RateSettings::new(asked.kt, basins, free_at)
+    };
+    let found = job::quietly(py, || solved(&analysis.problem, &settings))?;
+    let found = found.map_err(|error| match error {
+        RatesError::Unsolved(_) => fault::run(error),
+        _ => fault::value(error),
+    })?;
+    let table = report::Table {
+        design,
+        asked: &settings,
+        motion: &report::Motion::new(design, asked.kt, asked.drag),
+        places: &places,
+        found: &found,
+    };
+    convert::json(py, &json::text(&table.entry()))
 }
 
 /// Depths, docking costs and ln K of the bond and the traps of an analysis.

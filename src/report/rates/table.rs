@@ -9,7 +9,9 @@ use super::{Motion, NO_BOUNDS, ON_THE_MESH, SCOPE, apart, finite, per_second};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::kinetics::chain::Chain;
-use crate::kinetics::rates::{RateSettings, Rates};
+use crate::kinetics::rates::{Basin, RateSettings, Rates};
+use crate::landscape;
+use crate::pipeline::Analysis;
 use crate::report::terminal::write_table;
 use crate::report::values;
 use crate::units::si;
@@ -27,6 +29,46 @@ pub struct Place {
     pub below: f64,
     /// How many states the pair's symmetries make of it.
     pub copies: usize,
+}
+
+/// Part of the way up to its lowest barrier to which the basin of a state reaches.
+const BASIN: f64 = 0.5;
+/// Barriers of states with rates are at least so many kT high.
+const LEAST_BARRIER: f64 = 2.0;
+
+impl Place {
+    /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
+    /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
+    pub fn held(
+        analysis: &Analysis,
+        kt: f64,
+        traps: usize,
+        basin_energy: Option<f64>,
+    ) -> Vec<Self> {
+        let inventory = &analysis.inventory;
+        let held = inventory.kinds().filter_map(|kind| {
+            let state = kind.first();
+            let barrier = analysis.escape(state.id)?.forward();
+            let holds = kind.is_bond() || barrier >= LEAST_BARRIER * kt;
+            let below = basin_energy.filter(|_| kind.is_bond());
+            holds.then(|| Self {
+                name: inventory.name_of(landscape::Place::State(state.id)),
+                at: state.configuration,
+                energy: state.energy,
+                below: below.unwrap_or(state.energy + BASIN * barrier),
+                copies: kind.copies(),
+            })
+        });
+        held.take(1 + traps).collect()
+    }
+
+    /// Its basin.
+    pub fn basin(&self) -> Basin {
+        Basin {
+            at: self.at,
+            below: self.below,
+        }
+    }
 }
 
 /// Rates between states and `free`.

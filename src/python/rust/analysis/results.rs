@@ -182,6 +182,52 @@ impl Analysis {
         kinetics::bond(py, &self.content.design, found, shaking)
     }
 
+    /// How fast shaken tiles bind, come off and change between bond and traps: overdamped motion at
+    /// kT between stated basins.
+    ///
+    /// Parameters
+    /// ----------
+    /// kt : float
+    ///     Effective energy of the shaking (J).
+    /// drag : float, optional
+    ///     Drag rate (1/s): the drag is this times the mass.
+    /// traps : int, optional
+    ///     Kinds of traps with rates, the deepest first, as far as they hold at kT.
+    /// basin_energy : float, optional
+    ///     The bond's basin is where U (J) is lower; half way up to its lowest barrier by default.
+    /// free_at : float, optional
+    ///     Tiles are free where the centres are so far apart (m).
+    /// certify : float, optional
+    ///     Refine until the bounds of the rates are apart by this share at most.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind rates --json``: basins, rates with their bounds, occupation, first-passage
+    ///     times.
+    #[pyo3(signature = (kt, *, drag = 50.0, traps = 3, basin_energy = None, free_at = None,
+                        certify = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn rates<'py>(
+        &self,
+        py: Python<'py>,
+        kt: f64,
+        drag: f64,
+        traps: usize,
+        basin_energy: Option<f64>,
+        free_at: Option<f64>,
+        certify: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = kinetics::Asked {
+            kt,
+            drag,
+            basin_energy,
+            free_at,
+        };
+        let found = (&self.content.design, &self.found);
+        kinetics::rates(py, found, &asked, traps, certify)
+    }
+
     /// Which kinds of states merge at which energy.
     ///
     /// Returns
