@@ -1,6 +1,6 @@
 //! What is wrong with a design file, where, and how to mend it.
 
-use std::fmt;
+use std::fmt::{self, Write};
 use std::ops::Range;
 
 /// A fault of a design file.
@@ -93,21 +93,24 @@ fn floor_char_boundary(text: &str, at: usize) -> usize {
 
 impl fmt::Display for DesignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.write_one(f)?;
+        let mut told = String::new();
+        self.write_one(&mut told)?;
         for fault in self.also.iter().take(MOST_TOLD - 1) {
-            write!(f, "\n\n")?;
-            fault.write_one(f)?;
+            told.push_str("\n\n");
+            fault.write_one(&mut told)?;
         }
-        match self.also.len().saturating_sub(MOST_TOLD - 1) {
-            0 => Ok(()),
-            more => write!(f, "\n\nand {more} more"),
+        if let more @ 1.. = self.also.len().saturating_sub(MOST_TOLD - 1) {
+            write!(told, "\n\nand {more} more")?;
         }
+        // Of the file's lines and names; a terminal would obey it.
+        let obeyed = |c: char| c.is_control() && c != '\n';
+        f.write_str(&told.replace(obeyed, "\u{fffd}"))
     }
 }
 
 impl DesignError {
     /// The fault without the further ones.
-    fn write_one(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn write_one(&self, f: &mut String) -> fmt::Result {
         let Some(place) = &self.place else {
             writeln!(f, "{}: {}", self.file, self.message)?;
             return write!(f, "  = help: {}", self.help);
