@@ -175,6 +175,7 @@ impl Rules {
                 let facing_alone = sign
                     * match full {
                         true => u.full_correlation(facing, s),
+                        false if last == 0 => u.correlation(facing, s),
                         false => all_lags
                             .get_or_insert_with(|| Correlations::new(u, facing))
                             .at(s),

@@ -1,9 +1,9 @@
 //! Barriers of real tiles: none lower by way of a third state, and a way out without play.
 
-use tilebind::Settings;
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
+use tilebind::{Configuration, Settings};
 
 use crate::designs;
 
@@ -56,6 +56,30 @@ fn teeth_without_play_are_pulled_out_straight() {
     // It never climbs.
     assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
     assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
+}
+
+/// Where the teeth's tips meet, a tile rests 0.07 mm beside the way in, which has no play: it climbs
+/// 0.3 uJ to it.
+#[test]
+fn what_rests_beside_the_way_in_is_no_trap() {
+    let problem = designs::load("shapes/square-teeth-10mm.toml").problem();
+    let settings = Settings {
+        milestones: 300,
+        certify_seconds: 0.0,
+        completeness: unsought(),
+        far_starts: 1,
+        ..Settings::default()
+    };
+    let analysis = analyse(
+        &designs::load("shapes/square-teeth-10mm.toml"),
+        &settings,
+        &Silent,
+    );
+    let tips = Configuration::new(0.44, 0.0, 0.0);
+    for state in &analysis.inventory.states {
+        let away = problem.space.distance(&state.configuration, &tips);
+        assert!(away > 1e-3, "{:?}", state.configuration);
+    }
 }
 
 /// The teeth's trap, slid by one pitch, has its lowest way out to the bond, hardly lower than that to

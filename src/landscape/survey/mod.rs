@@ -10,8 +10,8 @@
 //!    with new milestones on the contact surface wherever they would overlap.
 //!
 //! until every meeting place is a transition state, or its energy moves by less than a set
-//! fraction of the barrier from round to round. Before that, states that nothing joins to `free`
-//! are withdrawn straight from what they touch.
+//! fraction of the barrier from round to round. Before that, states are joined straight to those
+//! closest to them, and what nothing joins to `free` is withdrawn straight from what it touches.
 
 mod arrivals;
 mod densify;
@@ -101,13 +101,14 @@ impl Survey {
         survey.find_states(problem, &guesses, settings);
         survey.find_siblings(problem, 0, settings);
         survey.find_matches(problem, settings);
-        survey.settle(problem, settings);
+        survey.settle(problem, 0, settings);
         survey
     }
 
     /// Adds minima that were found otherwise, with their symmetric images, and how they are joined
     /// to the others.
     pub fn add(&mut self, problem: &Problem, minima: &[Stationary], settings: &SurveySettings) {
+        let fresh = self.states.len();
         for minimum in minima {
             for symmetry in &problem.symmetries {
                 let image = minimum.image(problem, symmetry.apply(&minimum.point.q));
@@ -117,11 +118,12 @@ impl Survey {
                 }
             }
         }
-        self.settle(problem, settings);
+        self.settle(problem, fresh, settings);
     }
 
-    /// Looks more closely, in rounds, at where basins meet.
-    fn settle(&mut self, problem: &Problem, settings: &SurveySettings) {
+    /// Looks more closely, in rounds, at where basins meet. States from `fresh` on are new.
+    fn settle(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
+        self.join_neighbours(problem, fresh, settings);
         self.withdraw(problem, settings);
         self.network.span();
         let mut tried = HashSet::new();
