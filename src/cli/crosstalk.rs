@@ -6,7 +6,7 @@ use clap::Args;
 use tilebind::design::{MagnetModel, WordSet};
 use tilebind::report::crosstalk as report;
 use tilebind::report::writer;
-use tilebind::words::crosstalk::Stage;
+use tilebind::words::crosstalk::{Stage, TOLERANCE};
 
 use super::figures::command_line;
 use super::options::PrintOptions;
@@ -53,9 +53,6 @@ pub struct Crosstalk {
     #[command(flatten)]
     print: PrintOptions,
 }
-
-/// The default width of bounds, as a share of two magnets' energy.
-const TOLERANCE: f64 = 0.25;
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {

@@ -178,6 +178,8 @@ def test_words_and_crosstalk(design):
     assert found["proved"] and found["count"] == len(found["words"]) == found["upper_bound"]
     strongest = np.array(tilebind.crosstalk(found["words"][:1], progress=False)["strongest_J"])
     assert strongest.shape == (2, 2) and strongest[0, 1] == strongest.min()
+    spaced = tilebind.words(3, slots=7, gap=0.4, seconds=2, progress=False)
+    assert all(len(word) == 7 and word.count(".") == 4 for word in spaced["words"])
     with pytest.raises(tilebind.DesignError):
         tilebind.crosstalk(["NXS"])
     with pytest.raises(ValueError):
@@ -211,7 +213,7 @@ def test_shaken_tiles(design, analysis):
 
 def test_yields(design):
     found = design.yields([3e-3], tiles=4, time=60.0, runs=20, duration=2.0, simulations=0, progress=False)
-    assert found["design"] == design.name
+    assert found["design"]["name"] == design.name
     for wrong in ({"tiles": 3}, {"time": 0.0}, {"coverage": 1.0}, {"runs": 0}):
         with pytest.raises(ValueError):
             design.yields([3e-3], **({"tiles": 4, "time": 60.0} | wrong))

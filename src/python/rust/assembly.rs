@@ -30,6 +30,7 @@ const LARGEST_BLOCK: usize = 6;
 ///     Share of the table that tiles cover.
 /// proofread : int, optional
 ///     Blocks of so many tiles a side in place of tiles.
+/// progress : bool, optional
 ///
 /// Returns
 /// -------

@@ -5,7 +5,7 @@ use tilebind::design::WordSet;
 use tilebind::report::crosstalk as crosstalk_report;
 use tilebind::report::words::{self as report, Request};
 use tilebind::words::budget::Budget;
-use tilebind::words::crosstalk::Stage;
+use tilebind::words::crosstalk::{Stage, TOLERANCE};
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
 use tilebind::words::{Bar, Constraints, Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
@@ -24,6 +24,8 @@ use crate::{convert, fault, job};
 /// count : int, optional
 ///     Words wanted: the answer is the set with the widest gap. With neither, the number of words
 ///     for every number of contacts.
+/// slots : int, optional
+///     Places of a face, of which `length` hold magnets: spacing is part of the code.
 /// design : Design, optional
 ///     From whose target face magnets and pitch are taken; the paper's tile by default.
 /// faces : {"all", "mates"}, optional
@@ -49,7 +51,7 @@ use crate::{convert, fault, job};
 ///     As ``tilebind words --json``: `words`, `count`, `upper_bound`, `proved`, `gap`, `bond_J`,
 ///     `worst`.
 #[pyfunction]
-#[pyo3(signature = (length, *, gap = None, count = None, design = None, faces = "all",
+#[pyo3(signature = (length, *, gap = None, count = None, slots = None, design = None, faces = "all",
                     shape = "none", flip = false, tolerate = None, pitch = None, balanced = false, seconds = 20.0,
                     seed = 1, progress = None))]
 #[allow(clippy::too_many_arguments)]
@@ -58,6 +60,7 @@ pub fn words<'py>(
     length: usize,
     gap: Option<f64>,
     count: Option<usize>,
+    slots: Option<usize>,
     design: Option<Py<Design>>,
     faces: &str,
     shape: &str,
@@ -69,9 +72,10 @@ pub fn words<'py>(
     seed: u64,
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    if !(1..=MOST_PLACES).contains(&length) {
+    let places = slots.unwrap_or(length);
+    if length == 0 || places < length || places > MOST_PLACES {
         return Err(fault::value(format!(
-            "length must be from 1 to {MOST_PLACES}"
+            "length must be at least 1, slots at least as many and at most {MOST_PLACES}"
         )));
     }
     fault::positive("seconds", Some(seconds))?;
@@ -105,20 +109,20 @@ pub fn words<'py>(
     };
     let bar = bar(design.as_ref(), pitch)?;
     let least_spacing = (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
-    if (length - 1) * least_spacing >= length {
+    if (length - 1) * least_spacing >= places {
         return Err(fault::value(format!(
             "magnets {} m wide do not fit side by side {} m apart: give a wider pitch",
             bar.size[1], bar.pitch
         )));
     }
-    let energies = Lags::new(&bar, length);
+    let energies = Lags::new(&bar, places);
     let constraints = Constraints {
         balanced,
         least_spacing,
         ..Constraints::default()
     };
     let task = Task {
-        places: length,
+        places,
         magnets: length,
         lags: energies.clone(),
         rules,
@@ -174,7 +178,7 @@ fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<Bar> {
 /// words : sequence of str or Mapping
 ///     The words, without their mates, or a whole set with the keys of its file.
 /// certify : float or bool, optional
-///     Prove that no attraction is stronger, to within so many J; True for a twentieth of a contact.
+///     Prove that no attraction is stronger, to within so many J; True for a quarter of a contact.
 /// cells : int, optional
 ///     Spent on the proof at most.
 /// progress : bool, optional
@@ -192,13 +196,12 @@ pub fn crosstalk<'py>(
     cells: usize,
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    const SHARE: f64 = 0.05;
     let (set, _) = word_set(py, words)?;
     let stage = Stage::new(
         set.stage.pair.as_ref().clone(),
         set.stage.interaction.clone(),
     );
-    let usual = || SHARE * stage.contact_energy();
+    let usual = || TOLERANCE * stage.contact_energy();
     let tolerance = match certify.filter(|certify| !certify.is_none()) {
         None => None,
         Some(certify) => match certify.extract::<bool>() {

@@ -291,6 +291,7 @@ def words(
     *,
     gap: float | None = None,
     count: int | None = None,
+    slots: int | None = None,
     design: Design | None = None,
     faces: Literal["all", "mates"] = "all",
     shape: Literal["none", "shared", "polar"] = "none",

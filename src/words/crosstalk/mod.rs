@@ -26,6 +26,9 @@ use crate::potential::{Energy, Interaction};
 use crate::problem::Problem;
 use crate::tile::{Magnet, Pair, Tile};
 
+/// The usual width of bounds, as a share of two magnets' energy.
+pub const TOLERANCE: f64 = 0.25;
+
 /// Two tiles whose target faces carry a magnet in every place, north poles out, in the order of the
 /// places. The target faces must be each other's mirror images, as a square's east and west are.
 pub struct Stage {
