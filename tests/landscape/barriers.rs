@@ -3,7 +3,7 @@
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
-use tilebind::{Configuration, Settings};
+use tilebind::{Analysis, Configuration, Settings};
 
 use crate::designs;
 
@@ -40,8 +40,8 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     assert!(compared > 10, "{compared}");
 }
 
-#[test]
-fn teeth_without_play_are_pulled_out_straight() {
+/// Few milestones and no certificate.
+fn square_teeth() -> Analysis {
     let design = designs::load("shapes/square-teeth-10mm.toml");
     let settings = Settings {
         milestones: 300,
@@ -50,7 +50,12 @@ fn teeth_without_play_are_pulled_out_straight() {
         far_starts: 1,
         ..Settings::default()
     };
-    let analysis = analyse(&design, &settings, &Silent);
+    analyse(&design, &settings, &Silent)
+}
+
+#[test]
+fn teeth_without_play_are_pulled_out_straight() {
+    let analysis = square_teeth();
     let way_out = analysis.inventory.way_out_of_the_bond().unwrap();
     assert_eq!((way_out.from, way_out.to), (Place::State(0), Place::Free));
     // It never climbs.
@@ -62,22 +67,10 @@ fn teeth_without_play_are_pulled_out_straight() {
 /// 0.3 uJ to it.
 #[test]
 fn what_rests_beside_the_way_in_is_no_trap() {
-    let problem = designs::load("shapes/square-teeth-10mm.toml").problem();
-    let settings = Settings {
-        milestones: 300,
-        certify_seconds: 0.0,
-        completeness: unsought(),
-        far_starts: 1,
-        ..Settings::default()
-    };
-    let analysis = analyse(
-        &designs::load("shapes/square-teeth-10mm.toml"),
-        &settings,
-        &Silent,
-    );
+    let analysis = square_teeth();
     let tips = Configuration::new(0.44, 0.0, 0.0);
     for state in &analysis.inventory.states {
-        let away = problem.space.distance(&state.configuration, &tips);
+        let away = analysis.problem.space.distance(&state.configuration, &tips);
         assert!(away > 1e-3, "{:?}", state.configuration);
     }
 }

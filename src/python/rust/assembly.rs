@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 use tilebind::assembly::{Built, TileSet, Wiring, proofread};
 use tilebind::kinetics::bond::Shaking;
 use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::words::Rules;
 
 use crate::words::word_set;
-use crate::{fault, job};
+use crate::{convert, fault, job};
 
 /// Most tiles along a block's edge.
 const LARGEST_BLOCK: usize = 6;
@@ -84,9 +84,5 @@ pub fn assemble<'py>(
             report::files(&assembly, "tilebind assemble")
         })
     })?;
-    let named = PyDict::new(py);
-    for (name, content) in files.map_err(fault::value)? {
-        named.set_item(name, PyBytes::new(py, &content))?;
-    }
-    Ok(named)
+    convert::files(py, files.map_err(fault::value)?)
 }

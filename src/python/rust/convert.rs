@@ -1,7 +1,7 @@
 //! Values of Python as values of a design file, and JSON as values of Python.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping, PyString};
+use pyo3::types::{PyBytes, PyDict, PyMapping, PyString};
 use toml::{Table, Value};
 
 use crate::fault;
@@ -70,4 +70,16 @@ pub fn named<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let class = py.import("tilebind._results")?.getattr(class)?;
     class.call((), Some(fields))
+}
+
+/// Files by their names.
+pub fn files<N: AsRef<str>>(
+    py: Python<'_>,
+    files: impl IntoIterator<Item = (N, Vec<u8>)>,
+) -> PyResult<Bound<'_, PyDict>> {
+    let named = PyDict::new(py);
+    for (name, content) in files {
+        named.set_item(name.as_ref(), PyBytes::new(py, &content))?;
+    }
+    Ok(named)
 }

@@ -27,6 +27,18 @@ pub struct Asked {
     pub free_at: Option<f64>,
 }
 
+impl Asked {
+    fn check(&self) -> PyResult<()> {
+        fault::positive("kt", Some(self.kt))?;
+        fault::positive("drag", Some(self.drag))?;
+        fault::positive("free_at", self.free_at)
+    }
+
+    fn free_at(&self, design: &Design) -> f64 {
+        self.free_at.unwrap_or(design.space().free_distance)
+    }
+}
+
 /// Mean exit time and exits of a tile that is let go at a pose.
 pub fn exits<'py>(
     py: Python<'py>,
@@ -34,15 +46,13 @@ pub fn exits<'py>(
     start: &Bound<'py, PyAny>,
     asked: &Asked,
 ) -> PyResult<Bound<'py, PyAny>> {
-    fault::positive("kt", Some(asked.kt))?;
-    fault::positive("drag", Some(asked.drag))?;
-    fault::positive("free_at", asked.free_at)?;
+    asked.check()?;
     let start = barrier::pose(start)?;
     let bound = &design.pair.bound;
     let basin = asked
         .basin_energy
         .unwrap_or_else(|| half_bond(problem, bound));
-    let free_at = asked.free_at.unwrap_or(design.space().free_distance);
+    let free_at = asked.free_at(design);
     let settings = ExitSettings::new(asked.kt, start, basin, free_at);
     let found = job::quietly(py, || exit(problem, bound, &settings))?;
     let found = found.map_err(|error| match error {
@@ -62,13 +72,11 @@ pub fn rates<'py>(
     traps: usize,
     certify: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    fault::positive("kt", Some(asked.kt))?;
-    fault::positive("drag", Some(asked.drag))?;
-    fault::positive("free_at", asked.free_at)?;
+    asked.check()?;
     fault::positive("certify", certify)?;
     let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
     let basins = places.iter().map(report::Place::basin).collect();
-    let free_at = asked.free_at.unwrap_or(design.space().free_distance);
+    let free_at = asked.free_at(design);
     let settings = RateSettings {
         certify: Some(certify.map_or_else(Certify::default, Certify::to)),
         ..RateSettings::new(asked.kt, basins, free_at)

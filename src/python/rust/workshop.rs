@@ -1,7 +1,7 @@
 //! Between a design and the workshop: files to make tiles by, and constants from measurements.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::Design;
 use tilebind::report;
@@ -26,11 +26,7 @@ pub fn files<'py>(
         }
     }
     let files = py.detach(|| report::workshop::files(design, making));
-    let named = PyDict::new(py);
-    for (name, content) in files.map_err(fault::value)? {
-        named.set_item(name, PyBytes::new(py, &content))?;
-    }
-    Ok(named)
+    convert::files(py, files.map_err(fault::value)?)
 }
 
 /// A calibration from a table of measurements.

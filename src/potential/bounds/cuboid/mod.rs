@@ -31,7 +31,7 @@
 //! whichever is less.
 //!
 //! **Panels over a face**, nearly parallel to it and inside its upright edges by at least D, take a
-//! Gauss rule of first-order forms. There `Phi = A - int int ln(h^2 + z^2) dz1 dz2`, A the sum of
+//! Gauss rule whose nodes have value, gradient and the second derivatives along v and across. There `Phi = A - int int ln(h^2 + z^2) dz1 dz2`, A the sum of
 //! `int int ln(u + r) dz1 dz2`, r^2 = u^2 + h^2 + z^2, over both edges, u the way from the edge. A is
 //! analytic up to the edges: on an ellipse whose points are no farther than b < D from the panel the
 //! parts of u and of r that are real are positive, so along a line of slope s
@@ -40,9 +40,12 @@
 //! is `4 ln(sqrt(h^2 + high^2) / sqrt(h^2 + low^2))`, high and low half the sum and half the
 //! difference of the thicknesses, and the rule and the integral are each no farther from its tangent
 //! than `4 e^2 (1/2 ln(sqrt(e^2 + high^2) / sqrt(e^2 + low^2)) + 3/4)`, e how far h changes along half
-//! the panel.
+//! the panel. What a motion by dh bends along h is left out of the forms: `A_hh` is not negative
+//! while u is at least h, nor is that second derivative, so it lies between 0 and the bound above
+//! (e = dh) plus half dh^2 times the sum of `E(p) = 2 (r_high - r_low) / p` over both edges. The rest
+//! is of third order: `A_vvv` is at most the sum of `2 E(p) / p`, `A_vvh` of `3/2 E(p) / p`.
 //!
-//! **Touching panels** are cut to about half the reach and have first-order forms about their
+//! **Touching panels** are cut to about a quarter of the reach and have first-order forms about their
 //! middles. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of the
 //! face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and
 //! `4 asinh(w1 / 2 / sqrt(h^2 + low^2))`, from the level ones. The latter grows like a logarithm as

@@ -1,6 +1,9 @@
 //! One pair of blocks near each other: quadratures over the second one's pole faces whose errors
 //! are bounded over a whole cell.
 
+mod over;
+mod rule;
+
 use std::f64::consts::PI;
 use std::iter::Sum;
 use std::ops::Add;
@@ -10,20 +13,13 @@ use nalgebra::Vector2;
 use super::nodes::{Node, Nodes};
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::segment_distance;
-use crate::potential::cuboid::quadrature::Rules;
+use rule::Rule;
 
 /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
 const SLACK: f64 = 1e-8;
 
-/// Panels take a Gauss rule of 4, 8 or 16 nodes from these distances on, in halves of the panel's
-/// width: each leaves about 1e-7 of the integrand's bound.
-const RULES: [(f64, Rule); 3] = [(4.9, Rule::Four), (1.6, Rule::Eight), (0.7, Rule::Sixteen)];
-
 /// The share of the distance to the sheet that the ellipse of analyticity takes.
 const ELLIPSE: f64 = 0.75;
-
-/// Panels over a face that are turned against it by more than this (rad) are cut as others.
-const STEEPEST: f64 = 0.1;
 
 /// Panels get third-order forms from a distance of this many times their reach on.
 const FAR: f64 = 3.0;
@@ -33,39 +29,6 @@ const FAR: f64 = 3.0;
 const SHARE: f64 = 0.25;
 const SHARE_WITHOUT_FORM: f64 = 0.05;
 const FINEST: f64 = 1.0 / 8192.0;
-
-#[derive(Clone, Copy)]
-enum Rule {
-    Four,
-    Eight,
-    Sixteen,
-}
-
-impl Rule {
-    /// The rule for a panel that many halves of its width from what its integrand is singular at.
-    fn at(ratio: f64) -> Option<Self> {
-        let rule = RULES.iter().find(|(least, _)| ratio >= *least);
-        rule.map(|(_, rule)| *rule)
-    }
-
-    /// Places between -1 and 1, and weights.
-    fn nodes(self) -> (&'static [f64], &'static [f64]) {
-        let rules = Rules::get();
-        match self {
-            Self::Four => (&rules.four[0], &rules.four[1]),
-            Self::Eight => (&rules.eight[0], &rules.eight[1]),
-            Self::Sixteen => (&rules.sixteen[0], &rules.sixteen[1]),
-        }
-    }
-
-    /// The error of an average by the rule, in units of the integrand's bound on an ellipse about
-    /// the panel whose short half axis is so many halves of the panel's width.
-    fn error(self, short: f64) -> f64 {
-        let rho = short + (1.0 + short * short).sqrt();
-        let power = rho.powi(-2 * self.nodes().0.len() as i32);
-        64.0 / 15.0 * power / (1.0 - 1.0 / (rho * rho)) / 2.0
-    }
-}
 
 /// The second block as seen from the first, in the first one's frame: u along its axis, v along
 /// its pole faces.
@@ -224,16 +187,13 @@ impl Pair {
         }
         let fine =
             |share: f64| panel.half <= (share * self.motion.reach).max(FINEST * self.second[1]);
-        if !fine(SHARE)
-            && let Some(left) = self.over(panel, nodes)
-        {
-            return left;
-        }
         if fine(SHARE) {
             let remainder = self.touching_remainder(panel);
             if remainder.is_some() || fine(SHARE_WITHOUT_FORM) {
                 return Left::within(self.touch(panel, remainder, nodes));
             }
+        } else if let Some(left) = self.over(panel, nodes) {
+            return left;
         }
         let half = panel.half / 2.0;
         [-half, half]
@@ -328,62 +288,6 @@ impl Pair {
         }
     }
 
-    /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
-    /// upright edges, by a Gauss rule. `None` where it is not so.
-    fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
-        let Motion { reach, turn, .. } = self.motion;
-        let tilt = panel.along.x.abs() + turn;
-        let [up, aside] = self.extent(panel);
-        let (h, v) = (panel.middle.x, panel.middle.y.abs());
-        let sheet = self.first[1] / 2.0;
-        let clear = sheet - v - aside - SLACK;
-        let is_level = tilt <= STEEPEST && panel.half * tilt <= 0.5 * reach;
-        if !is_level || h.abs() + up > clear || !(h > up || self.stays_out(h, up)) {
-            return None;
-        }
-        let rule = Rule::at(clear / panel.half)?;
-        let (places, weights) = rule.nodes();
-        for (place, share) in places.iter().zip(weights) {
-            let part = panel.part(place * panel.half, panel.half);
-            let node = self.first_order(&part, share * panel.weight());
-            nodes.push(&Node {
-                bend: node.value,
-                ..node
-            });
-        }
-        let [_, thin, thick] = self.charge();
-        let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
-        let far = sheet + v - aside;
-        let edge = |p: f64| 2.0 * (p.hypot(high) - p.hypot(low)) / p;
-        let edges = edge(clear) + edge(far);
-        let third = edge(clear) / clear + edge(far) / far;
-
-        // What bends along h alone, upwards everywhere.
-        let moved = self.moved(panel);
-        let gap_alone = |way: f64| {
-            let way = way.max(SLACK);
-            4.0 * way * way * (0.5 * (way.hypot(high) / way.hypot(low)).ln() + 0.75)
-        };
-        let bent = 0.5 * edges * moved[0] * moved[0] + gap_alone(moved[0]);
-        // What is of third order.
-        let arc = 0.5 * (panel.arm.norm() + panel.half) * turn * turn * (1.0 + turn);
-        let rest = third * moved[1] * moved[1] * (moved[1] / 3.0 + 0.75 * moved[0])
-            + edges * arc * (moved[0] + 2.0 * moved[1]);
-        // What the rule is wrong by.
-        let short = ELLIPSE * clear;
-        let long = panel.half.hypot(short);
-        let least = clear - short;
-        let steepness = (1.0 + (h.abs() + up + long * tilt) * tilt / least) / least;
-        let smooth = 2.0 * thin * thick * long * steepness * rule.error(short / panel.half);
-        let rule_s = smooth + 2.0 * gap_alone(panel.half * tilt);
-
-        let weight = panel.weight();
-        Some(Left {
-            middle: weight * 0.5 * bent,
-            spread: weight.abs() * (0.5 * bent + rest + rule_s + 4.0 * PI * thick * SLACK),
-        })
-    }
-
     /// Whether a panel that may get below the first block's face, within the face's width, does not
     /// where the tiles are free: it would be inside the block.
     fn stays_out(&self, h: f64, up: f64) -> bool {
@@ -402,13 +306,10 @@ impl Pair {
             return None;
         }
         let [_, thin, thick] = self.charge();
-        let [high, low] = [(thick + thin) / 2.0, (thick - thin) / 2.0];
+        let [_, low] = self.heights();
         let least = if inside { h - up } else { h.abs() - up };
         let floor = least.max(0.0);
-        let edge = |beside: f64| {
-            let p = beside.hypot(floor);
-            2.0 * (p.hypot(high) - p.hypot(low)) / p
-        };
+        let edge = |beside: f64| self.upright(beside.hypot(floor));
         let near = (v - sheet).abs() - aside;
         let far = (v + sheet - aside).max(near);
         let edges = 0.5 * (edge(near) + edge(far)) * (up * up + aside * aside);
@@ -443,5 +344,18 @@ impl Pair {
     fn charge(&self) -> [f64; 3] {
         let (a, b) = (self.first[2], self.second[2]);
         [self.first[1], a.min(b), a.max(b)]
+    }
+
+    /// Half the sum and half the difference of the two thicknesses (m).
+    fn heights(&self) -> [f64; 2] {
+        let [_, thin, thick] = self.charge();
+        [(thick + thin) / 2.0, (thick - thin) / 2.0]
+    }
+
+    /// The most (m) that the second derivatives of Phi get from one of the face's upright edges at
+    /// a distance (m) of it.
+    fn upright(&self, p: f64) -> f64 {
+        let [high, low] = self.heights();
+        2.0 * (p.hypot(high) - p.hypot(low)) / p
     }
 }
