@@ -2,11 +2,13 @@
 //! the workshop, and what is known of them in words.
 
 mod designs;
+mod pairs;
 mod picture;
 mod text;
 
 use serde_json::{Value, json};
 
+pub(crate) use pairs::deeper;
 pub use text::{headline, summary};
 
 use super::csv::table;
@@ -24,7 +26,8 @@ use crate::words::{Rules, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; assembly.yaml (rgrow), assembly.tiles (xgrow), \
-                         designs/, sheet.md, matrix.csv, slides.csv, words.toml, report.json";
+                         designs/, sheet.md, matrix.csv, pairs.csv, slides.csv, words.toml, \
+                         report.json";
 
 /// A tile set that was built, and all that reproduces it.
 pub struct Assembly<'a> {
@@ -122,6 +125,7 @@ pub fn files(assembly: &Assembly, command: &str) -> Files {
     );
     add("tileset.yaml", rgrow::write(&assembly.built.set, &[]));
     add("matrix.csv", matrix_csv(assembly));
+    add("pairs.csv", pairs::csv(assembly));
     let slides = assembly.slides();
     add("slides.csv", slides_csv(assembly, &slides));
     add("words.toml", assembly.words_toml.clone());
@@ -235,6 +239,7 @@ fn value(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Value {
             .map(|row| row.iter().map(|energy| positive_zero(*energy)).collect::<Value>())
             .collect::<Value>(),
         "strongest_mismatch": mismatch,
+        "deeper_in_whole_tiles": deeper(assembly),
         "slides": text::slid(assembly, slides).map(|slid| json!({
             "deepest_J": slid.deepest,
             "pairs_that_hold_alone": slid.holding,
