@@ -17,8 +17,6 @@ const DEPTH: f64 = 8.0;
 const ALIKE: f64 = 0.05;
 /// Rounds of exchanges at most.
 const ROUNDS: usize = 12;
-/// Wrong meetings may weigh so many times more where bonds are no deeper for it.
-const SLACK: f64 = 1.1;
 
 /// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
 /// `all` for the strongest bonds, then exchanged.
@@ -41,13 +39,13 @@ pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Vec<Wor
     }
     faces.extend(by_depth.iter().skip(needed));
     let weights = Weights { all, wiring };
-    exchange(&mut faces, all, needed, |faces, others, changed| {
+    exchange(&mut faces, all, needed, 1, |faces, others, changed| {
         weights.of(others, changed) < weights.of(faces, changed) * (1.0 - 1e-9)
     });
     if let Some(depths) = depths {
         let every: Vec<usize> = (0..needed).collect();
-        let most = weights.of(&faces, &every) * SLACK;
-        exchange(&mut faces, all, needed, |faces, others, _| {
+        let most = weights.of(&faces, &every) * depths.price;
+        exchange(&mut faces, all, needed, 4, |faces, others, _| {
             let deeper = depths.excess(faces);
             deeper > 0.0
                 && depths.excess(others) < deeper * (1.0 - 1e-9)
@@ -58,11 +56,13 @@ pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Vec<Wor
 }
 
 /// Exchanges the faces of bonds, with each other and with what is left, and words with mates, as long
-/// as that is `better`, which is told the faces before and after and the bonds that changed.
+/// as that is `better`, which is told the faces before and after and the bonds that changed. What is
+/// exchanged goes in 1 or 4 `ways`: as it is, or with one or both for their mates as well.
 fn exchange(
     faces: &mut Vec<usize>,
     all: &Matrix,
     needed: usize,
+    ways: usize,
     better: impl Fn(&[usize], &[usize], &[usize]) -> bool,
 ) {
     let there = all.words.len();
@@ -84,10 +84,17 @@ fn exchange(
                 if (depths[0] / depths[1] - 1.0).abs() > ALIKE {
                     continue;
                 }
-                let mut swapped = faces.clone();
-                swapped.swap(i, k);
                 let changed = if k < needed { &[i, k][..] } else { &[i] };
-                any |= take(faces, swapped, changed);
+                for way in 0..ways {
+                    let mut swapped = faces.clone();
+                    swapped.swap(i, k);
+                    for (bit, at) in [i, k].into_iter().enumerate() {
+                        if way >> bit & 1 == 1 {
+                            swapped[at] = mate(swapped[at], there);
+                        }
+                    }
+                    any |= take(faces, swapped, changed);
+                }
             }
         }
         if !any {

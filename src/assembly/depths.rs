@@ -16,11 +16,18 @@ use crate::words::Word;
 /// More words are not looked at: every face's energy with every other one is kept, by sides.
 const MOST_WORDS: usize = 128;
 
+/// Wrong meetings may weigh so many times more where no bond is deeper for it: little where tiles wait
+/// for their second bond; more where one holds them, which is so deep that below the gap no wrong one
+/// does.
+const PRICES: [f64; 2] = [1.1, 20.0];
+
 /// Two tiles that meet, by the bonds of their faces.
 type Meeting = (Axis, [Option<usize>; 4], [Option<usize>; 4]);
 
 /// What is needed for it.
 pub struct Depths<'a> {
+    /// How many times more wrong meetings may weigh for it.
+    pub price: f64,
     all: &'a Matrix,
     meetings: BTreeSet<Meeting>,
     /// Of every two faces, see [`Rests::table`].
@@ -50,7 +57,9 @@ impl<'a> Depths<'a> {
             }
         }
         let every: Vec<Word> = (0..faces).map(|face| all.code(face)).collect();
+        let one_holds = wiring.least_strength() >= set.tau();
         Some(Self {
+            price: PRICES[usize::from(one_holds)],
             all,
             meetings,
             energies: rests.table(&every),

@@ -4,8 +4,8 @@
     tests/assembly/study.py target/release/tilebind results/assembly [PART ...]
 
 Parts are builds, smallest, shaking, blocks, proofreading and pictures; without one, all, which takes
-an hour. Words are the same every time, what grows is drawn at random. See check.py for what an error
-is.
+some hours. It goes on where it was left: rows to be made anew are deleted before. Words are the same
+every time, what grows is drawn at random. See check.py for what an error is.
 """
 
 import csv
@@ -15,7 +15,7 @@ import re
 import sys
 import tempfile
 
-from check import SETS, Grown, Refused, assemble, at_growth, mean, with_words
+from check import SETS, Grown, Refused, assemble, at_growth, kept_words, mean, with_words
 from check import whole as of_size
 
 NAMES = ["unary-square", "binary-tree", "binary-counter", "beaver-square", "spiral"]
@@ -207,7 +207,7 @@ def shaking(program, folder, out, often):
         *(f"{it}_ideal" for it in GREW)])
     for name, excess in ((name, excess) for excess in EXCESSES for name in ORDER):
         if not table.has(name, excess):
-            given = kept_words(program, out, name)
+            given = kept_words(program, name)
             report = at_growth(program, folder / name, given, excess)
             gse, gmc, size = report["Gse"], report["Gmc"], whole(report)
             # Below 0 nothing grows, and little is waited for.
@@ -216,19 +216,6 @@ def shaking(program, folder, out, often):
             path = ideal(folder, (folder / name / "tileset.yaml").read_text(), gse, gmc)
             table.add([name, excess, *(figure(it, 4) for it in (*report["window_kt_J"], report["kt_J"], gse, gmc)), *own,
                        *measured(path, gmc, size, runs, plain=True, events=events)])
-
-
-def kept_words(program, out, name):
-    """Words of 16 magnets for a set, searched once."""
-    folder = pathlib.Path(tempfile.gettempdir()) / "tilebind-study"
-    folder.mkdir(exist_ok=True)
-    words = folder / f"{name}.toml"
-    if not words.exists():
-        arguments = [set_of(name), "--length", "16", "--shape", "shared", "--seconds", "4"]
-        with tempfile.TemporaryDirectory() as found:
-            assemble(program, pathlib.Path(found) / "it", *arguments, "--kt", "5e-3", "--coverage", "0.1")
-            words.write_text((pathlib.Path(found) / "it" / "words.toml").read_text())
-    return [set_of(name), "--words", str(words)]
 
 
 def blocks(program, folder, out, often):
