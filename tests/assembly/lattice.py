@@ -42,8 +42,8 @@ def main():
             figures = [f"{it:.5g}" for it in (matrix, bond, min(traps))]
             rows.append([design.stem, pair["word"], *figures, len(found["states"])])
             print(*rows[-1], flush=True)
-    with open(out, "w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([head, *rows])
+            with open(out, "w", newline="") as file:
+                csv.writer(file, lineterminator="\n").writerows([head, *rows])
     shallower = max(1 - float(row[3]) / float(row[2]) for row in rows)
     deepest = max(-float(row[4]) for row in rows) / report["bond_J"]
     print(f"no bond is deeper than the matrix says, none shallower by more than {100 * shallower:.1f} %;")
