@@ -14,7 +14,7 @@ use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, print};
+use super::{Failure, input, interrupt, memory, print, tell_of_kept};
 
 /// Mean exit times after which a moving tile is given up.
 const PATIENCE: f64 = 30.0;
@@ -210,7 +210,7 @@ impl Rates {
                 ("rates.csv", table.rates_csv().into_bytes()),
                 ("occupation.csv", table.occupation_csv().into_bytes()),
             ];
-            interrupt::without(|| writer::write_each(folder, &files))?;
+            tell_of_kept(interrupt::without(|| writer::write_each(folder, &files))?);
         }
         self.print
             .results(&json::text(&table.entry()), || table.summary())
