@@ -8,7 +8,7 @@ use tilebind::contact::Contact;
 use tilebind::contact::cells::{CellContact, ContactCells, Cut};
 use tilebind::tile::Outline;
 
-use super::{saw, square};
+use super::{near_contact, saw, square};
 
 #[test]
 fn no_free_configuration_is_blocked_or_cut_off() {
@@ -76,17 +76,9 @@ fn cells_do_not_depend_on_how_corners_are_numbered() {
         });
         let (mut cuts, mut corners) = (0, 0);
         for _ in 0..2000 {
-            let theta: f64 = rng.random_range(-3.1..3.1);
-            let size = 10f64.powf(rng.random_range(-3.5..-1.5));
-            let reach = 0.215 * (1.0 + theta.sin().abs() + theta.cos().abs());
-            let angle = rng.random_range(0..4) as f64 * std::f64::consts::FRAC_PI_2;
-            let (x, y) = (reach, rng.random_range(-0.4..0.4));
+            let size = 10f64.powf(rng.random_range(-4.5..-2.5));
             let cell = Cell {
-                centre: Configuration::new(
-                    x * angle.cos() - y * angle.sin(),
-                    x * angle.sin() + y * angle.cos(),
-                    theta,
-                ),
+                centre: near_contact(&plain, &mut rng),
                 half: [size; 3],
             };
             let counts = |contact: &Contact| match ContactCells::new(contact).classify(&cell) {

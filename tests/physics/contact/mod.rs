@@ -3,6 +3,7 @@
 mod cells;
 mod constraint;
 mod lift;
+mod matching;
 mod motion;
 mod possible;
 
@@ -41,6 +42,23 @@ pub fn saw(left: bool) -> Outline {
         points.extend([[-0.2, 0.2], [-0.2, -0.2]]);
         outline(&points)
     }
+}
+
+/// A free configuration with the tiles a little apart at most: drawn together from where they are
+/// clear of each other.
+pub fn near_contact(contact: &Contact, rng: &mut ChaCha8Rng) -> Configuration {
+    let (angle, theta) = (rng.random_range(-3.1..3.1f64), rng.random_range(-3.1..3.1));
+    let (mut near, mut far) = (0.0, 2.0);
+    for _ in 0..50 {
+        let middle = (near + far) / 2.0;
+        let q = Configuration::new(middle * angle.cos(), middle * angle.sin(), theta);
+        if contact.is_free(&q) {
+            far = middle
+        } else {
+            near = middle
+        }
+    }
+    Configuration::new(far * angle.cos(), far * angle.sin(), theta)
 }
 
 fn plain_distance(a: &Outline, b: &Outline, q: &Configuration) -> f64 {
