@@ -62,6 +62,10 @@ fn letters_go_by_depth_and_twins_share_one() {
     inventory.states = traps.collect();
     assert_eq!(inventory.names()[0], "B");
     assert_eq!(inventory.names()[25..], ["AA", "AB"]);
+    // Energies are as different as their ratio, whatever their size.
+    let traps = (0..3).map(|id| state(id, id, trap, 1e-9 * (id as f64 * 1e-3 - 1.0)));
+    inventory.states = traps.collect();
+    assert_eq!(inventory.names(), ["B", "C", "D"]);
 }
 
 #[test]
