@@ -3,10 +3,12 @@
 
 mod designs;
 mod picture;
+mod search;
 mod text;
 
 use serde_json::{Value, json};
 
+pub use search::WordSearch;
 pub use text::{headline, summary};
 
 use super::csv::table;

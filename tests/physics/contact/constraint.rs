@@ -5,9 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::contact::{Contact, closest_admissible};
-use tilebind::tile::Outline;
 
-use super::{outline, saw, square};
+use super::{regular, saw, square};
 
 fn flush() -> (Contact, Configuration) {
     let contact = Contact::new(&square(0.4), &square(0.4));
@@ -96,27 +95,17 @@ fn mated_teeth_only_let_go_outwards() {
     assert!(slid.x > 0.0, "a slide climbs the teeth: {slid}");
 }
 
-/// A polygon of so many equal sides of 0.1 m, the first of them to the right.
-fn regular(sides: u32) -> Outline {
-    let turn = std::f64::consts::TAU / f64::from(sides);
-    let radius = 0.05 / (turn / 2.0).sin();
-    let corner = |k: u32| turn * (f64::from(k) - 0.5);
-    outline(
-        &(0..sides)
-            .map(|k| [radius * corner(k).cos(), radius * corner(k).sin()])
-            .collect::<Vec<_>>(),
-    )
-}
-
 /// Steps that open all gaps stay free, steps that close one overlap: wherever polygons touch along
 /// a whole side, a part of it, in a corner.
 #[test]
 fn gaps_tell_free_steps_from_blocked_ones() {
     let mut rng = ChaCha8Rng::seed_from_u64(12);
     for sides in [3, 5, 6, 7] {
-        let (a, b) = (regular(sides), regular(sides));
-        let contact = Contact::new(&a, &b);
-        let apothem = 0.05 / (std::f64::consts::PI / f64::from(sides)).tan();
+        let half = std::f64::consts::PI / sides as f64;
+        // Sides of 0.1 m.
+        let polygon = regular(sides, 0.05 / half.sin());
+        let contact = Contact::new(&polygon, &polygon);
+        let apothem = 0.05 / half.tan();
         let (mut opened, mut closed) = (0, 0);
         for slide in [0.0, 0.03, -0.06, 0.0999, -0.1] {
             // The sides face each other: the right one of the one, its image of the other.
