@@ -86,3 +86,29 @@ fn complements_match_all_along() {
     assert!((best.pose.x - 0.4).abs() < 1e-9 && best.pose.y.abs() < 1e-9);
     assert_eq!(best.gap, 0.0);
 }
+
+/// Neither where an outline's reference point lies nor how it is turned.
+#[test]
+fn contacts_do_not_depend_on_the_outlines_frames() {
+    let lengths = |a: &Outline, b: &Outline| -> Vec<f64> {
+        let found = matches(&Contact::new(a, b), 100_000);
+        found.iter().map(|one| one.contact).collect()
+    };
+    let framed = |outline: &Outline, x: f64, y: f64, turn: f64| {
+        let frame = Configuration::new(x, y, turn);
+        let vertices = outline.vertices().iter().map(|v| frame.transform(*v));
+        Outline::new(vertices.collect()).unwrap()
+    };
+    for (a, b) in [(square(0.1), trapezium()), (saw(false), saw(true))] {
+        let expected = lengths(&a, &b);
+        for k in 0..8 {
+            let turn = f64::from(k) * std::f64::consts::FRAC_PI_4;
+            let a = framed(&a, 0.3, -0.2, 0.1 * f64::from(k));
+            let b = framed(&b, -0.07, 0.11, turn + 0.1 * f64::from(k));
+            let found = lengths(&a, &b);
+            assert_eq!(found.len(), expected.len(), "{k}");
+            let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6;
+            assert!(found.iter().zip(&expected).all(same), "{k}");
+        }
+    }
+}
