@@ -15,7 +15,7 @@ use tilebind::report::writer::{self, Contents, Extent, WriteError};
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, style, tell, workload};
+use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -116,7 +116,8 @@ impl Analyse {
         let sheet = self.figures.sheet()?;
         memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
-        workload::tell_of(&design, &self.survey, &self.work);
+        let (milestones, starts) = (self.survey.milestones, self.survey.far_starts);
+        workload::tell_of(&design, milestones, starts, self.work.threads());
 
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);
@@ -135,12 +136,7 @@ impl Analyse {
             writer::files(&design, &analysis, &contents, start).map_err(WriteError::from)?;
         let kept = interrupt::without(|| writer::write(&self.out, &files))?;
         progress.finish();
-        for path in kept {
-            tell(format!(
-                "note: a file that tilebind did not write was in the way; it is now {}",
-                path.display()
-            ));
-        }
+        tell_of_kept(kept);
 
         let report = String::from_utf8_lossy(&files[writer::REPORT]);
         let folder = self.out.display().to_string();

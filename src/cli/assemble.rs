@@ -13,7 +13,7 @@ use tilebind::words::{Rules, Shape};
 use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
 use super::words::values;
-use super::{Failure, input, interrupt, tell};
+use super::{Failure, input, interrupt, tell_of_kept};
 
 /// Build a tile set of magnets: a word for every glue, and files for the engines of tile assembly
 #[derive(Args)]
@@ -172,10 +172,7 @@ impl Assemble {
             seed: self.work.seed,
         };
         let files = report::files(&assembly, &command_line());
-        let kept = interrupt::without(|| writer::write(&self.out, &files))?;
-        for path in kept {
-            tell(format!("note: kept what was there as {}", path.display()));
-        }
+        tell_of_kept(interrupt::without(|| writer::write(&self.out, &files))?);
         let json = report::json(&assembly);
         self.print.results(&json, || {
             let summary = report::summary(&assembly);

@@ -12,7 +12,7 @@ use tilebind::{Configuration, Settings};
 
 use super::options::{DesignOptions, WorkOptions};
 use super::progress::Progress;
-use super::{Failure, input, interrupt, memory, print};
+use super::{Failure, input, interrupt, memory, print, workload};
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
@@ -79,6 +79,7 @@ impl Barrier {
         }
         memory::check(self.milestones, None, 1)?;
         self.work.use_threads()?;
+        workload::tell_of(&design, self.milestones, 0, self.work.threads());
         let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
             let message = error.to_string();

@@ -19,7 +19,7 @@ use super::figures::{FigureOptions, command_line};
 use super::options::{PrintOptions, WorkOptions};
 use super::progress::Progress;
 use super::word::Word;
-use super::{Failure, input, interrupt, memory, style};
+use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -76,6 +76,10 @@ impl Compare {
         let settings = self.options.settings();
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
+        for design in &designs {
+            let threads = self.work.threads();
+            workload::tell_of(design, settings.milestones, settings.far_starts, threads);
+        }
 
         let progress = self.print.progress();
         let assessments: Vec<Assessment> = designs
@@ -105,8 +109,9 @@ impl Compare {
             .made_by(&command_line())
             .beside(files.iter().map(|(name, _)| name));
         files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        interrupt::without(|| writer::write_each(&self.out, &files))?;
+        let kept = interrupt::without(|| writer::write_each(&self.out, &files))?;
         progress.finish();
+        tell_of_kept(kept);
         self.print.results(&json, || {
             let folder = self.out.display();
             let names =

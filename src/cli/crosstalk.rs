@@ -10,7 +10,7 @@ use tilebind::words::crosstalk::{Stage, TOLERANCE};
 
 use super::figures::command_line;
 use super::options::PrintOptions;
-use super::{Failure, input, interrupt, tell};
+use super::{Failure, input, interrupt, tell, tell_of_kept};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
@@ -80,10 +80,7 @@ impl Crosstalk {
         let json = report::json(&set, &found);
         if let Some(folder) = &self.out {
             let files = report::files(&set, &found, &command_line());
-            let kept = interrupt::without(|| writer::write(folder, &files))?;
-            for path in kept {
-                tell(format!("note: kept what was there as {}", path.display()));
-            }
+            tell_of_kept(interrupt::without(|| writer::write(folder, &files))?);
         }
         self.print.results(&json, || {
             let mut text = report::summary(&set, &found);

@@ -14,7 +14,7 @@ use tilebind::report::{docking as report, release, writer};
 use super::docking_starts::StartOptions;
 use super::figures::{FigureOptions, command_line};
 use super::options::{PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt};
+use super::{Failure, input, interrupt, tell_of_kept};
 
 const SEED: &str =
     "Seed of all random numbers; a trajectory depends on it and on its own number only";
@@ -159,6 +159,7 @@ impl Dock {
         let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
         let map = DockingMap::new(&docking, CELLS);
         let json = report::json(&design, &docking, &map);
+        let mut kept = Vec::new();
         if let Some(folder) = &self.out {
             let mut files = vec![
                 ("dock.json".to_owned(), json.clone().into_bytes()),
@@ -210,9 +211,10 @@ impl Dock {
                 .made_by(&command_line())
                 .beside(files.iter().map(|(name, _)| name));
             files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-            interrupt::without(|| writer::write_each(folder, &files))?;
+            kept = interrupt::without(|| writer::write_each(folder, &files))?;
         }
         progress.finish();
+        tell_of_kept(kept);
         let summary = || {
             let told = report::summary(&design, &problem, &docking, &map);
             match &self.out {

@@ -7,7 +7,7 @@ use tilebind::report::workshop;
 use tilebind::report::writer;
 use tilebind::workshop::Making;
 
-use super::{Failure, input, interrupt, print};
+use super::{Failure, input, interrupt, print, tell_of_kept};
 
 /// Write both tiles for the workshop: DXF and SVG to scale, and a sheet for the magnets
 #[derive(Args)]
@@ -53,7 +53,9 @@ impl Make {
         };
         let files = workshop::files(&design, &making);
         let files = files.map_err(|error| Failure::Usage(error.to_string()))?;
-        interrupt::without(|| writer::write_each(&self.out, &files))?;
+        tell_of_kept(interrupt::without(|| {
+            writer::write_each(&self.out, &files)
+        })?);
         let magnets = design.pair.fixed.magnets.len() + design.pair.moving.magnets.len();
         let counted = match magnets {
             1 => "1 magnet".to_owned(),

@@ -38,6 +38,7 @@ use failure::WRONG;
 
 use std::fmt::Display;
 use std::io::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Prints what clap answers in place of a command: help, the version, or what is wrong.
@@ -67,6 +68,16 @@ fn tell(message: impl Display) {
         }
     }
     let _ = std::io::stderr().write_all(message.as_bytes());
+}
+
+/// Tells under which names files are now that were in the way of results.
+fn tell_of_kept(kept: Vec<PathBuf>) {
+    for path in kept {
+        tell(format!(
+            "note: a file that tilebind did not write was in the way; it is now {}",
+            path.display()
+        ));
+    }
 }
 
 /// Writes to standard output.

@@ -16,7 +16,7 @@ use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::figures::command_line;
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, print};
+use super::{Failure, input, interrupt, memory, print, tell_of_kept};
 
 /// Mean exit times after which a moving tile is given up.
 const PATIENCE: f64 = 30.0;
@@ -225,7 +225,7 @@ impl Rates {
             .made_by(&command_line())
             .beside(files.iter().map(|(name, _)| name));
         files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        interrupt::without(|| writer::write_each(folder, &files))?;
+        tell_of_kept(interrupt::without(|| writer::write_each(folder, &files))?);
         progress.finish();
         self.print.results(&text, || {
             format!(

@@ -18,7 +18,7 @@ use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, style};
+use super::{Failure, input, interrupt, memory, print, style, tell_of_kept};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -270,10 +270,11 @@ impl Sweep {
             .filter(|(name, _)| !folder.join(name).exists());
         files.extend(new.map(|(name, text)| (name, text.as_bytes().to_vec())));
         files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        interrupt::without(|| {
+        let kept = interrupt::without(|| {
             store.tidy();
             writer::write_each(folder, &files)
         })?;
+        tell_of_kept(kept);
         self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";

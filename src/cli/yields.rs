@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
 use tilebind::kinetics::rates::RatesError;
+use tilebind::report::files::with_report;
 use tilebind::report::json;
 use tilebind::report::page::Page;
 use tilebind::report::writer;
@@ -14,7 +15,7 @@ use tilebind::yields::{Question, YieldError, yields};
 
 use super::figures::command_line;
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt};
+use super::{Failure, input, interrupt, tell_of_kept};
 
 /// How many pairs are bound after a time on a shaken table, and at which shaking most are
 #[derive(Args)]
@@ -120,16 +121,15 @@ impl YieldCommand {
         let found = yields(&design, &question, &progress).map_err(failure)?;
         let value = report::json(&design, &question, &found);
         let text = json::text(&value);
+        let mut kept = Vec::new();
         if let Some(folder) = &self.out {
-            let mut files = report::files(&question, &found);
-            files.push(("report.json".to_owned(), text.clone().into_bytes()));
-            let page = Page::of_yields(&design, &question, &found)
-                .made_by(&command_line())
-                .beside(files.iter().map(|(name, _)| name));
-            files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-            interrupt::without(|| writer::write_each(folder, &files))?;
+            let tables = report::files(&question, &found).into_iter().collect();
+            let page = Page::of_yields(&design, &question, &found);
+            let files = with_report(tables, Some(page), value, &command_line());
+            kept = interrupt::without(|| writer::write(folder, &files))?;
         }
         progress.finish();
+        tell_of_kept(kept);
         self.print.results(&text, || {
             let told = report::summary(&design, &question, &found);
             match &self.out {

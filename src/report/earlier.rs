@@ -27,15 +27,51 @@ impl Earlier {
 
     /// The listed files that still are as they were written.
     pub fn unchanged<'a>(&'a self, folder: &'a Path) -> impl Iterator<Item = &'a str> {
-        let below = |name: &str| {
-            let mut parts = Path::new(name).components();
-            parts.all(|part| matches!(part, Component::Normal(_)))
-        };
+        let same = |(name, sum): &(&String, &String)| is_unchanged(folder, name, sum);
         self.files
             .iter()
-            .filter(move |(name, _)| below(name))
-            .filter(|(name, sum)| content(&folder.join(name)).is_some_and(|it| sha256(it) == **sum))
+            .filter(same)
             .map(|(name, _)| name.as_str())
+    }
+}
+
+/// Whether a file of this name, not one that leads out of the folder, has this checksum.
+fn is_unchanged(folder: &Path, name: &str, sum: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    parts.all(|part| matches!(part, Component::Normal(_)))
+        && content(&folder.join(name)).is_some_and(|it| sha256(it) == sum)
+}
+
+/// What commands without a report wrote into a folder and nobody changed since: by name, checksums.
+pub(super) struct Listed(BTreeMap<String, String>);
+
+impl Listed {
+    /// The file of lines as `sha256sum` writes them.
+    pub const NAME: &str = ".tilebind.sha256";
+
+    /// Reads the list in a folder; empty where there is none.
+    pub fn read(folder: &Path) -> Self {
+        let text = content(&folder.join(Self::NAME)).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let entries = text.lines().filter_map(|line| line.split_once("  "));
+        let same = entries.filter(|(sum, name)| is_unchanged(folder, name, sum));
+        Self(same.map(|(sum, name)| (name.into(), sum.into())).collect())
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
+    /// These files as well.
+    pub fn with<'a>(mut self, files: impl Iterator<Item = (&'a str, &'a Vec<u8>)>) -> Self {
+        let sums = files.map(|(name, content)| (name.to_owned(), sha256(content)));
+        self.0.extend(sums);
+        self
+    }
+
+    pub fn text(&self) -> String {
+        let line = |(name, sum): (&String, &String)| format!("{sum}  {name}\n");
+        self.0.iter().map(line).collect()
     }
 }
 

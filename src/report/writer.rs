@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::earlier::{Earlier, content};
+use super::earlier::{Earlier, Listed, content};
 pub use super::files::{Files, PAGE, PICTURES, REPORT};
 use super::json::Report;
 use super::names::{alternative_file, pathway_file};
@@ -169,13 +169,8 @@ pub fn write(folder: &Path, files: &Files) -> Result<Vec<PathBuf>, WriteError> {
         .flat_map(|earlier| earlier.unchanged(folder))
         .collect();
     own.extend(earlier.is_some().then_some(REPORT));
-    let kept = files
-        .iter()
-        .filter(|(name, _)| !own.contains(name.as_str()))
-        .map(|(name, new)| (folder.join(name), new))
-        .filter(|(path, new)| in_the_way(path) && content(path).as_ref() != Some(*new))
-        .map(|(path, _)| set_aside(path))
-        .collect::<Result<_, _>>()?;
+    let listed = Listed::read(folder);
+    let kept = make_way(folder, files, |name| own.contains(name) || listed.has(name))?;
     let _ = std::fs::remove_file(folder.join(REPORT));
     let stale = own.iter().filter(|name| !files.contains_key(**name));
     let stale: Vec<PathBuf> = stale.map(|name| folder.join(name)).collect();
@@ -200,14 +195,46 @@ pub fn write_file(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     staged.settle()
 }
 
-/// Writes files into a folder, each whole or not at all, in their order.
+/// Writes files into a folder, each whole or not at all, in their order, for commands without a
+/// report that lists them: `.tilebind.sha256` does. What they wrote, and nobody changed since, is replaced.
+/// What else is in the way goes under another name, and these names are returned.
 ///
 /// # Errors
 /// Where the file system refuses; the files before are then in their places.
-pub fn write_each<N: AsRef<Path>>(folder: &Path, files: &[(N, Vec<u8>)]) -> Result<(), WriteError> {
-    files
+pub fn write_each<N: AsRef<str>>(
+    folder: &Path,
+    files: &[(N, Vec<u8>)],
+) -> Result<Vec<PathBuf>, WriteError> {
+    let named = || files.iter().map(|(name, content)| (name.as_ref(), content));
+    let earlier = Earlier::read(folder);
+    let own: BTreeSet<&str> = earlier
         .iter()
-        .try_for_each(|(name, content)| write_file(&folder.join(name), content))
+        .flat_map(|earlier| earlier.unchanged(folder))
+        .collect();
+    let listed = Listed::read(folder);
+    let kept = make_way(folder, named(), |name| {
+        own.contains(name) || listed.has(name)
+    })?;
+    // First, so that a run that ends in between leaves no file that is not listed.
+    let list = folder.join(Listed::NAME);
+    write_file(&list, listed.with(named()).text().as_bytes())?;
+    named().try_for_each(|(name, content)| write_file(&folder.join(name), content))?;
+    Ok(kept)
+}
+
+/// Gives other names to what is in the way of new files, unless it is tilebind's own or the same.
+fn make_way<N: AsRef<str>>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (N, impl AsRef<[u8]>)>,
+    is_own: impl Fn(&str) -> bool,
+) -> Result<Vec<PathBuf>, WriteError> {
+    files
+        .into_iter()
+        .filter(|(name, _)| !is_own(name.as_ref()))
+        .map(|(name, new)| (folder.join(name.as_ref()), new))
+        .filter(|(path, new)| in_the_way(path) && content(path).as_deref() != Some(new.as_ref()))
+        .map(|(path, _)| set_aside(path))
+        .collect()
 }
 
 /// Whether a folder holds a report that is not of tilebind.

@@ -126,3 +126,47 @@ fn upper_bound(a: &Knot, b: &Knot, duration: f64, curvature: f64) -> f64 {
     let crossing = duration * difference_at_0 / (difference_at_0 - difference_at_h);
     highest.max(left(crossing))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Above the lower of the two parabolas, and no higher than their peak or an end.
+    #[test]
+    fn the_upper_bound_is_the_peak_of_the_lower_parabola() {
+        let knot = |t, energy, slope| Knot { t, energy, slope };
+        let slopes = [-3.0, -0.4, 0.0, 0.7, 2.0];
+        for (duration, curvature) in [(0.5, 0.0), (0.5, 3.0), (2.0, 1.0), (0.1, 40.0)] {
+            for (first, last) in slopes.iter().flat_map(|s| slopes.map(|t| (*s, t))) {
+                let (a, b) = (knot(0.0, 0.3, first), knot(duration, -0.2, last));
+                let lower = |t: f64| {
+                    let back = duration - t;
+                    let bend = |t: f64| curvature * t * t / 2.0;
+                    let left = a.energy + a.slope * t + bend(t);
+                    left.min(b.energy - b.slope * back + bend(back))
+                };
+                let sampled = (0..=20_000)
+                    .map(|k| lower(duration * f64::from(k) / 20_000.0))
+                    .fold(a.energy.max(b.energy), f64::max);
+                let bound = upper_bound(&a, &b, duration, curvature);
+                assert!(
+                    bound >= sampled && bound < sampled + 2e-3 * duration,
+                    "{a:?} {b:?} {curvature}: {bound} {sampled}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_bound_of_the_curvature_there_is_none_of_the_energy() {
+        let flat = |t| Knot {
+            t,
+            energy: 0.0,
+            slope: 0.0,
+        };
+        assert_eq!(
+            upper_bound(&flat(0.0), &flat(1.0), 1.0, f64::INFINITY),
+            f64::INFINITY
+        );
+    }
+}

@@ -62,6 +62,10 @@ fn letters_go_by_depth_and_twins_share_one() {
     inventory.states = traps.collect();
     assert_eq!(inventory.names()[0], "B");
     assert_eq!(inventory.names()[25..], ["AA", "AB"]);
+    // Energies are as different as their ratio, whatever their size.
+    let traps = (0..3).map(|id| state(id, id, trap, 1e-9 * (id as f64 * 1e-3 - 1.0)));
+    inventory.states = traps.collect();
+    assert_eq!(inventory.names(), ["B", "C", "D"]);
 }
 
 #[test]
@@ -113,4 +117,39 @@ fn what_one_start_only_ended_in_tells_how_much_is_unseen() {
     let none = unseen(vec![caught(0, 0, 150), caught(1, 1, 50)]);
     assert_eq!((none.count, none.of), (0, 200));
     assert!(none.high > 0.0 && none.high < 0.05);
+}
+
+#[test]
+fn another_run_widens_the_spread_of_the_barriers_between_the_same_places() {
+    let space = ConfigurationSpace {
+        half_size: [10.0, 10.0],
+        rho: 0.1,
+        free_distance: 1.0,
+    };
+    let energy = DipolePotential::new(&[], &[]);
+    let problem = Problem::without_contact(space, Box::new(energy));
+    let at = |id: usize, x: f64| State {
+        id,
+        class: id,
+        configuration: Configuration::new(x, 0.0, 0.0),
+        ..state(StateKind::Trap, -1.0)
+    };
+    let run = |places: [f64; 2], saddles: [f64; 2]| Inventory {
+        states: vec![at(0, places[0]), at(1, places[1])],
+        barriers: vec![
+            barrier(None, saddles[0]),
+            barrier(Some((1, -1.0)), saddles[1]),
+        ],
+        ..Inventory::default()
+    };
+    let mut inventory = run([0.0, 0.5], [0.1, 0.2]);
+    assert!(inventory.barriers.iter().all(|one| one.spread.is_none()));
+    inventory.widen_spread(&problem, &run([0.0, 0.5], [0.15, 0.18]));
+    let spread = |inventory: &Inventory, k: usize| inventory.barriers[k].spread;
+    assert_eq!(spread(&inventory, 0), Some((0.1, 0.15)));
+    assert_eq!(spread(&inventory, 1), Some((0.18, 0.2)));
+    // The second state lies elsewhere: that is another barrier.
+    inventory.widen_spread(&problem, &run([0.0, 0.9], [0.05, 0.9]));
+    assert_eq!(spread(&inventory, 0), Some((0.05, 0.15)));
+    assert_eq!(spread(&inventory, 1), Some((0.18, 0.2)));
 }

@@ -63,3 +63,32 @@ fn few_milestones_have_few_neighbours() {
     let pairs = neighbour_pairs(&[at(0.0), at(0.1), at(0.2)], &space, 5);
     assert_eq!(pairs, [(0, 1), (0, 2), (1, 2)]);
 }
+
+/// However few there are, the nearer way round counts.
+#[test]
+fn few_neighbours_across_the_seam_are_as_far_as_the_metric_says() {
+    let space = ConfigurationSpace {
+        half_size: [1.0, 1.0],
+        rho: 0.3,
+        free_distance: 0.5,
+    };
+    let at = |theta: f64| Milestone {
+        configuration: Configuration::new(0.0, 0.0, theta),
+        energy: 0.0,
+        gradient: Vector3::zeros(),
+    };
+    let milestones = [0.1, 3.0, -3.0, -0.2].map(at);
+    let search = NeighbourSearch::new(&milestones, &space);
+    for q in milestones.map(|m| m.configuration) {
+        for k in 0..7 {
+            let found = search.nearest(&q, k);
+            assert_eq!(found.len(), k.min(milestones.len()));
+            assert!(found.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+            for (squared, i) in found {
+                let other = &milestones[i as usize].configuration;
+                let distance = space.distance(&q, other);
+                assert!((squared.sqrt() - distance).abs() < 1e-12, "{k} {i}");
+            }
+        }
+    }
+}

@@ -158,3 +158,24 @@ fn milestones_follow_their_rule_of_acceptance() {
         }
     }
 }
+
+/// A way that waits before it sets out costs what it costs without the wait.
+#[test]
+fn waiting_costs_nothing() {
+    let energies = [1e-3, 2e-3, 5e-4, 1.5e-3];
+    let lengths = [0.1, 0.2, 0.05];
+    let plain = edge::costs_of_energies(&energies, &lengths, &SETTINGS);
+    assert_eq!(plain.peak, 2e-3);
+    assert!((plain.peak_at - 0.1 / 0.35).abs() < 1e-12 && (plain.length - 0.35).abs() < 1e-12);
+    assert!((plain.work[0] - 2e-3).abs() < 1e-15 && (plain.work[1] - 1.5e-3).abs() < 1e-15);
+    assert!(plain.minus_ln_probability.iter().all(|p| p.is_finite()));
+    for k in 0..energies.len() {
+        let (mut waiting, mut steps) = (energies.to_vec(), lengths.to_vec());
+        waiting.insert(k, energies[k]);
+        steps.insert(k, 0.0);
+        let waited = edge::costs_of_energies(&waiting, &steps, &SETTINGS);
+        assert_eq!(waited, plain, "{k}");
+    }
+    let nowhere = edge::costs_of_energies(&[3e-3], &[], &SETTINGS);
+    assert_eq!((nowhere.peak, nowhere.length), (3e-3, 0.0));
+}

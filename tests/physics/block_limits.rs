@@ -3,8 +3,14 @@
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tilebind::Configuration;
+use tilebind::potential::Potential;
+use tilebind::potential::cuboid::CuboidPotential;
 use tilebind::potential::cuboid::block::{Block, exact};
 use tilebind::potential::cuboid::limits::{Limits, face_distances};
+use tilebind::tile::{Magnet, Tile};
+
+use crate::designs;
 
 fn random_pair(rng: &mut ChaCha8Rng, gap: f64) -> (Block, Block) {
     let first = Block::new(0.3, [0.010, 0.012, 0.003]);
@@ -67,4 +73,36 @@ fn second_differences_stay_below_their_bounds() {
             assert!(second_derivative.abs() <= limits.curvature(0.0, gap - h));
         }
     }
+}
+
+/// Head on and far apart, blocks are dipoles: U = -2 K / r^3, its fourth derivative 6! K / r^7. Turning
+/// adds to it. Twice the moment has twice the energy, and twice the bound.
+#[test]
+fn the_fourth_derivative_s_bound_holds_far_apart_and_is_as_the_moment() {
+    let pair = designs::load("shapes/one-face.toml").pair;
+    let alone = |tile: &Tile, times: f64| {
+        let first = &tile.magnets[0];
+        [Magnet {
+            position: Vector2::zeros(),
+            angle: 0.0,
+            moment: times * first.moment,
+            ..first.clone()
+        }]
+    };
+    let (fixed, moving) = (alone(&pair.fixed, 1.0), alone(&pair.moving, 1.0));
+    let potential = CuboidPotential::new(&fixed, &moving);
+    let twice = CuboidPotential::new(&fixed, &alone(&pair.moving, 2.0));
+    let strength = 1e-7 * fixed[0].moment * moving[0].moment;
+    for r in [0.2, 1.0, 2.0] {
+        let reach = 0.1;
+        let at = Configuration::new(r, 0.0, 0.0);
+        let nearest = 720.0 * strength / (r - reach).powi(7);
+        let bound = potential.fourth_derivative_bound(&at, reach);
+        assert!(bound >= nearest, "{bound} {nearest}");
+        let doubled = twice.fourth_derivative_bound(&at, reach);
+        assert!((doubled / bound - 2.0).abs() < 1e-12, "{bound} {doubled}");
+    }
+    // Where the blocks may meet there is none.
+    let near = Configuration::new(0.02, 0.0, 0.0);
+    assert_eq!(potential.fourth_derivative_bound(&near, 0.1), f64::INFINITY);
 }

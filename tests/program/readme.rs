@@ -46,9 +46,14 @@ fn shortened(command: &str) -> String {
         if words[0] == "sweep" && is_design(word) && short.iter().any(|w| is_design(w)) {
             continue;
         }
-        let fewer = word.parse::<usize>().is_ok() && short.last().is_some_and(|w| w == "--runs");
+        let counts = ["--runs", "--simulations"];
+        let fewer = word.parse::<usize>().is_ok()
+            && short.last().is_some_and(|w| counts.contains(&w.as_str()));
         short.push(match word {
             _ if fewer => "8".to_owned(),
+            list if short.last().is_some_and(|w| w == "--kt") => {
+                list.split(',').take(2).collect::<Vec<_>>().join(",")
+            }
             word if word.starts_with("--dynamics") => "--dynamics=2".to_owned(),
             word => match word.rsplit_once(':') {
                 Some((range, count)) if range.contains('=') && count.parse::<usize>().is_ok() => {

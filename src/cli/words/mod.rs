@@ -17,7 +17,7 @@ use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell};
+use super::{Failure, input, interrupt, tell, tell_of_kept};
 use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
@@ -230,10 +230,7 @@ impl Words {
     ) -> Result<(), Failure> {
         if let Some(folder) = &self.out {
             let files = files();
-            let kept = interrupt::without(|| writer::write(folder, &files))?;
-            for path in kept {
-                tell(format!("note: kept what was there as {}", path.display()));
-            }
+            tell_of_kept(interrupt::without(|| writer::write(folder, &files))?);
         }
         self.print.results(json, || {
             let mut text = summary();

@@ -198,3 +198,80 @@ impl Meeting<'_> {
         along >= -reach && along <= length + reach && sides.iter().all(in_front)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation2;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    /// The gap at an offset from the centre, by its definition.
+    fn gap(contact: &PossibleContact, d: Vector3<f64>) -> f64 {
+        let (n, arm, turn) = (contact.normal, contact.arm, Rotation2::new(d.z));
+        if contact.edge_moves {
+            contact.gap + (turn * n).dot(&(arm - d.xy())) - n.dot(&arm)
+        } else {
+            contact.gap + n.dot(&(turn * arm + d.xy() - arm))
+        }
+    }
+
+    /// How fast a step opens it there, at the step's own pace.
+    fn slope(contact: &PossibleContact, d: Vector3<f64>, step: &Vector3<f64>) -> f64 {
+        let turned = |v: Vector2<f64>| {
+            let v = Rotation2::new(d.z) * v;
+            (v, Vector2::new(-v.y, v.x) * step.z)
+        };
+        if contact.edge_moves {
+            let (n, rate) = turned(contact.normal);
+            rate.dot(&(contact.arm - d.xy())) - n.dot(&step.xy())
+        } else {
+            contact.normal.dot(&(turned(contact.arm).1 + step.xy()))
+        }
+    }
+
+    #[test]
+    fn gaps_and_their_rates_are_bounded_closely_over_boxes() {
+        let mut rng = ChaCha8Rng::seed_from_u64(8);
+        for k in 0..400 {
+            let mut draw = |scale: f64| scale * rng.random_range(-1.0..=1.0f64);
+            let direction = draw(3.1);
+            let normal = Vector2::new(direction.cos(), direction.sin());
+            let arm = Vector2::new(draw(0.3), draw(0.3));
+            let contact = PossibleContact::new(normal, arm, draw(0.01), k % 2 == 0);
+            let size = 10f64.powf(-3.0 + draw(1.5));
+            let half = [size, 0.7 * size, size].map(|h: f64| h * (0.1 + draw(1.0).abs()));
+            let step = Vector3::new(draw(size), draw(size), draw(size));
+            let (mut least, mut slowest) = (f64::INFINITY, f64::INFINITY);
+            for corner in 0..27 {
+                let at = |i: usize| f64::from(corner / 3i32.pow(i as u32) % 3 - 1) * half[i];
+                let d = Vector3::new(at(0), at(1), at(2));
+                least = least.min(gap(&contact, d));
+                slowest = slowest.min(slope(&contact, d, &step));
+            }
+            // Both differ from what is attained by terms of the second order.
+            let room = 6.0 * (half[2] * (half[0] + half[1]) + half[2] * half[2]);
+            let bound = contact.least(&half);
+            assert!(
+                bound <= least + 1e-15 && bound > least - room,
+                "{contact:?} {half:?}"
+            );
+            let bound = contact.opening(&half, &step);
+            let room = 6.0 * step.norm() * (half[0] + half[1] + half[2]) * half[2];
+            let room = room + 2.0 * step.z.abs() * half[2] * half[2] + 1e-9 * step.norm();
+            assert!(
+                bound <= slowest + 1e-12 * step.norm(),
+                "{contact:?} {half:?}"
+            );
+            assert!(
+                bound > slowest - room - 2.0 * step.norm() * half[0].hypot(half[1]),
+                "{contact:?}"
+            );
+            let gradient = contact.gradient.dot(&step);
+            assert!(
+                (slope(&contact, Vector3::zeros(), &step) - gradient).abs() < 1e-12 * step.norm()
+            );
+        }
+    }
+}

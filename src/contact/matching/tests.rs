@@ -2,7 +2,29 @@
 
 use nalgebra::Vector2;
 
-use super::matches;
+use super::{Facing, matches};
+
+/// The side of a square of 0.2 m that the moving edge lies on once it is shifted.
+#[test]
+fn edges_touch_where_both_ends_of_one_lie_on_the_other_s_line() {
+    let fixed = [[0.1, -0.1], [0.1, 0.1]].map(Vector2::from);
+    let stretch = |from: [f64; 2], to: [f64; 2], shift: [f64; 2]| {
+        let facing = Facing::new(fixed, [from, to].map(Vector2::from), 0.0);
+        facing.stretch(shift.into()).map(|ends| ends.map(|p| p.y))
+    };
+    let close = |found: Option<[f64; 2]>, low: f64, high: f64| {
+        let [a, b] = found.expect("they touch");
+        assert!((a - low).abs() < 1e-12 && (b - high).abs() < 1e-12);
+    };
+    close(stretch([0.0, 0.05], [0.0, -0.03], [0.1, 0.0]), -0.03, 0.05);
+    close(stretch([0.0, 0.05], [0.0, -0.03], [0.1, 0.08]), 0.05, 0.1);
+    close(stretch([0.0, 0.5], [0.0, -0.5], [0.1, 0.0]), -0.1, 0.1);
+    // Slanted, so that one end touches; off the line; beyond the end.
+    assert_eq!(stretch([0.0, 0.05], [0.02, -0.03], [0.1, 0.0]), None);
+    assert_eq!(stretch([0.02, 0.05], [0.0, -0.03], [0.1, 0.0]), None);
+    assert_eq!(stretch([0.0, 0.05], [0.0, -0.03], [0.11, 0.0]), None);
+    assert_eq!(stretch([0.0, 0.05], [0.0, -0.03], [0.1, 0.2]), None);
+}
 
 #[test]
 fn outlines_of_squares_match_along_their_sides() {

@@ -118,4 +118,47 @@ mod tests {
                 .is_some_and(|width| (5e-6..=1e-5).contains(width))
         );
     }
+    #[test]
+    fn a_width_that_is_reached_is_the_last() {
+        let exactly: Vec<f64> = widths(2.0, 5e-3).collect();
+        assert_eq!(exactly, [2e-2, 1e-2, 5e-3]);
+        assert_eq!(widths(2.0, 1.0).collect::<Vec<f64>>(), [2e-2]);
+    }
+
+    fn settings(tolerance: Option<f64>) -> CertificationSettings {
+        CertificationSettings {
+            tolerance,
+            seconds: 1.0,
+            cells: 1_000_000,
+            claims: crate::landscape::certification::Claims::All,
+        }
+    }
+
+    /// A twentieth of the barrier, between a hundred-thousandth and a hundredth of the depth.
+    #[test]
+    fn small_barriers_are_wanted_narrower() {
+        let start = crate::Configuration::new(0.0, 0.0, 0.0);
+        let wanted = |height: f64, tolerance: Option<f64>| {
+            let ends = (Place::State(0), -2.0);
+            let barrier = Barrier {
+                saddle_energy: -2.0 + height,
+                ..Barrier::without_a_way(ends, start, (Place::Free, 0.0))
+            };
+            wanted(&barrier, &settings(tolerance), 2.0)
+        };
+        let close = |found: f64, width: f64| assert!((found / width - 1.0).abs() < 1e-9, "{found}");
+        close(wanted(2.0, None), 0.02);
+        close(wanted(0.1, None), 0.005);
+        close(wanted(1e-5, None), 2e-5);
+        close(wanted(0.1, Some(0.3)), 0.3);
+    }
+
+    #[test]
+    fn cells_are_left_only_where_a_width_was_reached() {
+        let left = |reached, tolerance| cells_left(50_000, reached, &settings(tolerance));
+        assert_eq!(left(false, None), 0);
+        assert_eq!(left(false, Some(1e-3)), 0);
+        assert_eq!(left(true, Some(1e-3)), 50_000);
+        assert_eq!(left(true, None), MORE_CELLS);
+    }
 }

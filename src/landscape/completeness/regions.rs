@@ -103,3 +103,39 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
     regions.sort_by_key(|region| OrderedFloat(region.lowest));
     regions
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::Configuration;
+
+    #[test]
+    fn cells_side_by_side_are_one_region_and_cells_apart_are_two() {
+        let space = ConfigurationSpace {
+            half_size: [10.0, 10.0],
+            rho: 0.5,
+            free_distance: 1.0,
+        };
+        let half = [0.001, 0.001, 0.001];
+        let cell = |x: f64, theta: f64| Cell {
+            centre: Configuration::new(x, 0.1, theta),
+            half,
+        };
+        let gap = TOGETHER * space.free_distance;
+        let regions = |cells: &[(Cell, f64)]| of_cells(&space, cells);
+        // Boxes whose sides are a little less, and a little more, than the gap apart.
+        for (apart, count) in [(gap + 0.0019, 1), (gap + 0.0021, 2)] {
+            let beside = [(cell(0.3, 0.2), -2.0), (cell(0.3 + apart, 0.2), -3.0)];
+            let found = regions(&beside);
+            assert_eq!(found.len(), count, "{apart}");
+            assert_eq!(found[0].lowest, -3.0);
+            let volume: f64 = found.iter().map(|region| region.volume).sum();
+            assert!((volume - 2.0 * beside[0].0.volume()).abs() < 1e-15);
+            let turned = [
+                (cell(0.3, 0.2), 0.0),
+                (cell(0.3, 0.2 + gap / space.rho + apart - gap), 0.0),
+            ];
+            assert_eq!(regions(&turned).len(), count, "{apart}");
+        }
+    }
+}

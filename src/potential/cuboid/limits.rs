@@ -161,3 +161,33 @@ pub(in crate::potential) fn segment_distance(a: Segment, b: Segment) -> f64 {
         .min(to_segment(b[0], a))
         .min(to_segment(b[1], a))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the closest of many points; 0 where they cross.
+    #[test]
+    fn segments_are_as_far_apart_as_their_closest_points() {
+        let segment = |a: [f64; 2], b: [f64; 2]| [a, b].map(Vector2::from);
+        let level = segment([-1.0, 0.0], [1.0, 0.0]);
+        for (other, distance) in [
+            (segment([0.2, -0.5], [0.4, 0.7]), 0.0),
+            (segment([0.2, 0.5], [0.4, 0.7]), 0.5),
+            (segment([3.0, -1.0], [3.0, 2.0]), 2.0),
+            (segment([1.3, 0.4], [4.0, 5.0]), 0.5),
+            (segment([-0.5, -0.25], [0.5, -0.25]), 0.25),
+            (segment([-4.0, -3.0], [-4.0, -4.0]), 18f64.sqrt()),
+            (segment([0.0, 2.0], [0.0, 0.1]), 0.1),
+        ] {
+            for (a, b) in [(level, other), (other, level)] {
+                for (a, b) in [(a, b), ([a[1], a[0]], b)] {
+                    assert!(
+                        (segment_distance(a, b) - distance).abs() < 1e-12,
+                        "{other:?}"
+                    );
+                }
+            }
+        }
+    }
+}

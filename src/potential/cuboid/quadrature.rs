@@ -271,6 +271,18 @@ mod tests {
         check::<16>();
     }
 
+    /// At a corner on the interval, unless a thousandth of a panel or less is left there.
+    #[test]
+    fn panels_end_at_the_feet_of_near_corners() {
+        for (foot, is_cut) in [(-0.5, true), (-0.02, true), (0.7, true), (-0.9995, false)] {
+            let mut list = Vec::new();
+            let corners = [(foot, 0.0), NO_CORNER, NO_CORNER];
+            panels(1.0, &corners, &Fineness::NORMAL, &mut list);
+            let ends = list.iter().any(|panel| panel.end == foot);
+            assert_eq!(ends, is_cut, "{foot}: {list:?}");
+        }
+    }
+
     #[test]
     fn the_panels_cover_the_interval_once() {
         for corner in [(0.3, 0.0), (-1.0, 1e-4), (1.5, 0.0), (0.999, 1e-9)] {

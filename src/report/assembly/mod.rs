@@ -9,8 +9,8 @@ mod text;
 
 use serde_json::{Value, json};
 
-pub use search::WordSearch;
 pub(crate) use pairs::deeper;
+pub use search::WordSearch;
 pub use text::{headline, summary};
 
 use super::csv::table;

@@ -3,6 +3,7 @@
 mod cuboid;
 mod dipole;
 mod shielded;
+mod widths;
 
 use std::f64::consts::PI;
 

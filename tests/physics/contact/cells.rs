@@ -6,8 +6,9 @@ use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::contact::cells::{CellContact, ContactCells, Cut};
+use tilebind::tile::Outline;
 
-use super::{regular, saw, square};
+use super::{near_contact, regular, saw, square};
 
 #[test]
 fn no_free_configuration_is_blocked_or_cut_off() {
@@ -57,6 +58,42 @@ fn no_free_configuration_is_blocked_or_cut_off() {
             blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5,
             "{blocked} {cut} {cut_off} {cornered}"
         );
+    }
+}
+
+/// Which corner an outline begins with says nothing about cells.
+#[test]
+fn cells_do_not_depend_on_how_corners_are_numbered() {
+    let mut rng = ChaCha8Rng::seed_from_u64(6);
+    for (a, b) in [(square(0.43), square(0.43)), (saw(false), saw(true))] {
+        let plain = Contact::new(&a, &b);
+        let others = [1, 2, 3].map(|k| {
+            let begun = |outline: &Outline| {
+                let mut vertices = outline.vertices().to_vec();
+                vertices.rotate_left(k);
+                Outline::new(vertices).unwrap()
+            };
+            Contact::new(&begun(&a), &begun(&b))
+        });
+        let (mut cuts, mut corners) = (0, 0);
+        for _ in 0..2000 {
+            let size = 10f64.powf(rng.random_range(-4.5..-2.5));
+            let cell = Cell {
+                centre: near_contact(&plain, &mut rng),
+                half: [size; 3],
+            };
+            let counts = |contact: &Contact| match ContactCells::new(contact).classify(&cell) {
+                CellContact::Blocked => None,
+                CellContact::Open { cuts, corners, .. } => Some((cuts.len(), corners.len())),
+            };
+            let expected = counts(&plain);
+            cuts += expected.map_or(0, |counts| counts.0);
+            corners += expected.map_or(0, |counts| counts.1);
+            for other in &others {
+                assert_eq!(counts(other), expected, "{cell:?}");
+            }
+        }
+        assert!(cuts > 100 && corners > 10, "{cuts} {corners}");
     }
 }
 

@@ -1,10 +1,12 @@
 //! What touching leaves free: gaps, their gradients and the directions they admit.
 
 use nalgebra::{Matrix3, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::contact::{Contact, closest_admissible};
 
-use super::{saw, square};
+use super::{regular, saw, square};
 
 fn flush() -> (Contact, Configuration) {
     let contact = Contact::new(&square(0.4), &square(0.4));
@@ -91,4 +93,38 @@ fn mated_teeth_only_let_go_outwards() {
     assert!(go(Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
     let slid = go(Vector3::new(0.0, 1.0, 0.0));
     assert!(slid.x > 0.0, "a slide climbs the teeth: {slid}");
+}
+
+/// Steps that open all gaps stay free, steps that close one overlap: wherever polygons touch along
+/// a whole side, a part of it, in a corner.
+#[test]
+fn gaps_tell_free_steps_from_blocked_ones() {
+    let mut rng = ChaCha8Rng::seed_from_u64(12);
+    for sides in [3, 5, 6, 7] {
+        let half = std::f64::consts::PI / sides as f64;
+        // Sides of 0.1 m.
+        let polygon = regular(sides, 0.05 / half.sin());
+        let contact = Contact::new(&polygon, &polygon);
+        let apothem = 0.05 / half.tan();
+        let (mut opened, mut closed) = (0, 0);
+        for slide in [0.0, 0.03, -0.06, 0.0999, -0.1] {
+            // The sides face each other: the right one of the one, its image of the other.
+            let q = Configuration::new(2.0 * apothem, slide, std::f64::consts::PI);
+            let constraints = contact.constraints(&q, 1e-6);
+            for _ in 0..300 {
+                let mut draw = |scale: f64| scale * rng.random_range(-1.0..=1.0);
+                let step = Vector3::new(draw(1e-4), draw(1e-4), draw(3e-4));
+                let rates: Vec<f64> = constraints.iter().map(|c| c.gradient.dot(&step)).collect();
+                let free = contact.is_free(&q.moved(step));
+                if rates.iter().all(|rate| *rate > 1e-6) {
+                    opened += 1;
+                    assert!(free, "{sides} {slide} {step:?}");
+                } else if slide.abs() < 0.09 && rates.iter().any(|rate| *rate < -1e-6) {
+                    closed += 1;
+                    assert!(!free, "{sides} {slide} {step:?}");
+                }
+            }
+        }
+        assert!(opened > 100 && closed > 100, "{opened} {closed}");
+    }
 }

@@ -3,6 +3,7 @@
 mod cells;
 mod constraint;
 mod lift;
+mod matching;
 mod motion;
 mod possible;
 
@@ -50,6 +51,23 @@ pub fn saw(left: bool) -> Outline {
         points.extend([[-0.2, 0.2], [-0.2, -0.2]]);
         outline(&points)
     }
+}
+
+/// A free configuration with the tiles a little apart at most: drawn together from where they are
+/// clear of each other.
+pub fn near_contact(contact: &Contact, rng: &mut ChaCha8Rng) -> Configuration {
+    let (angle, theta) = (rng.random_range(-3.1..3.1f64), rng.random_range(-3.1..3.1));
+    let (mut near, mut far) = (0.0, 2.0);
+    for _ in 0..50 {
+        let middle = (near + far) / 2.0;
+        let q = Configuration::new(middle * angle.cos(), middle * angle.sin(), theta);
+        if contact.is_free(&q) {
+            far = middle
+        } else {
+            near = middle
+        }
+    }
+    Configuration::new(far * angle.cos(), far * angle.sin(), theta)
 }
 
 fn plain_distance(a: &Outline, b: &Outline, q: &Configuration) -> f64 {
@@ -106,4 +124,29 @@ fn flush_mates_touch_and_overlapping_tiles_do_not() {
     assert!(saws.is_free(&Configuration::new(0.4, 0.0, 0.0)));
     assert!(!saws.is_free(&Configuration::new(0.4, 0.001, 0.0)));
     assert!(saws.is_free(&Configuration::new(0.4, 0.1, 0.0)));
+}
+
+/// Of squares before each other's faces the cheap bound is the clearance, and of convex tiles apart
+/// there always is one.
+#[test]
+fn the_clearance_s_bound_tells_of_convex_tiles_whether_they_are_apart() {
+    let contact = Contact::new(&square(0.43), &square(0.43));
+    for gap in [0.0, 1e-6, 1e-3, 0.05, 0.15] {
+        for y in [0.0, 0.1, -0.3] {
+            let q = Configuration::new(0.43 + gap, y, 0.0);
+            if q.x.hypot(q.y) < 0.6 {
+                assert!((contact.clearance_bound(&q) - gap).abs() < 1e-12, "{q:?}");
+            }
+        }
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    for _ in 0..2000 {
+        let q = Configuration::new(
+            rng.random_range(-1.0..1.0),
+            rng.random_range(-1.0..1.0),
+            rng.random_range(-3.1..3.1),
+        );
+        let apart = contact.clearance(&q) > 0.0;
+        assert_eq!(contact.clearance_bound(&q) >= 0.0, apart, "{q:?}");
+    }
 }

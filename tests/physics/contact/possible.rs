@@ -3,29 +3,11 @@
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::contact::cells::ContactCells;
 
-use super::{saw, square};
-
-/// A free configuration with the tiles a little apart at most: drawn together from where they are
-/// clear of each other.
-fn near_contact(contact: &Contact, rng: &mut ChaCha8Rng) -> Configuration {
-    let (angle, theta) = (rng.random_range(-3.1..3.1f64), rng.random_range(-3.1..3.1));
-    let (mut near, mut far) = (0.0, 2.0);
-    for _ in 0..50 {
-        let middle = (near + far) / 2.0;
-        let q = Configuration::new(middle * angle.cos(), middle * angle.sin(), theta);
-        if contact.is_free(&q) {
-            far = middle
-        } else {
-            near = middle
-        }
-    }
-    Configuration::new(far * angle.cos(), far * angle.sin(), theta)
-}
+use super::{near_contact, saw, square};
 
 #[test]
 fn a_step_that_closes_no_possible_contact_stays_free() {

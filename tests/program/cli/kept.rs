@@ -14,6 +14,13 @@ use crate::folder::contents;
 use crate::program::stderr;
 
 const DESIGN: &str = "shapes/paper-tile.toml";
+const SHORT: [&str; 5] = [
+    "--milestones",
+    "200",
+    "--far-starts",
+    "10",
+    "--complete-cells=0",
+];
 
 fn analyse(out: &Path, more: &[&str]) -> Output {
     let quick = "--milestones 500 --far-starts 20 --certify-seconds 0 --complete-seconds 0 --quiet";
@@ -100,6 +107,49 @@ fn only_what_an_earlier_analysis_wrote_is_replaced_or_taken_away() {
     check(&out, &[("report.html.kept-1", "edited")]);
     done(&out, &["--compact"]);
     assert!(!out.join("arrays").exists());
+}
+
+/// Of commands that write no report, whose files `.tilebind.sha256` lists.
+#[test]
+fn what_is_in_the_way_of_tables_and_pictures_goes_under_another_name_once() {
+    let dock = ["dock", DESIGN, "--runs", "2", "--duration", "1"];
+    let sweep = [
+        "sweep",
+        DESIGN,
+        "--vary",
+        "fixed.mass=0.1",
+        "--certify-cells=0",
+    ];
+    let sweep = [&sweep, &SHORT[..]].concat();
+    let cases = [
+        (&dock[..], ["report.html", "pictures/chances.svg"]),
+        (&["make", DESIGN], ["sheet.md", "fixed.svg"]),
+        (&sweep, ["report.html", "sweep.csv"]),
+    ];
+    for (command, names) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        let run = || {
+            let output = tilebind(&[command, &["--out", out.to_str().unwrap()]].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            stderr(&output)
+        };
+        place(&out, &names.map(|name| (name, "mine")));
+        let told = run();
+        for name in names {
+            let kept = format!("{name}.kept-1");
+            assert!(told.contains(&kept), "{command:?}: {told}");
+            check(&out, &[(&kept, "mine")]);
+            assert_ne!(fs::read(out.join(name)).unwrap(), b"mine");
+        }
+        // The command's own files are replaced; an edited one is the user's.
+        run();
+        place(&out, &[(names[0], "edited")]);
+        run();
+        check(&out, &[(&format!("{}.kept-2", names[0]), "edited")]);
+        let kept = |name: &&String| name.contains(".kept-");
+        assert_eq!(contents(&out).keys().filter(kept).count(), 3);
+    }
 }
 
 /// A list can name anything; only what lies in the folder counts.

@@ -24,7 +24,7 @@ fn a_clock_that_jumps_changes_neither_status_nor_files() {
                 .output()
                 .unwrap();
             assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
-            assert_eq!(assert_whole(folder.path(), &expected), expected.len());
+            assert_eq!(assert_whole(folder.path(), expected), expected.len());
         }
     }
 }

@@ -18,12 +18,12 @@ fn what_is_killed_leaves_whole_files_and_can_be_done_again() {
             child.kill().unwrap();
             child.wait().unwrap();
             take_away_unfinished(&out);
-            assert_whole(&out, &expected);
+            assert_whole(&out, expected);
         }
         let output = command(&arguments(name, more, &out)).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
         take_away_unfinished(&out);
-        assert_eq!(assert_whole(&out, &expected), expected.len(), "{name}");
+        assert_eq!(assert_whole(&out, expected), expected.len(), "{name}");
     }
 }
 
@@ -69,5 +69,5 @@ fn a_killed_worker_is_missed_and_its_part_is_made_up_for() {
     );
     assert_eq!(part("2/2").output().unwrap().status.code(), Some(0));
     assert_eq!(merge().status.code(), Some(0));
-    assert_eq!(assert_whole(&out, &expected), expected.len());
+    assert_eq!(assert_whole(&out, expected), expected.len());
 }

@@ -21,7 +21,7 @@ fn writes_that_fail_at_some_byte_end_with_status_1_and_leave_whole_files() {
             let out = folder.path().join("out");
             let output = after(&limited(blocks), &arguments(name, more, &out));
             let message = stderr(&output);
-            let found = assert_whole(&out, &expected);
+            let found = assert_whole(&out, expected);
             if blocks > largest / 512 {
                 assert_eq!(output.status.code(), Some(0), "{name} {blocks}: {message}");
                 assert_eq!(found, expected.len());
@@ -34,7 +34,7 @@ fn writes_that_fail_at_some_byte_end_with_status_1_and_leave_whole_files() {
             if blocks == 8 {
                 let output = command(&arguments(name, more, &out)).output().unwrap();
                 assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
-                assert_eq!(assert_whole(&out, &expected), expected.len());
+                assert_eq!(assert_whole(&out, expected), expected.len());
             }
         }
     }
@@ -65,7 +65,7 @@ fn memory_that_runs_out_leaves_whole_files() {
             let out = folder.path().join("out");
             let limit = format!("ulimit -c 0; ulimit -v {}", 1024 * megabytes);
             let output = after(&limit, &arguments(name, more, &out));
-            let found = assert_whole(&out, &expected);
+            let found = assert_whole(&out, expected);
             assert_eq!(
                 output.status.success(),
                 found == expected.len(),

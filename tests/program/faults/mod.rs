@@ -11,6 +11,7 @@ mod limits;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 
 use crate::folder::contents;
 use crate::program::command;
@@ -62,14 +63,19 @@ fn after(preparation: &str, arguments: &[&str]) -> Output {
         .expect("a shell")
 }
 
-/// The files of a command that nothing befalls.
-fn undisturbed(name: &str, more: &[&str]) -> BTreeMap<String, Vec<u8>> {
-    let folder = tempfile::tempdir().unwrap();
-    let output = command(&arguments(name, more, folder.path()))
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{name}: {output:?}");
-    contents(folder.path())
+/// The files of one of the commands that nothing befalls.
+fn undisturbed(name: &str, more: &[&str]) -> &'static BTreeMap<String, Vec<u8>> {
+    static ONCE: [OnceLock<BTreeMap<String, Vec<u8>>>; COMMANDS.len()] =
+        [const { OnceLock::new() }; COMMANDS.len()];
+    let number = COMMANDS.iter().position(|one| one.0 == name);
+    ONCE[number.expect("one of the commands")].get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let output = command(&arguments(name, more, folder.path()))
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "{name}: {output:?}");
+        contents(folder.path())
+    })
 }
 
 /// That every file of a folder is one of those that were to come, and ends as it does: times differ
