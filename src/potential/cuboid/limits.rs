@@ -147,19 +147,25 @@ fn pole_faces(block: &Block) -> [Segment; 2] {
 }
 
 pub(in crate::potential) fn segment_distance(a: Segment, b: Segment) -> f64 {
-    let to_segment = |p: Vector2<f64>, s: Segment| {
-        let along = s[1] - s[0];
-        let t = ((p - s[0]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-        (p - s[0] - along * t).norm()
-    };
-    let side = |s: Segment, p: Vector2<f64>| (s[1] - s[0]).perp(&(p - s[0]));
-    if side(a, b[0]) * side(a, b[1]) < 0.0 && side(b, a[0]) * side(b, a[1]) < 0.0 {
+    let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
+    let (across, back) = (b[0] - a[0], b[1] - a[0]);
+    // On which side of each the other's ends are.
+    let ends_of_b = [along_a.perp(&across), along_a.perp(&back)];
+    let ends_of_a = [-along_b.perp(&across), along_b.perp(&(a[1] - b[0]))];
+    if ends_of_b[0] * ends_of_b[1] < 0.0 && ends_of_a[0] * ends_of_a[1] < 0.0 {
         return 0.0;
     }
-    to_segment(a[0], b)
-        .min(to_segment(a[1], b))
-        .min(to_segment(b[0], a))
-        .min(to_segment(b[1], a))
+    // Squared, of a point to a segment that starts `way` from it.
+    let square = |way: Vector2<f64>, along: Vector2<f64>, share: f64| {
+        let t = (-way.dot(&along) * share).clamp(0.0, 1.0);
+        (way + along * t).norm_squared()
+    };
+    let (share_a, share_b) = (1.0 / along_a.norm_squared(), 1.0 / along_b.norm_squared());
+    square(across, along_b, share_b)
+        .min(square(b[0] - a[1], along_b, share_b))
+        .min(square(-across, along_a, share_a))
+        .min(square(-back, along_a, share_a))
+        .sqrt()
 }
 
 #[cfg(test)]

@@ -167,7 +167,7 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
         .iter()
         .map(|magnet| {
             let block = Block::from(magnet);
-            let (totals, rest) = faces(level, &block, &block, &SELF, &mut Nodes::default());
+            let (totals, rest) = faces(level, &block, &block, &SELF, &mut Nodes::new());
             Enclosed {
                 block,
                 inside: inside(magnet),
@@ -263,9 +263,10 @@ impl CellBounds for CuboidBounds {
         for (total, share) in out.form.gradient.iter_mut().zip(gradient.iter()) {
             *total += share;
         }
-        let mut nodes = Nodes::default();
+        let mut nodes = None;
         for (i, j) in self.dipoles.near(&weights) {
-            self.add_near(&mut out, cell, i, j, &mut nodes);
+            let nodes = nodes.get_or_insert_with(Nodes::new);
+            self.add_near(&mut out, cell, i, j, nodes);
         }
         out
     }

@@ -32,10 +32,17 @@ pub(super) struct Node {
 const COLUMNS: usize = 12;
 
 /// Nodes as a structure of arrays.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Nodes([Vec<f64>; COLUMNS]);
 
+/// Nodes for which there is room at first: of most pairs.
+const ROOM: usize = 256;
+
 impl Nodes {
+    pub fn new() -> Self {
+        Self(std::array::from_fn(|_| Vec::with_capacity(ROOM)))
+    }
+
     pub fn clear(&mut self) {
         self.0.iter_mut().for_each(Vec::clear);
     }
