@@ -127,7 +127,7 @@ impl Contact {
     }
 
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
-    fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
+    pub(crate) fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
         if self.circles_are_clear_by(q, 0.0) {
             return true;
         }

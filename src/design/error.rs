@@ -124,7 +124,9 @@ impl DesignError {
         )?;
         if let Some((source, column)) = place.window() {
             let indent = " ".repeat(column - 1);
-            let carets = "^".repeat(place.width.min(source.chars().count() + 1 - column).max(1));
+            // Ends of lines belong to no line: a place may lie beyond what is shown.
+            let left = (source.chars().count() + 1).saturating_sub(column);
+            let carets = "^".repeat(place.width.min(left).max(1));
             writeln!(f, "{gutter} |")?;
             writeln!(f, "{number} | {source}")?;
             writeln!(f, "{gutter} | {indent}{carets}")?;

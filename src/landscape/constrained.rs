@@ -67,60 +67,68 @@ pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Con
 }
 
 /// The force at a point, `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of
-/// least constraint), with the contacts and their multipliers.
-struct Projected {
-    free: Vector3<f64>,
+/// least constraint), with the contacts and their multipliers. In units of the free force's length:
+/// what the force is does not depend on how large it is.
+pub(super) struct Projected {
     held: Vector3<f64>,
     touching: Vec<Constraint>,
     multipliers: Vec<f64>,
     metric: Matrix3<f64>,
 }
 
-fn project(problem: &Problem, point: &Point) -> Option<Projected> {
-    let metric = problem.mass_metric(point.q.theta);
-    let free = -(metric.try_inverse()? * point.gradient);
-    let mut touching = constraints(problem, &point.q, MARGIN);
-    for constraint in &mut touching {
-        constraint.gap = 0.0;
+impl Projected {
+    /// With the contacts `touching`, closed or all but closed. `None` where there is no force.
+    pub fn new(point: &Point, metric: Matrix3<f64>, mut touching: Vec<Constraint>) -> Option<Self> {
+        let free = -(metric.try_inverse()? * point.gradient);
+        let size = length(&free, &metric);
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        for constraint in &mut touching {
+            constraint.gap = 0.0;
+        }
+        let (held, multipliers) = closest_admissible(free / size, &metric, &touching)?;
+        Some(Self {
+            held,
+            touching,
+            multipliers,
+            metric,
+        })
     }
-    let (held, multipliers) = closest_admissible(free, &metric, &touching)?;
-    Some(Projected {
-        free,
-        held,
-        touching,
-        multipliers,
-        metric,
-    })
+
+    fn at(problem: &Problem, point: &Point) -> Option<Self> {
+        let metric = problem.mass_metric(point.q.theta);
+        Self::new(point, metric, constraints(problem, &point.q, MARGIN))
+    }
+
+    /// The contacts pressed on.
+    pub fn pressed(&self) -> impl Iterator<Item = Touch> + '_ {
+        let all = self.touching.iter().zip(&self.multipliers);
+        let pressed = all.filter(|(_, multiplier)| **multiplier > 0.0);
+        pressed.map(|(constraint, _)| constraint.touch)
+    }
+
+    /// The part of the force that contact does not hold.
+    fn share(&self) -> f64 {
+        length(&self.held, &self.metric)
+    }
 }
 
 /// The fraction of the force at a point that contact does not hold: 0 in equilibrium on contact, 1
 /// without contact.
 pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
-    project(problem, point).map_or(0.0, |p| {
-        if p.multipliers.iter().all(|m| *m == 0.0) {
-            // Without contact a vanishing force is an equilibrium, however small its scale.
-            return 0.0;
-        }
-        length(&p.held, &p.metric) / length(&p.free, &p.metric).max(f64::MIN_POSITIVE)
-    })
+    // Without contact a vanishing force is an equilibrium, however small its scale.
+    Projected::at(problem, point)
+        .filter(|projected| projected.pressed().next().is_some())
+        .map_or(0.0, |projected| projected.share())
 }
 
 /// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
 /// it presses on. `None` in equilibrium.
 pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
-    let p = project(problem, point)?;
-    let size = length(&p.held, &p.metric);
-    if !(size > EQUILIBRIUM * length(&p.free, &p.metric) && size.is_finite()) {
-        return None;
-    }
-    let pressed = p
-        .touching
-        .iter()
-        .zip(&p.multipliers)
-        .filter(|(_, multiplier)| **multiplier > 0.0)
-        .map(|(constraint, _)| constraint.touch)
-        .collect();
-    Some((p.held / size, pressed))
+    let projected = Projected::at(problem, point)?;
+    let share = projected.share();
+    (share > EQUILIBRIUM).then(|| (projected.held / share, projected.pressed().collect()))
 }
 
 /// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step

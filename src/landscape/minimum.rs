@@ -142,8 +142,7 @@ fn verified_minimum(
     let here = *way.last()?;
     let found = stationary::minimum(problem, &here.q)?;
     let noise = problem.potential().noise() * found.point.energy.abs();
-    let near = problem.space.distance(&here.q, &found.point.q) < 0.02;
-    if !near || found.point.energy > here.energy + noise || !problem.is_free(&found.point.q) {
+    if found.point.energy > here.energy + noise || !problem.is_free(&found.point.q) {
         return None;
     }
     if !known.hold(problem, &found.point.q)

@@ -9,9 +9,9 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
-use super::constrained::{self, Point, length};
+use super::constrained::{self, Point, Projected, length};
 use crate::configuration::Configuration;
-use crate::contact::{Constraint, Touch, closest_admissible};
+use crate::contact::{Constraint, Touch};
 use crate::problem::Problem;
 
 /// Step of the second differences (m, mass metric): errors of the Hessian of 1e-4 for magnets a
@@ -24,6 +24,8 @@ const CONVERGED: f64 = 1e-10;
 /// Contacts with a gap below this (m) are closed.
 const CLOSED: f64 = 1e-8;
 const MOST_STEPS: usize = 80;
+/// A minimum farther from the start than this (m, metric of the space) is another one.
+const NEAR: f64 = 0.02;
 /// At rest, at most this fraction of the force is not held by contact.
 const UNBALANCED: f64 = 1e-5;
 
@@ -64,9 +66,10 @@ impl Stationary {
     }
 }
 
-/// The minimum near `q`, if Newton's method finds one.
+/// The minimum near `q`, if Newton's method finds one without leaving what is near.
 pub fn minimum(problem: &Problem, q: &Configuration) -> Option<Stationary> {
-    search(problem, q, None).filter(|found| found.index() == 0 && is_at_rest(problem, &found.point))
+    search(problem, q, None, NEAR)
+        .filter(|found| found.index() == 0 && is_at_rest(problem, &found.point))
 }
 
 /// The transition state near `q`: uphill along the mode that resembles `along` most, downhill in
@@ -76,7 +79,7 @@ pub fn transition_state(
     q: &Configuration,
     along: &Vector3<f64>,
 ) -> Option<Stationary> {
-    search(problem, q, Some(*along))
+    search(problem, q, Some(*along), f64::INFINITY)
         .filter(|found| found.index() == 1 && is_at_rest(problem, &found.point))
 }
 
@@ -90,6 +93,7 @@ fn search(
     problem: &Problem,
     start: &Configuration,
     mut along: Option<Vector3<f64>>,
+    within: f64,
 ) -> Option<Stationary> {
     let mut surface = Surface::pressing(problem, &Point::new(problem, *start));
     let mut point = Point::new(problem, surface.retract(start)?);
@@ -136,6 +140,9 @@ fn search(
             surface.closed.push(touch);
             last_slope = f64::INFINITY;
         }
+        if problem.space.distance(start, &next) > within {
+            return None;
+        }
         point = Point::new(problem, next);
     }
     None
@@ -164,23 +171,16 @@ impl<'a> Surface<'a> {
     /// The contacts that the energy presses on at a point.
     fn pressing(problem: &'a Problem, point: &Point) -> Self {
         let metric = problem.mass_metric(point.q.theta);
-        let mut touching = constrained::constraints(problem, &point.q, CLOSED);
-        for constraint in &mut touching {
-            constraint.gap = 0.0;
-        }
-        let wanted = metric
-            .try_inverse()
-            .map_or_else(Vector3::zeros, |inverse| -(inverse * point.gradient));
+        let touching = constrained::constraints(problem, &point.q, CLOSED);
         let mut surface = Self {
             problem,
             closed: Vec::new(),
             releases: 0,
         };
-        if let Some((_, multipliers)) = closest_admissible(wanted, &metric, &touching) {
-            for (constraint, multiplier) in touching.iter().zip(multipliers) {
-                if multiplier > 0.0 && surface.is_independent(&point.q, constraint.touch) {
-                    surface.closed.push(constraint.touch);
-                }
+        let projected = Projected::new(point, metric, touching);
+        for touch in projected.iter().flat_map(Projected::pressed) {
+            if surface.is_independent(&point.q, touch) {
+                surface.closed.push(touch);
             }
         }
         surface

@@ -34,6 +34,9 @@ pub struct Bar {
     pub model: MagnetModel,
 }
 
+/// Length (m) of a face of the paper's tile.
+pub const PAPER_FACE: f64 = 0.43;
+
 impl Bar {
     /// The paper's: 10 x 10 x 3 mm, 1.2 T, 40 mm apart.
     pub fn paper() -> Self {

@@ -41,7 +41,7 @@ mod tests;
 pub use answer::{Answer, Question, answer};
 pub use constraint::Constraints;
 pub use fault::Fault;
-pub use lag::{Bar, BarError, Lags};
+pub use lag::{Bar, BarError, Lags, PAPER_FACE};
 pub use rules::{Faces, Meeting, Rules, Shape};
 pub use set::Judgement;
 pub use word::Word;

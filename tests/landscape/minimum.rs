@@ -1,7 +1,8 @@
 //! Descents to minima of real tiles.
 
 use tilebind::Configuration;
-use tilebind::design::MagnetModel;
+use tilebind::design::{Design, MagnetModel};
+use tilebind::landscape::constrained::{Point, downhill, step_downhill};
 use tilebind::landscape::minimum::{Outcome, descend, drift};
 
 use crate::designs;
@@ -44,4 +45,55 @@ fn blocks_come_to_rest_beside_the_bond_as_dipoles_do() {
             assert!(aside.abs() < 5e-5, "{model:?} from {y}: {:?}", end.point.q);
         }
     }
+}
+
+/// Two tiles of twelve sides, a face of each with magnets.
+const TWELVE_SIDED: &str = r#"
+[table]
+size = [2.0, 2.0]
+[fixed]
+side = 0.1
+sides = 12
+thickness = 0.013
+mass = 0.06
+[fixed.faces]
+0 = { code = "NNNS" }
+[moving]
+side = 0.1
+sides = 12
+thickness = 0.013
+mass = 0.06
+[moving.faces]
+6 = { mates = "0" }
+[magnet]
+size = [0.003, 0.003, 0.002]
+pitch = 0.0093
+remanence = 1.2
+inset = 0.0
+[target]
+fixed = "0"
+moving = "6"
+"#;
+
+#[test]
+fn tiles_slide_along_each_other_however_weak_the_force() {
+    let design = Design::parse(TWELVE_SIDED, "twelve-sided.toml").unwrap();
+    let problem = design.problem();
+    // Face to face on the far side of the magnets: 3e-9 N press them, 1e-10 N push along.
+    let apothem = 0.05 / (std::f64::consts::PI / 12.0).tan();
+    let flush = Configuration::new(-0.065, -2.0 * apothem, std::f64::consts::PI / 6.0);
+    let point = Point::new(&problem, flush);
+    assert!(point.gradient.xy().norm() < 1e-8, "{point:?}");
+    let (direction, pressed) = downhill(&problem, &point).unwrap();
+    assert!(!pressed.is_empty());
+    for scale in [1e-6, 1e6, 1e9] {
+        let gradient = scale * point.gradient;
+        let scaled = downhill(&problem, &Point { gradient, ..point });
+        let (same, touches) = scaled.unwrap();
+        assert!((same - direction).norm() < 1e-9, "{scale}");
+        assert_eq!(touches, pressed);
+    }
+    let next = step_downhill(&problem, &point, 1e-3).unwrap();
+    assert!(next.energy < point.energy);
+    assert!((next.q.x - flush.x).abs() > 9e-4, "{next:?}");
 }

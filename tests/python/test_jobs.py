@@ -173,6 +173,31 @@ def test_docking(design):
             design.dock(progress=False, **wrong)
 
 
+def test_releases_are_those_of_the_program(program, root):
+    paper = tilebind.Design.load(root / "shapes/paper-tile.toml")
+    found = paper.releases(shaking=8e-3, runs=20, duration=2.0, seed=2, progress=False)
+    run = [program, "dock", str(root / "shapes/paper-tile.toml"), "--from-bond", "--json", "--quiet"]
+    run += ["--shaking", "8e-3", "--runs", "20", "--duration", "2", "--seed", "2"]
+    assert found == json.loads(subprocess.run(run, check=True, capture_output=True).stdout)
+    with pytest.raises(ValueError, match="shaking"):
+        paper.releases(shaking=0.0)
+    with pytest.raises(TypeError):
+        paper.releases()
+
+
+def test_kt_of_pairs_that_bind_and_part(design):
+    rng = np.random.default_rng(1)
+    frames = [
+        pandas.DataFrame({"bound_s": rng.exponential(mean, 200), "apart_s": rng.exponential(10.0, 200)})
+        for mean in (10.0, 100.0)
+    ]
+    hot, cold = [design.calibrate_bonds(frame, area=0.6) for frame in frames]
+    assert 0 < cold["kT_J"] < hot["kT_J"]
+    assert cold["kT_interval_J"][0] < cold["kT_J"] < cold["kT_interval_J"][1]
+    with pytest.raises(ValueError):
+        design.calibrate_bonds(frames[0][["bound_s"]])
+
+
 def test_words_and_crosstalk(design):
     found = tilebind.words(6, gap=0.4, seconds=2, progress=False)
     assert found["proved"] and found["count"] == len(found["words"]) == found["upper_bound"]
@@ -180,6 +205,14 @@ def test_words_and_crosstalk(design):
     assert strongest.shape == (2, 2) and strongest[0, 1] == strongest.min()
     spaced = tilebind.words(3, slots=7, gap=0.4, seconds=2, progress=False)
     assert all(len(word) == 7 and word.count(".") == 4 for word in spaced["words"])
+    free = tilebind.words(4, continuous=True, pitch=0.02, count=2, seconds=1, progress=False)
+    assert free["count"] == 2 and all(len(places) == 4 for places in free["positions_m"])
+    assert all(np.diff(places).min() >= 0.02 - 1e-9 for places in free["positions_m"])
+    for wrong in ({"slots": 7, "count": 2}, {"pitch": 0.005, "count": 2}, {}, {"count": 2, "shape": "polar"}):
+        with pytest.raises(ValueError):
+            tilebind.words(4, continuous=True, **wrong)
+    with pytest.raises(ValueError, match="continuous"):
+        tilebind.words(4, face=0.3)
     with pytest.raises(tilebind.DesignError):
         tilebind.crosstalk(["NXS"])
     with pytest.raises(ValueError):
@@ -224,6 +257,10 @@ def test_tile_sets_of_words(root):
     found = tilebind.words(10, gap=0.4, seconds=5, progress=False)
     files = tilebind.assemble(tiles, found["words"], kt=3e-3, progress=False)
     assert {"assembly.yaml", "assembly.tiles", "matrix.csv", "report.json"} <= files.keys()
+    sought = tilebind.assemble(tiles, kt=3e-3, gap=0.3, seconds=5, progress=False)
+    assert sought.keys() >= {"words.toml", "report.json"} and b"words = [" in sought["words.toml"]
+    with pytest.raises(ValueError, match="places"):
+        tilebind.assemble(tiles, kt=3e-3, length=3, magnets=4)
     with pytest.raises(ValueError):
         tilebind.assemble(tiles, found["words"][:1], kt=3e-3)
     with pytest.raises(tilebind.DesignError):

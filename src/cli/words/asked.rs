@@ -1,13 +1,10 @@
 //! What `tilebind words` is asked: places, magnets, constraints.
 
 use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{Bar, Constraints};
+use tilebind::words::{Bar, Constraints, PAPER_FACE};
 
 use super::super::{Failure, input};
 use super::Words;
-
-/// The side (m) of the paper's tile.
-const PAPER_FACE: f64 = 0.43;
 
 impl Words {
     /// Places and magnets of a word.

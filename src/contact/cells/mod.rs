@@ -2,13 +2,14 @@
 //! that every free configuration of the cell satisfies.
 //!
 //! A point of one tile that stays, throughout the cell, inside the other tile by more than the
-//! tolerance proves the cell *blocked*. A vertex whose reachable disc meets the other outline in
+//! tolerance proves the cell *blocked*, and so do convex parts of both that stay overlapped, as
+//! corners do that cross each other with no vertex inside. A vertex whose reachable disc meets the other outline in
 //! one edge only (or in the two edges of a notch) must, where the tiles are free, lie on the outer
 //! side of the edge's line: a *cut*. Only necessary conditions of freedom are used, so a bound
 //! over the cuts' side of a cell holds for all its free configurations.
 //!
-//! All claims hold for configurations in which no point of a tile lies deeper than [`RELAXED`]
-//! inside the other, which includes every configuration that counts as free.
+//! All claims hold for configurations in which no point of a tile and no convex part lies deeper
+//! than [`RELAXED`] inside the other, which includes every configuration that counts as free.
 
 mod possible;
 mod side;
@@ -79,8 +80,9 @@ impl CellContact {
 const DENSE: f64 = 0.5;
 
 /// Contact of two outlines, cell by cell.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct ContactCells {
+    contact: Contact,
     fixed: Side,
     moving: Side,
 }
@@ -97,6 +99,7 @@ impl ContactCells {
     /// For the outlines of the two tiles.
     pub fn new(contact: &Contact) -> Self {
         Self {
+            contact: contact.clone(),
             fixed: Side::new(contact.fixed()),
             moving: Side::new(contact.moving()),
         }
@@ -109,6 +112,11 @@ impl ContactCells {
         let apart = q.x.hypot(q.y) - fixed.circumradius() - moving.circumradius();
         if apart > cell.travel() + RELAXED {
             return CellContact::open();
+        }
+        // No support of a part changes by more than its points move, nor does the overlap's depth.
+        let farthest = cell.reach(moving.circumradius());
+        if !self.contact.overlaps_at_most(q, farthest + RELAXED) {
+            return CellContact::Blocked;
         }
         let turn = q.rotation();
         let position = q.position();

@@ -11,6 +11,11 @@ use crate::potential::bounds::CellBounds;
 /// them does not cut into it.
 const LIFT: f64 = 1e-6;
 
+/// How far off contact an inner point is lifted, and how far around (m) contacts are heeded: where
+/// corners are near, not all that are within a millimetre can be kept open at once, and in a slot
+/// without play there is no room to be lifted into.
+const LIFTS: [(f64, f64); 3] = [(LIFT, 1e-3), (LIFT, 10.0 * LIFT), (0.0, 10.0 * LIFT)];
+
 /// A stretch is halved at most this often to prove it free.
 const DEPTH: usize = 12;
 
@@ -117,27 +122,39 @@ impl PathProof<'_> {
             .is_none_or(|contact| contact.stays_separated(from, to, TOUCH))
     }
 
-    /// The configuration moved off contact until the tiles are [`LIFT`] apart.
+    /// The configuration moved off contact until the tiles are [`LIFT`] apart or, where there is no
+    /// room for that, until they touch.
     pub fn lifted(&self, q: &Configuration) -> Option<Configuration> {
         let Some(contact) = self.contact else {
             return Some(*q);
         };
+        LIFTS
+            .into_iter()
+            .find_map(|lift| self.lifted_by(contact, q, lift))
+    }
+
+    fn lifted_by(
+        &self,
+        contact: &Contact,
+        q: &Configuration,
+        (lift, around): (f64, f64),
+    ) -> Option<Configuration> {
         let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.space.rho.powi(2)));
         let mut at = *q;
         for _ in 0..12 {
-            if contact.clearance_bound(&at) >= LIFT {
+            if contact.clearance_bound(&at) >= lift {
                 return Some(at);
             }
             let clearance = contact.clearance(&at);
-            if clearance >= 0.5 * LIFT {
+            if clearance >= 0.5 * (lift - TOUCH) {
                 return Some(at);
             }
-            let margin = 2.0 * clearance.abs() + 1e-3;
+            let margin = 2.0 * clearance.abs() + around;
             let constraints: Vec<Constraint> = contact
                 .constraints(&at, margin)
                 .into_iter()
                 .map(|c| Constraint {
-                    gap: c.gap - LIFT,
+                    gap: c.gap - lift,
                     ..c
                 })
                 .collect();

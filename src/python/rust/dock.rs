@@ -6,10 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use tilebind::dynamics::Fan;
-use tilebind::dynamics::docking::{self, Docking as Found, DockingMap, DockingSettings, Trap};
+use tilebind::dynamics::docking::{
+    self, Docking as Found, DockingError, DockingMap, DockingSettings, Trap,
+};
 use tilebind::landscape::Proportion;
 use tilebind::report::docking as report;
 use tilebind::report::plots::{Sheet, dock as picture};
+use tilebind::report::release;
 
 use crate::design::{Content, Design};
 use crate::keywords::Keywords;
@@ -125,19 +128,46 @@ pub fn docked(
 ) -> PyResult<Docking> {
     let settings = settings(given)?;
     let content = design.get().content.clone();
+    let found = run(py, progress, settings.runs, |step| {
+        docking::dock(content.problem(None), &settings, step)
+    })?;
+    Ok(Docking { found, content })
+}
+
+/// Trajectories that start bound, and when they part.
+pub fn released<'py>(
+    py: Python<'py>,
+    content: &Content,
+    shaking: f64,
+    given: Option<&Bound<'_, PyDict>>,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("shaking", Some(shaking))?;
+    let mut settings = settings(given)?;
+    settings.motion.shaking = Some(shaking);
+    let found = run(py, progress, settings.runs, |step| {
+        docking::releases(content.problem(None), &settings, step)
+    })?;
+    convert::json(py, &release::json(&content.design, &settings, &found))
+}
+
+/// Many trajectories, with word of how many have ended.
+fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<bool>,
+    runs: usize,
+    work: impl FnOnce(&(dyn Fn() + Sync)) -> Result<T, DockingError> + Send,
+) -> PyResult<T> {
     let found = job::run(py, progress, |told| {
         let ended = AtomicUsize::new(0);
         let step = || {
             let ended = 1 + ended.fetch_add(1, Ordering::Relaxed);
-            let text = format!("{ended} of {} trajectories", settings.runs);
-            told.tell(ended as f64 / settings.runs as f64, text);
+            let text = format!("{ended} of {runs} trajectories");
+            told.tell(ended as f64 / runs as f64, text);
         };
-        docking::dock(content.problem(None), &settings, &step)
+        work(&step)
     })?;
-    Ok(Docking {
-        found: found.map_err(fault::value)?,
-        content,
-    })
+    found.map_err(fault::value)
 }
 
 /// How tiles ended that were sent towards each other. It never changes.

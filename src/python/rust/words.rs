@@ -3,12 +3,15 @@
 use pyo3::prelude::*;
 use tilebind::design::WordSet;
 use tilebind::report::crosstalk as crosstalk_report;
-use tilebind::report::words::{self as report, Request};
+use tilebind::report::words::{self as report, Request, Spaced};
 use tilebind::words::budget::Budget;
+use tilebind::words::continuous::Wanted;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 use tilebind::words::search::Effort;
 use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{Bar, Constraints, Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
+use tilebind::words::{
+    Bar, Constraints, Faces, Fault, Lags, PAPER_FACE, Question, Rules, Shape, Task, answer,
+};
 
 use crate::design::Design;
 use crate::{convert, fault, job};
@@ -26,6 +29,11 @@ use crate::{convert, fault, job};
 ///     for every number of contacts.
 /// slots : int, optional
 ///     Places of a face, of which `length` hold magnets: spacing is part of the code.
+/// continuous : bool, optional
+///     Magnets may lie anywhere along the face, at least a pitch apart: positions and poles are
+///     found together, wrong meetings judged over all poses. Takes `gap` or `count`.
+/// face : float, optional
+///     Length of the face (m) with `continuous`; the design's by default, or the paper's.
 /// design : Design, optional
 ///     From whose target face magnets and pitch are taken; the paper's tile by default.
 /// faces : {"all", "mates"}, optional
@@ -40,6 +48,8 @@ use crate::{convert, fault, job};
 ///     From place to place (m).
 /// balanced : bool, optional
 ///     As many north as south poles, or one more.
+/// max_run : int, optional
+///     Longest run of equal poles.
 /// seconds : float, optional
 ///     Work to spend, as what takes about so many seconds of a core; it is counted.
 /// seed : int, optional
@@ -49,11 +59,12 @@ use crate::{convert, fault, job};
 /// -------
 /// dict
 ///     As ``tilebind words --json``: `words`, `count`, `upper_bound`, `proved`, `gap`, `bond_J`,
-///     `worst`.
+///     `worst`; with `continuous` also `positions_m`.
 #[pyfunction]
-#[pyo3(signature = (length, *, gap = None, count = None, slots = None, design = None, faces = "all",
-                    shape = "none", flip = false, tolerate = None, pitch = None, balanced = false, seconds = 20.0,
-                    seed = 1, progress = None))]
+#[pyo3(signature = (length, *, gap = None, count = None, slots = None, continuous = false,
+                    face = None, design = None, faces = "all", shape = "none", flip = false,
+                    tolerate = None, pitch = None, balanced = false, max_run = None,
+                    seconds = 20.0, seed = 1, progress = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn words<'py>(
     py: Python<'py>,
@@ -61,6 +72,8 @@ pub fn words<'py>(
     gap: Option<f64>,
     count: Option<usize>,
     slots: Option<usize>,
+    continuous: bool,
+    face: Option<f64>,
     design: Option<Py<Design>>,
     faces: &str,
     shape: &str,
@@ -68,6 +81,7 @@ pub fn words<'py>(
     tolerate: Option<&str>,
     pitch: Option<f64>,
     balanced: bool,
+    max_run: Option<usize>,
     seconds: f64,
     seed: u64,
     progress: Option<bool>,
@@ -93,12 +107,7 @@ pub fn words<'py>(
             "mates" => Faces::Mates,
             _ => return Err(fault::value("faces are \"all\" or \"mates\"")),
         },
-        shape: match shape {
-            "none" => Shape::None,
-            "shared" => Shape::Shared,
-            "polar" => Shape::Polar,
-            _ => return Err(fault::value("a shape is \"none\", \"shared\" or \"polar\"")),
-        },
+        shape: word_shape(shape)?,
         flip,
         fault: match tolerate {
             None => None,
@@ -107,7 +116,32 @@ pub fn words<'py>(
             Some(_) => return Err(fault::value("tolerated are \"missing\" or \"flipped\"")),
         },
     };
-    let bar = bar(design.as_ref(), pitch)?;
+    let (bar, whole) = bar(design.as_ref(), pitch)?;
+    if continuous {
+        if slots.is_some() || rules.shape != Shape::None || rules.fault.is_some() {
+            return Err(fault::value(
+                "slots, shape and tolerate do not go with continuous=True",
+            ));
+        }
+        fault::positive("face", face)?;
+        let wanted = Wanted {
+            magnets: length,
+            bar,
+            face: face.unwrap_or(whole),
+            words_meet: rules.faces == Faces::All,
+            flip,
+            balanced,
+            longest_run: max_run,
+        };
+        let found = job::run(py, progress, |told| {
+            told.tell(0.0, "words".to_owned());
+            Spaced::search(&wanted, question, seed, seconds)
+        })?;
+        return convert::json(py, &found.map_err(fault::value)?.json());
+    }
+    if face.is_some() {
+        return Err(fault::value("face goes with continuous=True"));
+    }
     let least_spacing = (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
     if (length - 1) * least_spacing >= places {
         return Err(fault::value(format!(
@@ -118,6 +152,7 @@ pub fn words<'py>(
     let energies = Lags::new(&bar, places);
     let constraints = Constraints {
         balanced,
+        longest_run: max_run,
         least_spacing,
         ..Constraints::default()
     };
@@ -149,26 +184,38 @@ pub fn words<'py>(
     convert::json(py, &report::json(&request, &answer))
 }
 
-/// The magnets of words.
-fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<Bar> {
+/// A complementary shape by its name.
+pub fn word_shape(name: &str) -> PyResult<Shape> {
+    match name {
+        "none" => Ok(Shape::None),
+        "shared" => Ok(Shape::Shared),
+        "polar" => Ok(Shape::Polar),
+        _ => Err(fault::value("a shape is \"none\", \"shared\" or \"polar\"")),
+    }
+}
+
+/// The magnets of words, and the length of the face (m).
+fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> {
     fault::positive("pitch", pitch)?;
     let Some(design) = design else {
         let paper = Bar::paper();
-        return Ok(Bar {
+        let bar = Bar {
             pitch: pitch.unwrap_or(paper.pitch),
             ..paper
-        });
+        };
+        return Ok((bar, PAPER_FACE));
     };
     let design = &design.get().content.design;
     let pitch = pitch
         .or(design.pitch)
         .ok_or_else(|| fault::value("the design gives no pitch: pitch=0.04"))?;
     let (pair, interaction) = (&design.pair, &design.interaction);
-    Bar::of_face(&pair.fixed, pair.target.0, interaction, pitch).map_err(|error| {
+    let bar = Bar::of_face(&pair.fixed, pair.target.0, interaction, pitch).map_err(|error| {
         fault::value(format!(
             "{error}; words need equal magnets behind a flat face, as in shapes/paper-tile.toml"
         ))
-    })
+    })?;
+    Ok((bar, pair.fixed.faces[pair.target.0].length()))
 }
 
 /// The strongest attraction of every two words of a set over all poses, with their mates.

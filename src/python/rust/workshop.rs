@@ -2,10 +2,13 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use tilebind::calibration::bonds::PairTimes;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::Design;
-use tilebind::report;
+use tilebind::kinetics::Bond;
+use tilebind::observer::Silent;
 use tilebind::workshop::Making;
+use tilebind::{Settings, pipeline, report};
 
 use crate::{convert, fault, job};
 
@@ -46,6 +49,25 @@ pub fn calibrated<'py>(
     })?;
     let found = found.map_err(fault::value)?;
     convert::json(py, &report::calibration::json(design, &found))
+}
+
+/// The kT at which pairs bind and part as in a table of intervals.
+pub fn kt_of_bonds<'py>(
+    py: Python<'py>,
+    design: &Design,
+    table: &Bound<'py, PyAny>,
+    area: Option<f64>,
+) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("area", area)?;
+    let times = PairTimes::read(&text(table)?).map_err(fault::value)?;
+    let area = area.unwrap_or(design.table[0] * design.table[1]);
+    let found = job::quietly(py, || {
+        let settings = Settings::without_proofs(Settings::default().seed);
+        let analysis = pipeline::analyse(design, &settings, &Silent);
+        let bond = Bond::new(&analysis.problem, &analysis.inventory);
+        bond.map(|bond| report::calibration::KtFit::new(&times, &bond, area).json(design))
+    })?;
+    convert::json(py, &found.map_err(fault::run)?)
 }
 
 /// A table as CSV: of a frame, or of the file of that name.

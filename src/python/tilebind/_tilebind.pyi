@@ -135,6 +135,9 @@ class Design:
     def calibrate(
         self, table: Any, *, hold_out: int = 5
     ) -> dict[str, Any]: ...
+    def calibrate_bonds(
+        self, table: Any, *, area: float | None = None
+    ) -> dict[str, Any]: ...
     def summary(self) -> str: ...
     def show(self) -> dict[str, Any]: ...
     def svg(self) -> str: ...
@@ -292,6 +295,8 @@ def words(
     gap: float | None = None,
     count: int | None = None,
     slots: int | None = None,
+    continuous: bool = False,
+    face: float | None = None,
     design: Design | None = None,
     faces: Literal["all", "mates"] = "all",
     shape: Literal["none", "shared", "polar"] = "none",
@@ -299,6 +304,7 @@ def words(
     tolerate: Literal["missing", "flipped"] | None = None,
     pitch: float | None = None,
     balanced: bool = False,
+    max_run: int | None = None,
     seconds: float = 20.0,
     seed: int = 1,
     progress: bool | None = None,
@@ -312,10 +318,18 @@ def crosstalk(
 ) -> dict[str, Any]: ...
 def assemble(
     tiles: str | PathLike[str],
-    words: Sequence[str] | Mapping[str, Any],
+    words: Sequence[str] | Mapping[str, Any] | None = None,
     *,
+    design: Design | None = None,
     kt: float,
     coverage: float = 0.3,
     proofread: int = 1,
+    length: int | None = None,
+    magnets: int | None = None,
+    gap: float | None = None,
+    shape: Literal["none", "shared", "polar"] = "none",
+    pitch: float | None = None,
+    seconds: float = 20.0,
+    seed: int = 1,
     progress: bool | None = None,
 ) -> dict[str, bytes]: ...

@@ -12,9 +12,9 @@ use crate::report::files::{Files, with_report};
 use crate::report::json as layout;
 use crate::report::page::Page;
 use crate::report::values::positive_zero;
-use crate::words::Bar;
 use crate::words::continuous::SpacedWord;
 use crate::words::crosstalk::Crosstalk;
+use crate::words::{Bar, Question};
 
 /// Positions are told to so many metres.
 const STEP: f64 = 1e-6;
@@ -24,7 +24,7 @@ pub struct Spaced {
     /// The words; positions in whole micrometres.
     pub words: Vec<SpacedWord>,
     /// What was asked: gap or number of words.
-    pub asked: [Option<f64>; 2],
+    pub asked: Question,
     /// The magnets; the pitch is the least spacing.
     pub bar: Bar,
     /// Length of a face (m).
@@ -76,7 +76,9 @@ impl Spaced {
                 "{}; at least so many, no upper bound known",
                 crosstalk::headline(set, found)
             ),
-            (None, [Some(gap), _]) => format!("none found with the gap {gap}, nothing proved"),
+            (None, Question::Gap(gap)) => {
+                format!("none found with the gap {gap}, nothing proved")
+            }
             (None, _) => "none found, nothing proved".to_owned(),
         }
     }
@@ -96,6 +98,11 @@ impl Spaced {
     }
 
     fn value(&self) -> Value {
+        let (gap, count) = match self.asked {
+            Question::Gap(gap) => (Some(gap), None),
+            Question::Count(count) => (None, Some(count)),
+            Question::Frontier => (None, None),
+        };
         let found = self.judged.as_ref().map(|(_, found)| found);
         let worst = self.judged.as_ref().and_then(|(set, found)| {
             let ([i, j], energy, q) = found.strongest_wrong()?;
@@ -124,8 +131,8 @@ impl Spaced {
             "seed": self.seed,
             "settings": {
                 "continuous": true,
-                "gap": self.asked[0],
-                "count": self.asked[1],
+                "gap": gap,
+                "count": count,
                 "face_m": self.face,
                 "least_spacing_m": self.bar.pitch,
                 "model": self.bar.model.name(),

@@ -2,12 +2,15 @@
 
 mod continuous;
 mod files;
+mod spaced;
 mod text;
 
 use serde_json::{Value, json};
 
-pub use continuous::{Spaced, rounded, toml as spaced_toml};
+pub use continuous::Spaced;
+use continuous::{rounded, toml as spaced_toml};
 pub use files::{files, set_toml};
+pub use spaced::SpacedError;
 pub use text::{headline, meetings, summary};
 
 use super::json as layout;

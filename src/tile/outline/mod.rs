@@ -37,6 +37,10 @@ impl Outline {
         validity::check(&vertices)?;
         let vertices = validity::without_collinear(vertices);
         let n = vertices.len();
+        // Vertices too close to tell may all lie on one line.
+        if n < 3 {
+            return Err(OutlineError::TooFewVertices(n));
+        }
         let normals: Vec<_> = (0..n)
             .map(|i| outward_normal(vertices[i], vertices[(i + 1) % n]))
             .collect();

@@ -7,8 +7,8 @@ use super::{cross, segments_meet, signed_area};
 /// Why a list of vertices is no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// Fewer than three vertices.
-    #[error("an outline needs at least three vertices, this one has {0}")]
+    /// Fewer than three vertices, or fewer that lie off the straight line between their neighbours.
+    #[error("an outline needs at least three corners, this one has {0}")]
     TooFewVertices(usize),
     /// Two vertices, by their numbers, lie on the same point.
     #[error("vertices {0} and {1} coincide")]

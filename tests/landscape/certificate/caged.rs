@@ -115,3 +115,18 @@ fn ends_that_cannot_be_are_refused() {
         CertifyError::OffTheTable(outside)
     );
 }
+
+#[test]
+fn a_known_way_through_teeth_without_play_is_proved() {
+    let (scene, _) = Scene::shipped("square-teeth-10mm", MagnetModel::Dipole);
+    // Beside a corner not all contacts within a millimetre can be kept open at once.
+    let way = [
+        [0.442_172_083_65, -0.099_267_659_5, -0.059_647_714_86],
+        [0.442_028_926_19, -0.098_645_085_5, -0.054_911_044_75],
+        [0.442_208_163_97, -0.097_307_981_0, -0.049_412_396_56],
+    ]
+    .map(|[x, y, theta]| Configuration::new(x, y, theta));
+    let (to, effort) = (End::At(way[2]), effort(1e-5, 1000));
+    let bracket = scene.certifier().bracket(&way[0], &to, &way, &effort);
+    assert!(bracket.unwrap().bounds.upper.is_some());
+}

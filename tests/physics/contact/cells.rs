@@ -7,13 +7,14 @@ use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::contact::cells::{CellContact, ContactCells, Cut};
 
-use super::{saw, square};
+use super::{regular, saw, square};
 
 #[test]
 fn no_free_configuration_is_blocked_or_cut_off() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     for (a, b) in [
         (square(0.43), square(0.43)),
+        (regular(3, 0.35), regular(3, 0.35)),
         (saw(false), saw(true)),
         (saw(true), saw(false)),
     ] {
@@ -56,5 +57,23 @@ fn no_free_configuration_is_blocked_or_cut_off() {
             blocked > 3000 && cut > 200 && cut_off > 100 && cornered > 5,
             "{blocked} {cut} {cut_off} {cornered}"
         );
+    }
+}
+
+#[test]
+fn corners_that_cross_with_no_vertex_inside_are_blocked() {
+    // 60 degrees leave room for edges that cross 4 mm from either corner.
+    let triangle = regular(3, 0.1 / 3f64.sqrt());
+    let contact = Contact::new(&triangle, &triangle);
+    let crossed = Configuration::new(0.059_14, 0.023_43, 1.794_8);
+    let depth = -contact.clearance(&crossed);
+    assert!(depth > 0.02, "{depth}");
+    let cells = ContactCells::new(&contact);
+    for half in [5e-5, 1e-3, 5e-3] {
+        let cell = Cell {
+            centre: crossed,
+            half: [half, half, 10.0 * half],
+        };
+        assert_eq!(cells.classify(&cell), CellContact::Blocked, "{half}");
     }
 }

@@ -6,6 +6,8 @@ mod lift;
 mod motion;
 mod possible;
 
+use std::f64::consts::TAU;
+
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -21,6 +23,13 @@ pub fn outline(points: &[[f64; 2]]) -> Outline {
 pub fn square(side: f64) -> Outline {
     let h = side / 2.0;
     outline(&[[-h, -h], [h, -h], [h, h], [-h, h]])
+}
+
+/// A regular polygon of this circumradius (m), an edge towards +x.
+pub fn regular(sides: usize, radius: f64) -> Outline {
+    let angle = |k: usize| (k as f64 - 0.5) * TAU / sides as f64;
+    let vertex = |k: usize| [radius * angle(k).cos(), radius * angle(k).sin()];
+    outline(&(0..sides).map(vertex).collect::<Vec<_>>())
 }
 
 /// A block with a saw blade on its right side, or its complement on the left one.

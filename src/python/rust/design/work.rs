@@ -273,4 +273,53 @@ impl Design {
     ) -> PyResult<Bound<'py, PyAny>> {
         workshop::calibrated(py, &self.content.design, table, hold_out)
     }
+
+    /// Fit the effective energy kT of a shaking to pairs that bind and part.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : pandas.DataFrame, str or os.PathLike
+    ///     The measurements or a CSV file of them: `bound_s` and `apart_s`, whole intervals for
+    ///     which a pair was bound, and for which it was apart (s).
+    /// area : float, optional
+    ///     Area that a pair had for itself (m^2); the design's table by default.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind calibrate --bonds --json``.
+    #[pyo3(signature = (table, *, area = None))]
+    fn calibrate_bonds<'py>(
+        &self,
+        py: Python<'py>,
+        table: &Bound<'py, PyAny>,
+        area: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        workshop::kt_of_bonds(py, &self.content.design, table, area)
+    }
+
+    /// Start bound, with a thermal velocity, many times: the rate of detachment under shaking.
+    ///
+    /// Parameters
+    /// ----------
+    /// shaking : float
+    ///     Effective energy kT (J) of a random force.
+    /// progress : bool, optional
+    /// **settings
+    ///     As of :func:`tilebind.dock`; those of starts do not matter.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind dock --from-bond --json``.
+    #[pyo3(signature = (*, shaking, progress = None, **settings))]
+    fn releases<'py>(
+        &self,
+        py: Python<'py>,
+        shaking: f64,
+        progress: Option<bool>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        dock::released(py, &self.content, shaking, settings, progress)
+    }
 }

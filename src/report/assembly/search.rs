@@ -1,36 +1,55 @@
-//! The words of `tilebind assemble`, searched.
+//! The words of an assembly, searched.
 
-use tilebind::assembly::Wiring;
-use tilebind::assembly::choice::{self, Asked, Choice, Class, Verdict};
-use tilebind::design::Design;
-use tilebind::report::words;
-use tilebind::words::{Bar, Word};
-
-use super::{Assemble, Failure};
+use super::super::words::set_toml;
+use crate::assembly::Wiring;
+use crate::assembly::choice::{self, Asked, Choice, Class, Verdict};
+use crate::design::{Design, MagnetModel};
+use crate::words::{Bar, Rules, Word};
 
 /// The least gap where none is asked for.
 const GAP: f64 = 0.5;
 
-fn usage<T>(message: String) -> Result<T, Failure> {
-    Err(Failure::Usage(message))
+/// What words are searched.
+#[derive(Clone, Debug)]
+pub struct WordSearch {
+    /// From place to place (m); the design's or the paper's where `None`.
+    pub pitch: Option<f64>,
+    /// Model of the magnets; the design's where `None`.
+    pub model: Option<MagnetModel>,
+    /// Places of a face; the fewest that carry the words where `None`.
+    pub length: Option<usize>,
+    /// Magnets of the strongest bonds' words; one a place where `None`.
+    pub magnets: Option<usize>,
+    /// Least gap; where `None` 0.5, or with a length the widest there is.
+    pub gap: Option<f64>,
+    /// Which meetings are wrong.
+    pub rules: Rules,
+    /// Of all random numbers.
+    pub seed: u64,
+    /// Work to spend, as what takes about so many seconds of a core.
+    pub seconds: f64,
 }
 
-impl Assemble {
-    /// Words for the bonds, as the text of a set, and what was tried.
-    pub(super) fn search(
+impl WordSearch {
+    /// Words for the bonds of a tile set, as the text of a set, and what was tried. Magnets are
+    /// those of a design's target face, or the paper's.
+    ///
+    /// # Errors
+    /// Where there are none, or none were found: what is missing, and how to mend it.
+    pub fn run(
         &self,
         wiring: &Wiring,
         design: Option<&Design>,
-    ) -> Result<(String, Vec<Choice>), Failure> {
+    ) -> Result<(String, Vec<Choice>), String> {
         let bar = self.bar(design)?;
         let face = design.map(|design| design.pair.fixed.faces[design.pair.target.0].length());
         let most = self.most_places(&bar, face)?;
         let asked = Asked {
             bar,
             magnets: self.magnets,
-            rules: self.rules(),
+            rules: self.rules,
             gap: self.gap.or(self.length.is_none().then_some(GAP)),
-            seed: self.work.seed,
+            seed: self.seed,
             seconds: self.seconds,
         };
         let demand = wiring.demand();
@@ -42,13 +61,13 @@ impl Assemble {
             Some(last) if last.verdict == Verdict::Found => {
                 Ok((set_text(last, &bar, face.unwrap_or_default()), tried))
             }
-            Some(last) => usage(missing(last)),
-            None => usage("the face holds no magnet".to_owned()),
+            Some(last) => Err(missing(last)),
+            None => Err("the face holds no magnet".to_owned()),
         }
     }
 
     /// The magnets: the paper's, or those of a design.
-    fn bar(&self, design: Option<&Design>) -> Result<Bar, Failure> {
+    fn bar(&self, design: Option<&Design>) -> Result<Bar, String> {
         let paper = Bar::paper();
         let bar = match design {
             None => paper,
@@ -56,11 +75,9 @@ impl Assemble {
                 let pair = &design.pair;
                 let pitch = self.pitch.or(design.pitch).unwrap_or(paper.pitch);
                 let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch);
-                bar.or_else(|error| {
+                bar.map_err(|error| {
                     let name = &design.name;
-                    usage(format!(
-                        "{name}: {error}; words need equal magnets behind a flat face"
-                    ))
+                    format!("{name}: {error}; words need equal magnets behind a flat face")
                 })?
             }
         };
@@ -72,23 +89,23 @@ impl Assemble {
     }
 
     /// The longest face to look at, of which the design's may be this long (m).
-    fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, Failure> {
+    fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, String> {
         let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
         let most = face
             .map_or(choice::MOST_PLACES, fitting)
             .min(choice::MOST_PLACES);
         if let Some(length) = self.length.filter(|length| *length > most) {
-            return usage(format!(
+            return Err(format!(
                 "a face of {length} places is too long: {most} at most, {} apart",
-                tilebind::units::si(bar.pitch, "m", 3)
+                crate::units::si(bar.pitch, "m", 3)
             ));
         }
         let places = self.length.unwrap_or(most);
         if let Some(magnets) = self.magnets.filter(|magnets| *magnets > places) {
-            return usage(match self.length {
+            return Err(match self.length {
                 Some(_) => format!(
-                    "{magnets} magnets do not fit into {places} places: give --length {magnets} or \
-                     more"
+                    "{magnets} magnets do not fit into {places} places: give a length of \
+                     {magnets} or more"
                 ),
                 None => format!("{magnets} magnets do not fit into a face of {places} places"),
             });
@@ -116,11 +133,11 @@ fn missing(choice: &Choice) -> String {
             magnets(class),
             class.upper
         ),
-        None => "whether there are more is open, and --seconds searches longer".to_owned(),
+        None => "whether there are more is open, and more seconds search longer".to_owned(),
     };
     format!(
-        "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give more \
-         places (--length), a narrower --gap, or --words",
+        "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give a \
+         longer face, a narrower gap, or the words",
         sum(|it| it.needed),
         needed.join(", "),
         choice.gap,
@@ -138,7 +155,7 @@ fn set_text(choice: &Choice, bar: &Bar, side: f64) -> String {
     let faces = words.iter().map(|word: &Word| {
         [word.to_string(), word.mate().to_string()].map(|code| format!("code = \"{code}\""))
     });
-    words::set_toml(
+    set_toml(
         &format!("{} words of {} places", words.len(), choice.places),
         &format!("words = [{}]\n\n", quoted.join(", ")),
         bar,

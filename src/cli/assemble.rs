@@ -1,14 +1,12 @@
 //! `tilebind assemble`.
 
-mod search;
-
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::assembly::{Built, TileSet, Wiring, lattice, proofread, square};
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
-use tilebind::report::assembly::{self as report, Assembly};
+use tilebind::report::assembly::{self as report, Assembly, WordSearch};
 use tilebind::report::writer;
 use tilebind::words::{Rules, Shape};
 
@@ -144,7 +142,10 @@ impl Assemble {
         self.work.use_threads()?;
         let (text, tried) = match &self.words {
             Some(_) => (String::new(), Vec::new()),
-            None => self.search(&wiring, design.as_ref())?,
+            None => self
+                .search()
+                .run(&wiring, design.as_ref())
+                .map_err(Failure::Usage)?,
         };
         let words = match &self.words {
             Some(path) => WordSet::load(path, self.model)?,
@@ -184,6 +185,19 @@ impl Assemble {
                 report::FILES
             )
         })
+    }
+
+    fn search(&self) -> WordSearch {
+        WordSearch {
+            pitch: self.pitch,
+            model: self.model,
+            length: self.length,
+            magnets: self.magnets,
+            gap: self.gap,
+            rules: self.rules(),
+            seed: self.work.seed,
+            seconds: self.seconds,
+        }
     }
 
     fn rules(&self) -> Rules {
