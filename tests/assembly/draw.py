@@ -50,6 +50,8 @@ def shaking(out):
     for name, look in zip(ORDER, LOOKS):
         colour, mark = look.split()
         mine = sorted((it for it in rows if it["set"] == name), key=lambda it: float(it["kt_J"]))
+        if not mine:
+            continue
         for axis, column in ((speed, "tiles_a_docking_time"), (wrong, "errors_a_tile")):
             for ending, line in (("", "-"), ("_ideal", "--")):
                 points = [it for it in mine if it[column + ending]]
