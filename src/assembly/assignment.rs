@@ -3,8 +3,10 @@
 //! Engines let a word of one bond meet the mate of another one on the same axis only, aligned. So
 //! among words of equal depth it matters which goes where, and whether a bond's east faces carry a
 //! word or its mate: exchanges are made as long as they lessen the sum of the weights of wrong
-//! meetings.
+//! meetings. Then bonds are kept from being deeper in whole tiles than their faces alone have them
+//! ([`super::rests`]), by exchanges that cost little of that.
 
+use super::depths::Depths;
 use super::matrix::Matrix;
 use super::wiring::Wiring;
 use crate::words::Word;
@@ -18,7 +20,7 @@ const ROUNDS: usize = 12;
 
 /// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
 /// `all` for the strongest bonds, then exchanged.
-pub fn assign(all: &Matrix, wiring: &Wiring) -> Vec<Word> {
+pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Vec<Word> {
     let (there, needed) = (all.words.len(), wiring.bonds.len());
     let mut by_depth: Vec<usize> = (0..there).collect();
     // Depths that differ in their last digits only are the same.
@@ -37,31 +39,72 @@ pub fn assign(all: &Matrix, wiring: &Wiring) -> Vec<Word> {
     }
     faces.extend(by_depth.iter().skip(needed));
     let weights = Weights { all, wiring };
+    exchange(&mut faces, all, needed, 1, |faces, others, changed| {
+        weights.of(others, changed) < weights.of(faces, changed) * (1.0 - 1e-9)
+    });
+    if let Some(depths) = depths {
+        let every: Vec<usize> = (0..needed).collect();
+        let most = weights.of(&faces, &every) * depths.price;
+        exchange(&mut faces, all, needed, 4, |faces, others, _| {
+            let deeper = depths.excess(faces);
+            deeper > 0.0
+                && depths.excess(others) < deeper * (1.0 - 1e-9)
+                && weights.of(others, &every) <= most
+        });
+    }
+    faces[..needed].iter().map(|face| all.code(*face)).collect()
+}
+
+/// Exchanges the faces of bonds, with each other and with what is left, and words with mates, as long
+/// as that is `better`, which is told the faces before and after and the bonds that changed. What is
+/// exchanged goes in 1 or 4 `ways`: as it is, or with one or both for their mates as well.
+fn exchange(
+    faces: &mut Vec<usize>,
+    all: &Matrix,
+    needed: usize,
+    ways: usize,
+    better: impl Fn(&[usize], &[usize], &[usize]) -> bool,
+) {
+    let there = all.words.len();
+    let take = |faces: &mut Vec<usize>, others: Vec<usize>, changed: &[usize]| {
+        let taken = better(faces, &others, changed);
+        if taken {
+            *faces = others;
+        }
+        taken
+    };
     for _ in 0..ROUNDS {
-        let mut better = false;
+        let mut any = false;
         for i in 0..needed {
             let mut turned = faces.clone();
             turned[i] = mate(faces[i], there);
-            better |= weights.take(&mut faces, turned, &[i]);
+            any |= take(faces, turned, &[i]);
             for k in i + 1..there {
                 let depths = [faces[i], faces[k]].map(|face| all.bond(face % there));
                 if (depths[0] / depths[1] - 1.0).abs() > ALIKE {
                     continue;
                 }
-                let mut swapped = faces.clone();
-                swapped.swap(i, k);
                 let changed = if k < needed { &[i, k][..] } else { &[i] };
-                better |= weights.take(&mut faces, swapped, changed);
+                for way in 0..ways {
+                    let mut swapped = faces.clone();
+                    swapped.swap(i, k);
+                    for (bit, at) in [i, k].into_iter().enumerate() {
+                        if way >> bit & 1 == 1 {
+                            swapped[at] = mate(swapped[at], there);
+                        }
+                    }
+                    any |= take(faces, swapped, changed);
+                }
             }
         }
-        if !better {
+        if !any {
             break;
         }
     }
-    faces[..needed].iter().map(|face| all.code(*face)).collect()
 }
 
-fn mate(face: usize, words: usize) -> usize {
+/// The mate of a face of so many words.
+pub(super) fn mate(face: usize, words: usize) -> usize {
     (face + words) % (2 * words)
 }
 
@@ -71,16 +114,6 @@ struct Weights<'a> {
 }
 
 impl Weights<'_> {
-    /// Takes other faces if what changes by them becomes less.
-    fn take(&self, faces: &mut Vec<usize>, others: Vec<usize>, changed: &[usize]) -> bool {
-        let (before, after) = (self.of(faces, changed), self.of(&others, changed));
-        let better = after < before * (1.0 - 1e-9);
-        if better {
-            *faces = others;
-        }
-        better
-    }
-
     /// Of the wrong meetings of some bonds.
     fn of(&self, faces: &[usize], changed: &[usize]) -> f64 {
         let (all, bonds) = (self.all, &self.wiring.bonds);

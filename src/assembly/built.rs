@@ -14,8 +14,10 @@
 //! out, so a real corner holds a little less.
 
 use super::assignment::assign;
-use super::growth::{Grown, Holds, grow, neighbours};
+use super::depths::Depths;
+use super::growth::{Grown, Holds, Met, grow, neighbours};
 use super::matrix::Matrix;
+use super::rests::{Faces, Rests};
 use super::wiring::{Wiring, WiringError};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
@@ -25,7 +27,6 @@ use crate::words::crosstalk::Stage;
 use crate::words::{Lags, Word};
 
 /// A tile set with its words and energies.
-#[derive(Clone, Debug)]
 pub struct Built {
     /// The set.
     pub set: TileSet,
@@ -45,6 +46,8 @@ pub struct Built {
     pub gmc: f64,
     /// What grows without errors.
     pub grown: Grown,
+    /// What the other faces of two tiles add to their bond.
+    pub rests: Rests,
 }
 
 /// Why a set cannot be built.
@@ -84,8 +87,11 @@ impl Built {
         if there < needed {
             return Err(BuiltError::Words { needed, there });
         }
+        let grown = grow(set, MOST_GROWN);
+        let rests = Rests::new(words);
         let all = Matrix::new(words, &words.words);
-        let chosen = assign(&all, &wiring);
+        let depths = Depths::new(&all, &rests, set, &wiring, &grown);
+        let chosen = assign(&all, &wiring, depths.as_ref());
         let matrix = Matrix::new(words, &chosen);
         if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
             return Err(BuiltError::Loose(chosen[loose]));
@@ -113,7 +119,8 @@ impl Built {
             volume,
             docking_cost,
             gmc: docking_cost + shares.max(f64::MIN_POSITIVE).ln(),
-            grown: grow(set, MOST_GROWN),
+            grown,
+            rests,
             wiring,
             matrix,
             shaking,
@@ -134,6 +141,21 @@ impl Built {
         } else {
             bond + self.matrix.words.len()
         })
+    }
+
+    /// Of two tiles that meet by a bond: its word, and what their other faces add to it (J).
+    pub fn whole(&self, (first, axis, second): &Met) -> Option<(usize, f64)> {
+        let [out, back] = axis.sides();
+        let bonds = [(*first, out), (*second, back)];
+        let [Some(bond), other] = bonds.map(|(tile, side)| self.wiring.of(&self.set, tile, side))
+        else {
+            return None;
+        };
+        let faces = |tile: usize| -> Faces {
+            std::array::from_fn(|side| Some(self.matrix.code(self.face(tile, side)?)))
+        };
+        let rest = || self.rests.of(*axis, &faces(*first), &faces(*second));
+        (other == Some(bond)).then(|| (bond, rest()))
     }
 
     /// The set as engines run it: glues are faces, strengths their energies over Gse, seed and

@@ -14,16 +14,19 @@
 //! - [`wiring`] - which faces bind which: the words that are needed;
 //! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
 //! - [`growth`] - what grows without errors;
-//! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`slides`] - what engines leave out;
+//! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
+//!   other faces add; [`slides`] - what engines leave out;
 //! - [`built`] - all of it for one shaking and one coverage of the table.
 
 mod assignment;
 pub mod built;
 pub mod choice;
+mod depths;
 pub mod growth;
 pub mod lattice;
 pub mod matrix;
 pub mod proofread;
+pub mod rests;
 pub mod rgrow;
 pub mod slides;
 pub mod square;
@@ -148,9 +151,10 @@ impl TileSet {
         table
     }
 
-    /// The same with 0 where glues repel, for xgrow: it adds and takes away rates as they change, and
-    /// beside that of a repelled tile, which leaves at once either way, sums lose the slow ones of
-    /// growth.
+    /// The same with 0 where glues repel, for xgrow. It counts the rate of a free place from the tiles
+    /// that would be held there, but then chooses among those that would be repelled as well
+    /// (`calc_rates` and `choose_cell` of its grow.c): where one is, a tile later in the list never
+    /// docks, and growth stands still.
     pub fn without_repulsion(&self) -> Self {
         let mut set = self.clone();
         set.links.retain(|link| link.2 > 0.0);

@@ -233,6 +233,9 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
         let [a, b] = [a, b].map(|at| quoted(&set.glues[*at].name));
         let _ = writeln!(text, "- [{a}, {b}, {strength:?}]");
     }
+    // Of pieces that part from each other that with the seed stays. The engines' other way, never to
+    // let a tile go on which others hang, stands still where that tile is not held.
+    text += "fission: keep-seeded\n";
     let numbers = [("Gse", set.gse), ("Gmc", set.gmc), ("tau", set.tau)];
     for (key, value) in numbers {
         if let Some(value) = value {

@@ -271,6 +271,8 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
     if let Some([rows, columns]) = set.size {
         let _ = writeln!(text, "size={}", rows.max(columns));
     }
+    // As in rgrow's files: pieces may part.
+    text += "fission\n";
     for (key, value) in [("Gse", set.gse), ("Gmc", set.gmc)] {
         if let Some(value) = value {
             let _ = writeln!(text, "{key}={value:?}");

@@ -10,14 +10,18 @@ use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
 use tilebind::observer::Observer;
+use tilebind::report::page::Page;
 use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
+use super::figures::command_line;
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
 use super::{Failure, input, interrupt, memory, print, tell_of_kept};
 
 /// Mean exit times after which a moving tile is given up.
 const PATIENCE: f64 = 30.0;
+/// Squares along x and y of the committor's map.
+const SQUARES: usize = 120;
 
 /// Print how fast shaken tiles bind, come off and change between states
 #[derive(Args)]
@@ -27,8 +31,8 @@ const PATIENCE: f64 = 30.0;
 Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
 reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
-sources (Thomson), upper ones from trial committors (Dirichlet), for tiles with convex outlines; what
-the mesh's integrals are off by is not in them. Without --start: rates between the bond, the deepest
+sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
+all; what the mesh's integrals are off by is not in them. Without --start: rates between the bond, the deepest
 traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
 beside every number.
 
@@ -79,7 +83,8 @@ pub struct Rates {
           conflicts_with = "start")]
     traps: usize,
 
-    /// Folder for rates.csv and occupation.csv
+    /// Folder for report.html, report.json, rates.csv, occupation.csv, over-kt.csv, committor.csv
+    /// and pictures/
     #[arg(long, value_name = "DIR", conflicts_with = "start")]
     out: Option<PathBuf>,
 
@@ -180,6 +185,7 @@ impl Rates {
     fn table(&self, design: &Design) -> Result<(), Failure> {
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
+            input::check_folder(&folder.join(writer::PICTURES))?;
         }
         let settings = self.survey();
         memory::check(settings.milestones, None, 1)?;
@@ -190,13 +196,13 @@ impl Rates {
         let basins = places.iter().map(report::Place::basin);
         let asked = RateSettings {
             certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
+            map: self.out.as_ref().map(|_| SQUARES),
             ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
         };
         let found = rates(&analysis.problem, &asked).map_err(|error| match error {
             RatesError::Unsolved(_) => Failure::Run(error.to_string()),
             _ => Failure::Usage(error.to_string()),
         })?;
-        progress.finish();
         let motion = report::Motion::new(design, self.kt, self.drag);
         let table = report::Table {
             design,
@@ -205,15 +211,29 @@ impl Rates {
             places: &places,
             found: &found,
         };
-        if let Some(folder) = &self.out {
-            let files = [
-                ("rates.csv", table.rates_csv().into_bytes()),
-                ("occupation.csv", table.occupation_csv().into_bytes()),
-            ];
-            tell_of_kept(interrupt::without(|| writer::write_each(folder, &files))?);
-        }
-        self.print
-            .results(&json::text(&table.entry()), || table.summary())
+        let Some(folder) = &self.out else {
+            progress.finish();
+            return self
+                .print
+                .results(&json::text(&table.entry()), || table.summary());
+        };
+        let over_kt = report::over_kt(design, &analysis.problem, &places, &asked, &motion);
+        let text = json::text(&report::report(&table, &over_kt, self.work.seed));
+        let mut files = report::files(&table, &over_kt);
+        files.push(("report.json".to_owned(), text.clone().into_bytes()));
+        let page = Page::of_rates(&table, &over_kt)
+            .made_by(&command_line())
+            .beside(files.iter().map(|(name, _)| name));
+        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
+        tell_of_kept(interrupt::without(|| writer::write_each(folder, &files))?);
+        progress.finish();
+        self.print.results(&text, || {
+            format!(
+                "{}results in {}: report.html to look at; report.json, tables, pictures\n",
+                table.summary(),
+                folder.display()
+            )
+        })
     }
 
     /// States and their lowest barriers are needed, and no proofs.

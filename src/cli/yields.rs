@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
+use tilebind::kinetics::rates::RatesError;
 use tilebind::report::files::with_report;
 use tilebind::report::json;
 use tilebind::report::page::Page;
 use tilebind::report::writer;
 use tilebind::report::yields as report;
-use tilebind::yields::attachment::Effort;
+use tilebind::yields::attachment::{Effort, Source};
 use tilebind::yields::{Question, YieldError, yields};
 
 use super::figures::command_line;
@@ -22,12 +23,13 @@ use super::{Failure, input, interrupt, tell_of_kept};
     allow_negative_numbers = true,
     after_help = "\
 Half of the tiles are of the fixed tile's kind, half of the moving one's; each binds one partner at
-most. Attachment rates are counted in docking runs of shaken tiles, detachment rates follow by
-detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
+most. Attachment rates are counted in docking runs of shaken tiles (or, with --rates overdamped, solved
+for overdamped motion as `tilebind rates` does), detachment rates follow by detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
 that has a temperature: contact that swallows energy, which shaking does not give back, has none.
 
 Examples:
   tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 36000 --kt 3e-3 --rates overdamped
   tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield"
 )]
 pub struct YieldCommand {
@@ -59,10 +61,13 @@ pub struct YieldCommand {
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = input::positive)]
     duration: f64,
 
-    /// Drag rate of the docking runs (1/s)
-    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = input::positive)]
-    drag: f64,
+    /// Where attachment rates come from: docking runs, or overdamped motion as in `tilebind rates`
+    #[arg(long, value_enum, default_value_t = Rates::Docking)]
+    rates: Rates,
+
+    /// Drag rate (1/s) [default: 0.005 of docking runs, 50 of overdamped motion]
+    #[arg(long, value_name = "C", value_parser = input::positive)]
+    drag: Option<f64>,
 
     /// Share of the approach velocity that a knock gives back
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
@@ -84,6 +89,15 @@ pub struct YieldCommand {
     print: PrintOptions,
 }
 
+/// Where attachment rates come from.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Rates {
+    Docking,
+    Overdamped,
+}
+
+/// Drag rate (1/s) from which on motion is overdamped.
+const OVERDAMPED: f64 = 50.0;
 /// Most tiles.
 const MOST_TILES: usize = 10_000;
 /// Most settings.
@@ -129,6 +143,10 @@ impl YieldCommand {
     }
 
     fn question(&self) -> Question {
+        let (source, usual) = match self.rates {
+            Rates::Docking => (Source::Docking, MotionSettings::default().drag),
+            Rates::Overdamped => (Source::Overdamped, OVERDAMPED),
+        };
         Question {
             kts: self.kt.clone(),
             coverage: self.coverage,
@@ -138,10 +156,11 @@ impl YieldCommand {
                 runs: self.runs,
                 duration: self.duration,
                 motion: MotionSettings {
-                    drag: self.drag,
+                    drag: self.drag.unwrap_or(usual),
                     restitution: self.restitution,
                     ..MotionSettings::default()
                 },
+                source,
             },
             simulations: self.simulations,
             seed: self.work.seed,
@@ -152,6 +171,9 @@ impl YieldCommand {
 fn failure(error: YieldError) -> Failure {
     match error {
         YieldError::Docking(error) => Failure::Usage(error.to_string()),
+        YieldError::Rates(error) if !matches!(error, RatesError::Unsolved(_)) => {
+            Failure::Usage(error.to_string())
+        }
         error => Failure::Run(error.to_string()),
     }
 }

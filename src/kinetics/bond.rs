@@ -1,6 +1,9 @@
 //! How strongly states hold shaken tiles: what models of tile assembly call Gse and Gmc.
 
+use std::cell::RefCell;
+
 use super::corner;
+use super::root::{root, straight_root};
 use super::well::{Estimate, Well};
 use crate::configuration::Configuration;
 use crate::interruption;
@@ -179,30 +182,48 @@ impl<'a> Bond<'a> {
     /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
     /// second. `None` where a bond of 2 to 120 kT decides nothing.
     pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
-        [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds))
+        let cost = |docking: &Docking, _: f64| docking.cost;
+        let known = RefCell::default();
+        [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds, &cost, &known))
     }
 
     /// The kT (J) at which a pair that has an area (m^2) for itself is bound for `exp(log_odds)`
     /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
-        let hold = &self.0;
-        let excess = |log_depth: f64| {
-            let kt = -hold.energy / log_depth.exp();
-            let docking = hold.docking(&Shaking { kt, coverage: 1.0 }, ROUGH);
-            (hold.association(&docking) / area).ln() - log_odds
+        let cost = |docking: &Docking, depth: f64| {
+            depth + log_odds - (self.0.association(docking) / area).ln()
         };
-        root(excess, DEPTHS.map(f64::ln)).map(|log_depth| -hold.energy / log_depth.exp())
+        self.threshold(1.0, 1.0, &cost, &RefCell::default())
     }
 
-    /// The kT (J) above which ln K of `bonds` bonds is negative.
-    fn threshold(&self, coverage: f64, bonds: f64) -> Option<f64> {
+    /// The kT (J) above which `bonds` depths are less than a cost that falls with kT; costs that are
+    /// known, by the logarithm of the depth in kT, are not found again.
+    fn threshold(
+        &self,
+        coverage: f64,
+        bonds: f64,
+        cost: &dyn Fn(&Docking, f64) -> f64,
+        known: &RefCell<Vec<[f64; 2]>>,
+    ) -> Option<f64> {
         let hold = &self.0;
-        // By -kT's logarithm, in which cost is nearly straight.
-        let ln_k = |log_depth: f64| {
-            let kt = -hold.energy / log_depth.exp();
-            hold.docking(&Shaking { kt, coverage }, ROUGH).ln_k(bonds)
+        let of = |log_depth: f64| {
+            let found = known.borrow().iter().find(|it| it[0] == log_depth).copied();
+            found.map_or_else(
+                || {
+                    let depth = log_depth.exp();
+                    let kt = -hold.energy / depth;
+                    let docking = hold.docking(&Shaking { kt, coverage }, ROUGH);
+                    let cost = cost(&docking, depth);
+                    known.borrow_mut().push([log_depth, cost]);
+                    cost
+                },
+                |known| known[1],
+            )
         };
-        root(ln_k, DEPTHS.map(f64::ln)).map(|log_depth| -hold.energy / log_depth.exp())
+        let ends = DEPTHS.map(f64::ln);
+        let found = straight_root(bonds, &of, ends);
+        let found = found.or_else(|| root(|log| bonds * log.exp() - of(log), ends));
+        found.map(|log_depth| -hold.energy / log_depth.exp())
     }
 }
 
@@ -234,43 +255,4 @@ fn pass(inventory: &Inventory, kind: &Kind) -> f64 {
 /// The area (m^2) of the moving tile.
 fn area(pair: &Pair) -> f64 {
     pair.moving.outline.area()
-}
-
-/// The upper of the roots of a function that grows from there on, by bisection and secants
-/// (Illinois); `None` where there is none between the ends.
-fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
-    /// Of the function, and of where it is looked for.
-    const CLOSE: [f64; 2] = [3e-3, 5e-4];
-    let (mut high, mut low) = (most, most);
-    let mut above = f(high);
-    if above <= 0.0 {
-        return None;
-    }
-    let mut below = above;
-    while below > 0.0 {
-        (high, above) = (low, below);
-        if low <= least {
-            return None;
-        }
-        low = (low - 1.0).max(least);
-        below = f(low);
-    }
-    let mut side = 0;
-    for _ in 0..40 {
-        let next = (low * above - high * below) / (above - below);
-        let value = f(next);
-        if value.abs() < CLOSE[0] || high - low < CLOSE[1] {
-            return Some(next);
-        }
-        if value > 0.0 {
-            (high, above) = (next, value);
-            below *= if side == 1 { 0.5 } else { 1.0 };
-            side = 1;
-        } else {
-            (low, below) = (next, value);
-            above *= if side == -1 { 0.5 } else { 1.0 };
-            side = -1;
-        }
-    }
-    Some((low + high) / 2.0)
 }

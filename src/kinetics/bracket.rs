@@ -29,7 +29,7 @@ impl Default for Certify {
     fn default() -> Self {
         Self {
             distance: 0.1,
-            unknowns: 16_000,
+            unknowns: 40_000,
         }
     }
 }
@@ -110,6 +110,10 @@ pub(super) struct Bracket {
     flows: Vec<Vec<Bounded>>,
     /// The integrals of each committor times the load.
     occupations: Vec<Bounded>,
+    /// The same of the functions on the mesh.
+    held: Vec<f64>,
+    /// For each place `<d - e, d' - e'>` and the square of `d' - e'` for the mean time.
+    times: Vec<[f64; 2]>,
     /// What refining the cells may bring.
     pub shares: Vec<f64>,
 }
@@ -155,12 +159,13 @@ impl Bracket {
             (false, Some(element)) => element.load.iter().sum(),
             _ => 0.0,
         };
-        let found = (0..=count)
-            .into_par_iter()
-            .map(|place| match place == count {
-                true => fluxes.of(&source),
-                false => fluxes.from(place),
-            });
+        let found = (0..=count).into_par_iter().map(|place| {
+            let like = fluxes.potentials(nodes, &values[place]);
+            match place == count {
+                true => fluxes.of(&source, &like),
+                false => fluxes.from(place, &like),
+            }
+        });
         let found = found.collect::<Result<Vec<_>, _>>()?;
         let gap = |place: usize| Gap {
             flux: &found[place],
@@ -179,10 +184,20 @@ impl Bracket {
         squares.push(found[count].cost - held(&values[count]));
         let size = |place: usize| squares[place].max(0.0).sqrt();
         // What is missing in a product of two problems.
+        let products = |i: usize, j: usize| fluxes.products(mesh, nodes, &gap(i), &gap(j));
+        let product = |i: usize, j: usize| products(i, j).iter().sum::<f64>();
+        let with_time: Vec<Vec<f64>> = (0..count).map(|place| products(place, count)).collect();
+        let times: Vec<[f64; 2]> = with_time
+            .iter()
+            .map(|products| [products.iter().sum(), squares[count].max(0.0)])
+            .collect();
         let missing = |i: usize, j: usize| {
-            let products = fluxes.products(mesh, nodes, &gap(i), &gap(j));
-            let (middle, off) = (products.iter().sum::<f64>(), size(i) * size(j));
-            (0.5 * middle, 0.5 * off)
+            let known = if j == count {
+                times[i][0]
+            } else {
+                product(i, j)
+            };
+            (0.5 * known, 0.5 * size(i) * size(j))
         };
         let around = |value: f64, (middle, off): (f64, f64)| Bounded {
             value: (value + middle).max(0.0),
@@ -203,31 +218,57 @@ impl Bracket {
         let flows = (0..count)
             .map(|i| (0..count).map(|j| between(i, j)).collect())
             .collect();
-        // How far the bounds of capacity over occupation are apart, by cells.
+        // How far the bounds of occupation over capacity are apart, by cells.
         let mut shares = vec![0.0; mesh.leaves.len()];
-        let square = |place: usize| fluxes.products(mesh, nodes, &gap(place), &gap(place));
-        let relaxing = square(count);
-        (0..count).for_each(|place| {
-            let per = |of: usize, other: usize| {
-                0.5 * size(other) / size(of).max(f64::MIN_POSITIVE) / held(&values[place])
+        let relaxing = products(count, count);
+        for (place, with_time) in with_time.iter().enumerate() {
+            let held = held(&values[place]);
+            let time = held / energy(place);
+            let own = products(place, place);
+            let both = |cell: usize| {
+                relaxing[cell] + 2.0 * time * with_time[cell] + time * time * own[cell]
             };
-            let by_own = 1.0 / energy(place) + per(place, count);
-            let by_other = per(count, place);
-            for ((share, own), other) in shares.iter_mut().zip(square(place)).zip(&relaxing) {
-                *share += own.max(0.0) * by_own + other.max(0.0) * by_other;
+            let whole: f64 = (0..own.len()).map(both).sum();
+            let ratio = (whole / squares[place].max(f64::MIN_POSITIVE))
+                .max(0.0)
+                .sqrt();
+            for (cell, share) in shares.iter_mut().enumerate() {
+                let other = if ratio > 0.0 { both(cell) / ratio } else { 0.0 };
+                *share += 0.5 * (own[cell].max(0.0) * ratio + other.max(0.0)) / held;
             }
-        });
+        }
         Ok(Self {
             capacities,
             flows,
             occupations,
+            held: (0..count).map(|place| held(&values[place])).collect(),
+            times,
             shares,
         })
     }
 
-    /// Bounds of the capacity of a place against all others (rad).
-    pub fn capacity(&self, place: usize) -> [f64; 2] {
-        self.capacities[place]
+    /// Bounds of the occupation and a known `rest` of it over the capacity: what is missing in
+    /// `occupation - T capacity` is `<e, e' + T e>`, and where nothing can make up for the
+    /// difference, T is none. Nearer each other than the quotients of the ends.
+    pub fn ratio(&self, place: usize, rest: f64) -> [f64; 2] {
+        let [lower, upper] = self.capacities[place];
+        let [product, square] = self.times[place];
+        let (middle, gap) = (0.5 * (lower + upper), upper - lower);
+        let held = self.held[place] + 0.5 * product + rest;
+        // The roots of a T^2 - 2 b T + c.
+        let a = upper * lower;
+        let b = held * middle + 0.25 * gap * product;
+        let c = held * held - 0.25 * gap * square;
+        let root = (b * b - a * c).max(0.0).sqrt();
+        let least = (c / (b + root)).max(0.0);
+        [
+            least,
+            if a > 0.0 {
+                (b + root) / a
+            } else {
+                f64::INFINITY
+            },
+        ]
     }
 
     /// Bounds of what flows between two places (rad).

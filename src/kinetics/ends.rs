@@ -142,6 +142,26 @@ impl Ends {
         Ok((exit(time, bound / (bound + free)), vec![back]))
     }
 
+    /// A bound from below of the mean exit time times D (m^2) from the well about the start, whatever
+    /// the outlines: what the well's own cells hold over the energy of a trial committor.
+    pub fn lower_bound(&self, field: &Field, nodes: &Nodes) -> Result<Option<f64>, Unsolved> {
+        let Some(near) = &self.near else {
+            return Ok(None);
+        };
+        let pins = self.pins(field, nodes, Some(near));
+        let pinned: Vec<bool> = pins.iter().map(|pin| *pin != Pin::None).collect();
+        let one = |pin: &Pin| if *pin == Pin::Well { 1.0 } else { 0.0 };
+        let given: Vec<f64> = pins.iter().map(one).collect();
+        let none = vec![0.0; nodes.len()];
+        let trial = System::new(&field.mesh, nodes, &pinned).solve(&given, &none, &none)?;
+        let own = field.mesh.live().filter(|(id, ..)| near[*id]);
+        let held: f64 = own
+            .map(|(.., element)| element.load.iter().sum::<f64>())
+            .sum();
+        let scale = ((field.level() - field.ground()) / field.kt).exp();
+        Ok(Some(scale * held / field.energy(nodes, &trial)))
+    }
+
     /// Bounds of the mean exit time times D (m^2) from the well about the start, and what refining
     /// the cells may bring to them: as in [`Self::solve`] it is an integral over a capacity,
     /// whatever the well.
@@ -165,10 +185,8 @@ impl Ends {
         };
         let bracket = Bracket::new(&asked, 1)?;
         let scale = ((field.level() - field.ground()) / field.kt).exp();
-        let [least, most] = bracket.occupation(0).ends;
-        let [lower, upper] = bracket.capacity(0);
         Ok(Some(Step {
-            bounds: vec![[scale * least / upper, scale * most / lower]],
+            bounds: vec![bracket.ratio(0, 0.0).map(|time| scale * time)],
             deciding: 1,
             unknowns: nodes.len(),
             shares: bracket.shares,

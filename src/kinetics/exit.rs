@@ -69,8 +69,8 @@ pub struct Exit {
     pub meshes: Vec<MeshExit>,
     /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: of a
     /// tile that starts in the well about the start, where it is last left. They hold but for what
-    /// the integrals over cells are off by. None where the start lies in no well, and where the
-    /// tiles' shapes are not convex.
+    /// the integrals over cells are off by. None where the start lies in no well; from below only,
+    /// the upper ones infinite, where the tiles' outlines are not convex.
     pub bounds: Vec<[f64; 2]>,
 }
 
@@ -167,7 +167,11 @@ pub fn exit(
         meshes.push(MeshExit { error, ..found });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > settings.unknowns {
-            let bounds = bounds(problem, bond, settings)?;
+            let mut bounds = bounds(problem, bond, settings)?;
+            if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
+                let lower = ends.lower_bound(&field, &nodes)?;
+                bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
+            }
             return Ok(Exit { meshes, bounds });
         }
         field.refine(&shares);

@@ -1,15 +1,19 @@
 //! A mesh at one temperature, and how it is refined.
 
+mod network;
+
 use std::cmp::Reverse;
+use std::sync::Mutex;
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
-use super::mesh::{Chart, Element, Integrator, Network, Nodes, Octree, Profile, gradients, shapes};
+use super::mesh::{Chart, Element, Integrator, Nodes, Octree, gradients, shapes};
 use super::sets;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
+use network::Costs;
 
 /// First cells from the centre to the end of the chart.
 const FIRST: f64 = 32.0;
@@ -30,6 +34,7 @@ pub(super) struct Field<'a> {
     pub kt: f64,
     problem: &'a Problem,
     integrator: Integrator<'a>,
+    costs: Mutex<Costs>,
 }
 
 /// Functions on a mesh that has been refined since.
@@ -80,6 +85,7 @@ impl<'a> Field<'a> {
             kt,
             problem,
             integrator: Integrator::new(problem, kt, 0.0, ground),
+            costs: Mutex::default(),
         };
         field.evaluate();
         loop {
@@ -142,6 +148,7 @@ impl<'a> Field<'a> {
     pub fn set_level(&mut self, level: f64) {
         if (level - self.integrator.level).abs() > MOVED * self.kt {
             self.integrator.level = level;
+            self.costs = Mutex::default();
             for leaf in &mut self.mesh.leaves {
                 leaf.seen = false;
             }
@@ -173,45 +180,6 @@ impl<'a> Field<'a> {
             .live()
             .map(|(id, _, element)| element.energy(&nodes.of(id, values)));
         energies.sum()
-    }
-
-    /// How a function's flux along contact falls off with the distance, on average.
-    pub fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
-        let (mut sum, mut all) = (0.0, 0.0);
-        for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
-            let energy = element.energy(&nodes.of(id, values));
-            let middle = leaf.low.map(|low| (low + leaf.size() / 2) as f64);
-            let [_, phi, theta] = self.mesh.chart.coordinates(middle);
-            let ray = self.mesh.chart.ray([phi, theta]);
-            let (_, slope) = self
-                .problem
-                .potential()
-                .energy_and_gradient(&ray.configuration(0.0));
-            let rate = (slope.x * phi.cos() + slope.y * phi.sin()) * ray.length / self.kt;
-            if rate.is_finite() {
-                sum += energy * rate.max(0.0);
-                all += energy;
-            }
-        }
-        Profile {
-            rate: if all > 0.0 { sum / all } else { 0.0 },
-        }
-    }
-
-    /// The cells as conductors between places, for fluxes like a function's.
-    pub fn network(
-        &self,
-        nodes: &Nodes,
-        pins: &[Option<usize>],
-        rim: usize,
-        like: &[f64],
-    ) -> Option<Network> {
-        let profile = self.profile(nodes, like);
-        let resistance = |id: usize| {
-            let leaf = &self.mesh.leaves[id];
-            self.integrator.resistance(&self.mesh.chart, leaf, &profile)
-        };
-        Network::new(&self.mesh, nodes, pins, rim, profile, &resistance)
     }
 
     /// The estimated errors of functions' energies by cells, each relative to the function's energy

@@ -21,6 +21,15 @@
 //! bounds come of fluxes without sources (Thomson's principle), on a second mesh whose cells begin at
 //! contact: through those that contact cuts no such flux would go. From both follow bounds of rates
 //! and of mean exit times; they hold on the mesh, for the integrals over cells are not bounded.
+//! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
+//! begins there, and there are bounds from one side only: Dirichlet's.
+//!
+//! # Lengths
+//! Lengths times s, with magnets of the same remanence: moments grow by s^3, energies by s^3, forces
+//! by s^2, torques by s^3. At kT s^3 a landscape is the same but for its size, wells' integrals and
+//! mean exit times times D grow by s^2, and docking costs at the same coverage not at all (exact, and
+//! tested). That the force between two given magnets falls with the fourth power of their distance is
+//! another statement: there the magnets stay what they are.
 
 pub mod basin;
 pub mod bond;
@@ -32,11 +41,13 @@ pub mod exit;
 mod field;
 mod frame;
 mod line;
+pub mod map;
 mod mesh;
 pub mod mixture;
 mod places;
 pub mod population;
 pub mod rates;
+mod root;
 mod sets;
 pub mod well;
 

@@ -3,7 +3,7 @@
 use super::bracket::{Asked, Bounded, Bracket, Step};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::rates::{Basin, MeshRates, RateSettings, RatesError};
+use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::sets::{basin, is_at_the_rim, pass};
 
 /// How far (in kT) below its lowest pass a well lies in equilibrium.
@@ -145,10 +145,71 @@ impl Places {
                 .map(|from| (0..self.count).map(|to| rate(from, to)).collect())
                 .collect(),
             occupation: occupations.iter().map(|own| own / all).collect(),
+            volumes: occupations,
             unknowns: system.len(),
             error: f64::INFINITY,
         };
         Ok((found, committors))
+    }
+
+    /// The probability that the first place, the bond, is reached before `free`, where the others are
+    /// places like any.
+    pub fn committor(&self, field: &Field, nodes: &Nodes) -> Result<Vec<f64>, Unsolved> {
+        let mut pins = self.pins(field, nodes);
+        for pin in &mut pins {
+            *pin = pin.filter(|place| *place == 0 || *place + 1 == self.count);
+        }
+        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
+        let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
+        let given: Vec<f64> = pins.iter().map(one).collect();
+        let none = vec![0.0; nodes.len()];
+        System::new(&field.mesh, nodes, &pinned).solve(&given, &none, &none)
+    }
+
+    /// Bounds from above of the rates out of each place, then of those from each place to each other,
+    /// divided by D (1/m^2), for any outline: trial committors may reach through contact, fluxes may
+    /// not. A place is occupied for no less than what its own cells hold.
+    pub fn upper_bounds(
+        &self,
+        field: &Field,
+        nodes: &Nodes,
+        beyond: f64,
+        committors: &[Vec<f64>],
+    ) -> RateBounds {
+        let copies = field.mesh.chart.copies() as f64;
+        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let last = self.count - 1;
+        let capacity = |place: usize| match committors.get(place) {
+            Some(committor) => field.energy(nodes, committor),
+            None => {
+                let rest = |node: usize| 1.0 - committors.iter().map(|h| h[node]).sum::<f64>();
+                field.energy(nodes, &(0..nodes.len()).map(rest).collect::<Vec<_>>())
+            }
+        };
+        let capacities: Vec<f64> = (0..self.count).map(capacity).collect();
+        let held = |place: usize| -> f64 {
+            let own = field
+                .mesh
+                .live()
+                .filter(|(id, ..)| self.of[*id] == Some(place));
+            let sum: f64 = own
+                .map(|(.., element)| element.load.iter().sum::<f64>())
+                .sum();
+            copies * sum + if place == last { beyond } else { 0.0 }
+        };
+        let held: Vec<f64> = (0..self.count).map(held).collect();
+        let least = |i: usize, j: usize| capacities[i].min(capacities[j]);
+        RateBounds {
+            leaving: (0..self.count)
+                .map(|i| [0.0, scale * capacities[i] / held[i]])
+                .collect(),
+            rates: (0..self.count)
+                .map(|i| {
+                    let rate = |j| [0.0, scale * least(i, j) / held[i]];
+                    (0..self.count).map(rate).collect()
+                })
+                .collect(),
+        }
     }
 
     /// Bounds of the rates out of each place, then of those from each place to each other, divided
@@ -184,7 +245,11 @@ impl Places {
         };
         let mut bounds: Vec<[f64; 2]> = places
             .clone()
-            .map(|place| over(bracket.capacity(place), place))
+            .map(|place| {
+                let rest = if place + 1 == self.count { beyond } else { 0.0 };
+                let [least, most] = bracket.ratio(place, rest / copies);
+                [scale / copies / most, scale / copies / least]
+            })
             .collect();
         let mut shares = bracket.shares.clone();
         if !self.shared.is_empty() {
@@ -206,6 +271,7 @@ impl Places {
                 })
                 .collect(),
             occupation: held.iter().map(|own| own.value / all).collect(),
+            volumes: held.iter().map(|own| own.value).collect(),
             unknowns: nodes.len(),
             error,
         };

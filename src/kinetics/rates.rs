@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::bracket::{Certify, narrowed};
 use super::field::{Earlier, Field};
+use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
 use crate::configuration::Configuration;
@@ -38,6 +39,9 @@ pub struct RateSettings {
     pub unknowns: usize,
     /// Relative distance of the bounds of the rates out of the basins that is asked for; without it none are found.
     pub certify: Option<Certify>,
+    /// Squares along x and y of a map of the committor from `free` to the first basin, if one is
+    /// asked for.
+    pub map: Option<usize>,
 }
 
 impl RateSettings {
@@ -50,6 +54,7 @@ impl RateSettings {
             tolerance: 0.015,
             unknowns: 60_000,
             certify: Some(Certify::default()),
+            map: None,
         }
     }
 }
@@ -66,6 +71,9 @@ pub struct MeshRates {
     pub rates: Vec<Vec<f64>>,
     /// Each place's share of all time, its copies and, for `free`, the whole table included.
     pub occupation: Vec<f64>,
+    /// Each place's integral (m^2 rad) of its committor times `exp(-(U - U0) / kT)`, U0 the lowest
+    /// energy of the basins' configurations; its copies included.
+    pub volumes: Vec<f64>,
     /// Unknowns of the mesh.
     pub unknowns: usize,
     /// Estimated relative error of the committors' energies.
@@ -78,18 +86,28 @@ pub struct Rates {
     /// What the meshes say, each finer than the last; but where there are bounds the last is the
     /// mesh that they hold on, which begins at contact.
     pub meshes: Vec<MeshRates>,
-    /// Bounds; `None` where the tiles' shapes are not convex.
+    /// Bounds, if they are asked for.
     pub bounds: Option<RateBounds>,
+    /// The map asked for, from the last mesh without bounds.
+    pub map: Option<Map>,
 }
 
 /// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
-/// over cells are off by.
+/// over cells are off by. Where the tiles' outlines are not convex, those from below are 0: fluxes
+/// that contact lets through are laid along rays, which such outlines cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateBounds {
     /// Out of each place.
     pub leaving: Vec<[f64; 2]>,
     /// From place i (row) to place j; of no meaning on the diagonal.
     pub rates: Vec<Vec<[f64; 2]>>,
+}
+
+impl RateBounds {
+    /// Whether there are bounds from above only.
+    pub fn are_one_sided(&self) -> bool {
+        self.leaving.iter().all(|[lower, _]| *lower == 0.0)
+    }
 }
 
 impl Rates {
@@ -161,7 +179,18 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
                 return Err(RatesError::Joined(limit));
             }
         } else if is_done {
-            return with_bounds(problem, settings, [ground, beyond], meshes);
+            let map = settings.map.map(|side| {
+                let committor = places.committor(&field, &nodes)?;
+                Ok::<_, Unsolved>(Map::new(&field, &nodes, &committor, side))
+            });
+            let map = map.transpose()?;
+            let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
+            let mut found = with_bounds(problem, settings, [ground, beyond], meshes)?;
+            found.map = map;
+            if settings.certify.is_some() {
+                found.bounds.get_or_insert(upper);
+            }
+            return Ok(found);
         }
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();
@@ -185,6 +214,7 @@ fn with_bounds(
         return Ok(Rates {
             meshes,
             bounds: None,
+            map: None,
         });
     };
     let mut all = narrowed(&mut field, &certify, |field| {
@@ -202,5 +232,9 @@ fn with_bounds(
             .map(<[_]>::to_vec)
             .collect(),
     });
-    Ok(Rates { meshes, bounds })
+    Ok(Rates {
+        meshes,
+        bounds,
+        map: None,
+    })
 }

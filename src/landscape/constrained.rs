@@ -1,6 +1,6 @@
 //! Motion along contact: steps that never push the tiles into each other.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
@@ -221,17 +221,29 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
             return Some(q);
         }
         let inverse = problem.mass_metric(q.theta).try_inverse()?;
-        let n = rows.len();
-        let gram = DMatrix::from_fn(n, n, |a, b| {
-            rows[a].gradient.dot(&(inverse * rows[b].gradient))
-        });
-        let missing = DVector::from_fn(n, |a, _| -rows[a].gap);
-        let amounts = gram.cholesky()?.solve(&missing);
-        let push: Vector3<f64> = (0..n).map(|a| rows[a].gradient * amounts[a]).sum();
+        let push = match rows[..] {
+            [a] => push_that_closes(&[a], &inverse)?,
+            [a, b] => push_that_closes(&[a, b], &inverse)?,
+            [a, b, c] => push_that_closes(&[a, b, c], &inverse)?,
+            // Of a motion's three coordinates no more than three contacts are independent.
+            _ => return None,
+        };
         q = q.moved(inverse * push);
     }
     let gap = |touch: &Touch| contact.constraint(*touch, &q).gap.abs();
     touches.iter().all(|touch| gap(touch) <= 1e-10).then_some(q)
+}
+
+/// The sum of multiples of the gradients that closes these gaps, to first order.
+fn push_that_closes<const M: usize>(
+    rows: &[Constraint; M],
+    inverse: &Matrix3<f64>,
+) -> Option<Vector3<f64>> {
+    let gram =
+        SMatrix::<f64, M, M>::from_fn(|a, b| rows[a].gradient.dot(&(inverse * rows[b].gradient)));
+    let missing = SVector::<f64, M>::from_fn(|a, _| -rows[a].gap);
+    let amounts = gram.cholesky()?.solve(&missing);
+    Some((0..M).map(|a| rows[a].gradient * amounts[a]).sum())
 }
 
 /// How far (m) a step moves any point of the moving tile at most.

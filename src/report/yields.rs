@@ -40,7 +40,7 @@ pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {
             "yield": mixture.value,
             "upper_bound": mixture.bound,
         })),
-        "rates": "attachment counted in docking runs; detachment by detailed balance",
+        "rates": format!("{}; detachment by detailed balance", question.effort.told()),
         "docking": {
             "runs": question.effort.runs, "duration_s": question.effort.duration,
             "drag_per_s": motion.drag, "restitution": motion.restitution,
@@ -224,14 +224,19 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
             state.name.clone(),
             format!("{:.1} kT", state.depth),
             format!("{:.1}", state.ln_k),
-            format!("{} of {}", state.attachments, best.attached.runs),
+            match best.attached.solved {
+                Some(_) => "-".to_owned(),
+                None => format!("{} of {}", state.attachments, best.attached.runs),
+            },
             format!("{} m2/s", scientific(state.on)),
             format!("{} /s", scientific(state.off)),
         ]
     }));
     write_table(&mut text, &rows);
-    text.push_str(
-        "(on: counted in docking runs; off: by detailed balance, with kT as if the table had one)\n",
+    let _ = writeln!(
+        text,
+        "(on: {}; off: by detailed balance, with kT as if the table had one)",
+        question.effort.told()
     );
     text
 }

@@ -2,15 +2,23 @@
 
 use std::f64::consts::PI;
 
+use super::{Question, YieldError};
 use crate::dynamics::MotionSettings;
 use crate::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
+use crate::kinetics::bond::Hold;
+use crate::kinetics::rates::{Basin, RateSettings, RatesError, rates};
 use crate::landscape::Inventory;
+use crate::pipeline::Analysis;
 use crate::problem::Problem;
 
 /// Two configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 5e-3;
 /// Tiles start between the distance at which they are free and this multiple of it.
 const FARTHEST: f64 = 1.6;
+/// States with rates of overdamped motion have barriers of so many kT at least, ...
+const LEAST_BARRIER: f64 = 2.0;
+/// ... and basins up to this part of them.
+const BASIN: f64 = 0.5;
 
 /// How many docking runs, and how tiles move in them.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +29,46 @@ pub struct Effort {
     pub duration: f64,
     /// Drag, restitution and friction; the shaking is set by kT.
     pub motion: MotionSettings,
+    /// Where the rates come from.
+    pub source: Source,
+}
+
+impl Effort {
+    /// What it is called while it lasts.
+    pub fn stage(&self) -> &'static str {
+        match self.source {
+            Source::Docking => "docking",
+            Source::Overdamped => "rates",
+        }
+    }
+
+    /// How its rates come about.
+    pub fn told(&self) -> String {
+        let MotionSettings {
+            drag, restitution, ..
+        } = self.motion;
+        match self.source {
+            Source::Docking => format!(
+                "attachment counted in {} docking runs for each kT (drag {drag} per s, restitution \
+                 {restitution})",
+                self.runs
+            ),
+            Source::Overdamped => format!(
+                "attachment of overdamped motion, solved on a mesh (drag {drag} per s, knocks \
+                 without loss)"
+            ),
+        }
+    }
+}
+
+/// Where attachment rates come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Source {
+    /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag.
+    #[default]
+    Docking,
+    /// Solved for overdamped motion, see [`crate::kinetics::rates`]; runs count nothing.
+    Overdamped,
 }
 
 /// Attachments of a pair on the design's table, by kind of state.
@@ -36,22 +84,102 @@ pub struct Attachments {
     pub area: f64,
     /// Runs.
     pub runs: usize,
+    /// Rates of overdamped motion (1/s) from free to each kind of state and how far the two finest
+    /// meshes differ, relative; `None` where attachments are counted.
+    pub solved: Option<Vec<[f64; 2]>>,
 }
 
 impl Attachments {
-    /// kappa (m^2/s) of so many attachments: their rate times the table's area.
-    pub fn rate(&self, count: usize) -> f64 {
-        if self.time > 0.0 {
-            count as f64 * self.area / self.time
-        } else {
-            0.0
+    /// kappa (m^2/s) of a kind of state: the rate times the table's area.
+    pub fn rate(&self, kind: usize) -> f64 {
+        match &self.solved {
+            Some(solved) => solved[kind][0] * self.area,
+            None if self.time > 0.0 => self.counts[kind] as f64 * self.area / self.time,
+            None => 0.0,
         }
     }
 
-    /// Its 95 % interval, that of a Poisson count.
-    pub fn interval(&self, count: usize) -> [f64; 2] {
-        docking::poisson_interval(count).map(|ends| ends * self.area / self.time)
+    /// Its 95 % interval, that of a Poisson count; of solved rates what meshes differ by.
+    pub fn interval(&self, kind: usize) -> [f64; 2] {
+        match &self.solved {
+            Some(solved) => {
+                let [rate, spread] = solved[kind];
+                [1.0 - spread, 1.0 + spread].map(|part| part.max(0.0) * rate * self.area)
+            }
+            None => docking::poisson_interval(self.counts[kind])
+                .map(|ends| ends * self.area / self.time),
+        }
     }
+}
+
+/// Attachments to each kind of state, from where the question has them.
+pub(super) fn attached(
+    analysis: &Analysis,
+    holds: &[&Hold],
+    kt: f64,
+    question: &Question,
+) -> Result<Attachments, YieldError> {
+    let (problem, effort) = (&analysis.problem, &question.effort);
+    if effort.source == Source::Docking {
+        let inventory = &analysis.inventory;
+        return Ok(count(problem, inventory, kt, effort, question.seed)?);
+    }
+    let basins: Vec<Option<Basin>> = holds
+        .iter()
+        .enumerate()
+        .map(|(kind, hold)| {
+            let height = hold.well().basin().level - hold.energy;
+            let basin = Basin {
+                at: hold.configuration,
+                below: hold.energy + BASIN * height,
+            };
+            (kind == 0 || height >= LEAST_BARRIER * kt).then_some(basin)
+        })
+        .collect();
+    Ok(solve(problem, &basins, kt, effort.motion.drag)?)
+}
+
+/// The rates of overdamped motion at `kt` (J) and a drag rate (1/s) to the kinds of states with these
+/// basins; 0 to those that are `None`.
+///
+/// # Errors
+/// As [`rates()`].
+pub fn solve(
+    problem: &Problem,
+    basins: &[Option<Basin>],
+    kt: f64,
+    drag: f64,
+) -> Result<Attachments, RatesError> {
+    let held: Vec<Basin> = basins.iter().copied().flatten().collect();
+    let settings = RateSettings {
+        certify: None,
+        ..RateSettings::new(kt, held, problem.space.free_distance)
+    };
+    let found = rates(problem, &settings)?;
+    let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
+    let free = settings.basins.len();
+    let mut place = 0;
+    let solved = basins.iter().map(|basin| {
+        basin.map_or([0.0; 2], |_| {
+            place += 1;
+            let rate = found.finest().rates[free][place - 1] * kt / (drag * mass);
+            [rate, found.spread(free, place - 1)]
+        })
+    });
+    Ok(Attachments {
+        counts: vec![0; basins.len()],
+        elsewhere: 0,
+        time: 0.0,
+        area: table(problem),
+        runs: 0,
+        solved: Some(solved.collect()),
+    })
+}
+
+/// The table's area (m^2).
+fn table(problem: &Problem) -> f64 {
+    let sides = problem.space.half_size.iter().map(|half| 2.0 * half);
+    sides.product()
 }
 
 /// Counts attachments in docking runs: the moving tile starts anywhere about the fixed one, turned
@@ -113,13 +241,9 @@ fn tally(problem: &Problem, inventory: &Inventory, docking: &Docking) -> Attachm
         counts: vec![0; kinds.len()],
         elsewhere: 0,
         time: 0.0,
-        area: problem
-            .space
-            .half_size
-            .iter()
-            .map(|half| 2.0 * half)
-            .product(),
+        area: table(problem),
         runs: docking.runs.len(),
+        solved: None,
     };
     for run in &docking.runs {
         found.time += match run.end {

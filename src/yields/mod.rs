@@ -14,6 +14,7 @@ use crate::dynamics::exits::mean_and_error;
 use crate::kinetics::bond::{Bond, BondError, Hold, Shaking, TOLERANCE, traps};
 use crate::kinetics::mixture::{self, Mixture};
 use crate::kinetics::population::{Crowd, MOST_PAIRS, PairRates};
+use crate::kinetics::rates::RatesError;
 use crate::observer::Observer;
 use crate::pipeline::{self, Settings};
 use attachment::{Attachments, Effort};
@@ -59,6 +60,9 @@ pub enum YieldError {
     /// Docking could not be simulated.
     #[error(transparent)]
     Docking(#[from] DockingError),
+    /// The rates of overdamped motion could not be solved.
+    #[error(transparent)]
+    Rates(#[from] RatesError),
     /// The bond's basin has no volume.
     #[error("the bond has no play at all: shaken tiles never find it, and nothing is yielded")]
     NoPlay,
@@ -157,8 +161,11 @@ pub fn yields(
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
     let mut outcomes = Vec::new();
     for (k, &kt) in question.kts.iter().enumerate() {
-        observer.stage("docking", k as f64 / question.kts.len() as f64);
-        let attached = attachment::count(problem, inventory, kt, &question.effort, question.seed)?;
+        observer.stage(
+            question.effort.stage(),
+            k as f64 / question.kts.len() as f64,
+        );
+        let attached = attachment::attached(&analysis, &holds, kt, question)?;
         let shaking = Shaking {
             kt,
             coverage: question.coverage,
@@ -194,21 +201,21 @@ fn state(
     shaking: &Shaking,
 ) -> Option<StateRates> {
     let count = attached.counts[kind];
-    if kind > 0 && (count == 0 || !hold.holds_at(shaking.kt)) {
+    let on = attached.rate(kind);
+    if kind > 0 && (on == 0.0 || !hold.holds_at(shaking.kt)) {
         return None;
     }
     let docking = hold.docking(shaking, TOLERANCE);
     if docking.cost.is_infinite() {
         return None;
     }
-    let on = attached.rate(count);
     // K for one partner a square metre: all copies count, and no coverage does.
     let constant = hold.association(&docking);
     Some(StateRates {
         name: hold.name.clone(),
         attachments: count,
         on,
-        on_interval: attached.interval(count),
+        on_interval: attached.interval(kind),
         off: on / constant,
         constant,
         depth: docking.depth,

@@ -1,5 +1,6 @@
 """Pictures of grown sets for the study."""
 
+import csv
 import re
 
 import matplotlib
@@ -8,8 +9,8 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from check import SETS, Grown, at_growth, with_words  # noqa: E402
-from study import EXCESS, NAMES, TREE, blocks_of, ideal, whole  # noqa: E402
+from check import Grown, at_growth, kept_words  # noqa: E402
+from study import EXCESS, ORDER, blocks_of, ideal, whole  # noqa: E402
 
 
 def show(axis, grown, text, title):
@@ -37,16 +38,43 @@ def save(figure, path):
     plt.close(figure)
 
 
+# By Okabe and Ito, and a mark each.
+LOOKS = ["#0072B2 o", "#999999 s", "#009E73 ^", "#D55E00 v", "#CC79A7 D", "#E69F00 P"]
+
+
+def shaking(out):
+    """Speed and errors over shaking, of magnets (drawn through) and of ideal glues (dashed)."""
+    with open(out / "shaking.csv") as file:
+        rows = list(csv.DictReader(file))
+    figure, (speed, wrong) = plt.subplots(1, 2, figsize=(11, 4.5), constrained_layout=True)
+    for name, look in zip(ORDER, LOOKS):
+        colour, mark = look.split()
+        mine = sorted((it for it in rows if it["set"] == name), key=lambda it: float(it["kt_J"]))
+        for axis, column in ((speed, "tiles_a_docking_time"), (wrong, "errors_a_tile")):
+            for ending, line in (("", "-"), ("_ideal", "--")):
+                points = [it for it in mine if it[column + ending]]
+                place = [float(it["kt_J"]) / float(it["window_high_J"]) for it in points]
+                label = name if ending == "" else None
+                # No error seen is drawn on the floor.
+                values = [max(float(it[column + ending]), 1e-5) for it in points]
+                axis.plot(place, values, line, color=colour, marker=mark, markersize=4, linewidth=1, label=label)
+    for axis, title in ((speed, "tiles a docking time"), (wrong, "errors a tile (1e-5: none seen)")):
+        axis.set_yscale("log")
+        axis.set_xlabel("kT, as a share of the window's upper end")
+        axis.set_title(title, fontsize=10)
+        axis.grid(alpha=0.3)
+    speed.legend(fontsize=8)
+    save(figure, out / "shaking.png")
+
+
 def draw(program, folder, out):
-    figure, axes = plt.subplots(1, 5, figsize=(13, 3), constrained_layout=True)
-    for axis, name in zip(axes.flat, ["sierpinski", *(it for it in NAMES if it != TREE)]):
-        arguments = [str(SETS / f"{name}.yaml"), "--length", "16", "--shape", "shared", "--seconds", "4"]
-        given, _ = with_words(program, folder / "drawn", arguments)
-        report = at_growth(program, folder / "drawn", given, EXCESS)
-        path = folder / "drawn" / "assembly.yaml"
+    shaking(out)
+    figure, axes = plt.subplots(2, 3, figsize=(11, 7), constrained_layout=True)
+    for axis, name in zip(axes.flat, ORDER):
+        report = at_growth(program, folder / name, kept_words(program, name), EXCESS)
+        path = folder / name / "assembly.yaml"
         grown = Grown(path, size=whole(report))
-        title = f"{name}: {grown.count} tiles,\n{errors(grown)}"
-        show(axis, grown, path.read_text(), title)
+        show(axis, grown, path.read_text(), f"{name}: {grown.count} tiles, {errors(grown)}")
     save(figure, out / "grown.png")
     figure, axes = plt.subplots(2, 2, figsize=(7.5, 7.5), constrained_layout=True)
     for row, wrong in zip(axes, (0.0, 0.5)):

@@ -4,8 +4,8 @@
     tests/assembly/study.py target/release/tilebind results/assembly [PART ...]
 
 Parts are builds, smallest, shaking, blocks, proofreading and pictures; without one, all, which takes
-an hour. Words are the same every time, what grows is drawn at random. See check.py for what an error
-is.
+some hours. It goes on where it was left: rows to be made anew are deleted before. Words are the same
+every time, what grows is drawn at random. See check.py for what an error is.
 """
 
 import csv
@@ -15,12 +15,19 @@ import re
 import sys
 import tempfile
 
-from check import FEW, SETS, Grown, Refused, assemble, at_growth, mean, with_words
+from check import SETS, Grown, Refused, assemble, at_growth, kept_words, mean, with_words
+from check import whole as of_size
 
-# The tree's few tips wait for one of 68 kinds: engines take hours, and it is not grown.
-TREE = "binary-tree"
 NAMES = ["unary-square", "binary-tree", "binary-counter", "beaver-square", "spiral"]
+ORDER = ["sierpinski", *NAMES]
 EXCESS = 1.0
+# tau Gse - Gmc of the study of shaking, the most telling first.
+EXCESSES = (1.0, 8.0, 24.0, 4.0, 16.0, 32.0, 2.0, 0.3, -0.5)
+# An engine's events at most.
+EVENTS = 20_000_000
+# Blocks of a run by tiles along their edge, and runs.
+BLOCKS = {1: 1000, 2: 500, 3: 200}
+RUNS = {1: 10, 2: 5, 3: 3}
 SPACED = ["--pitch", "0.015"]
 FACES = [
     *((k, "uniform", k, 0.040, ["--length", str(k)]) for k in (4, 8, 16)),
@@ -31,38 +38,57 @@ LONGEST = 48
 
 
 class Table:
-    """A table that is written whole after each row."""
+    """A table that is written whole after each row, and goes on where it was left; what is to be made
+    anew is deleted from it before."""
 
     def __init__(self, path, header):
-        self.path, self.rows = path, [header]
+        self.path, self.header, self.rows = path, header, []
+        if path.exists():
+            head, *rows = csv.reader(path.read_text().splitlines())
+            self.rows = rows if head == header else []
+
+    def has(self, *key):
+        """Whether there is a row that begins so."""
+        key = ["" if it is None else str(it) for it in key]
+        return any(row[: len(key)] == key for row in self.rows)
 
     def add(self, row):
-        self.rows.append(["" if it is None else it for it in row])
+        self.rows.append(["" if it is None else str(it) for it in row])
+        # Sets in their order, whichever was made first.
+        self.rows.sort(key=lambda row: ORDER.index(row[0]) if row[0] in ORDER else 0)
         with open(self.path, "w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(self.rows)
-        print(self.path.stem, *self.rows[-1], flush=True)
+            csv.writer(file, lineterminator="\n").writerows([self.header, *self.rows])
+        print(self.path.stem, *row, flush=True)
 
 
 def figure(value, digits=3):
     return None if value is None else f"{value:.{digits}g}"
 
 
+# A spiral grows at one place only: less of it is grown, and of it and of the beaver square, of whose
+# 101 tiles one fits, fewer.
+SIZES = {"spiral": 500}
+SLOW = {"spiral": 2, "beaver-square": 2}
+
+
 def whole(report):
-    """Tiles to grow: of what ends nearly all, for it loses a tile now and then."""
-    most = FEW.get(report["tile_set"]["name"], 2000)
-    grown = report["grown"]
-    tiles = grown["tiles"] - grown["tiles"] // 20
-    return min(most, tiles) if grown["complete"] else most
+    """Tiles to grow."""
+    return of_size(report, SIZES.get(report["tile_set"]["name"], 2000))
+
+
+def times(name, often):
+    """Runs of a set."""
+    return -(-often // SLOW.get(name, 1))
 
 
 GREW = ["errors_a_tile", "standard_error", "tiles_a_docking_time", "grown"]
 
 
-def measured(path, gmc, size, often, plain=False, side=1):
+def measured(path, gmc, size, often, plain=False, side=1, events=EVENTS):
     """Of `often` runs: errors that are there to stay and their standard error, for a tile with three
     neighbours or for a block of `side` x `side` of them, tiles or blocks a docking time, and the share
     that grew."""
-    runs = [Grown(path, size=size, plain=plain) for _ in range(often)]
+    runs = [Grown(path, size=size, plain=plain, events=events) for _ in range(often)]
     done = [it for it in runs if it.count >= size]
     share = figure(len(done) / often) if often else None
     if not done:
@@ -116,6 +142,8 @@ def builds(program, folder, out, often):
         for shape in SHAPES:
             for magnets, arrangement, places, pitch, options in FACES:
                 head = [name, shape, magnets, arrangement, places, figure(places * pitch)]
+                if table.has(*head):
+                    continue
                 arguments = [set_of(name), *options, "--shape", shape, "--seconds", "4"]
                 try:
                     given, first = with_words(program, folder / "built", arguments)
@@ -129,7 +157,7 @@ def builds(program, folder, out, often):
                 mismatch = report["strongest_mismatch"] or {"energy_J": 0.0}
                 weakest = max(it["energy_J"] for it in report["bonds"])
                 gse, gmc, size = report["Gse"], report["Gmc"], whole(report)
-                runs = 0 if name == TREE else often
+                runs = times(name, often)
                 own = measured(folder / "built" / "assembly.yaml", gmc, size, runs)
                 path = ideal(folder, (folder / "built" / "tileset.yaml").read_text(), gse, gmc)
                 table.add([
@@ -145,6 +173,8 @@ def smallest(program, folder, out, _):
     for name in NAMES:
         for shape in SHAPES:
             for magnets in (None, 4, 8, 16):
+                if table.has(name, shape, magnets or "one a place"):
+                    continue
                 pitch = 0.015 if magnets else 0.040
                 refuted = [0]
 
@@ -170,31 +200,37 @@ def smallest(program, folder, out, _):
 
 
 def shaking(program, folder, out, often):
-    """Errors and speed over shaking, measured matrices against ideal glues."""
+    """Errors and speed over shaking, measured matrices against ideal glues: from where nothing
+    grows (tau Gse - Gmc below 0) to beyond where one bond less than tau holds (above Gse)."""
     table = Table(out / "shaking.csv", [
-        "set", "tau_Gse_less_Gmc", "kt_J", "Gse", "Gmc", *GREW, *(f"{it}_ideal" for it in GREW)])
-    for name in ["sierpinski", *(it for it in NAMES if it != TREE)]:
-        arguments = [set_of(name), "--length", "16", "--shape", "shared", "--seconds", "4"]
-        given, _ = with_words(program, folder / name, arguments)
-        for excess in (0.3, 1, 2, 4, 8):
+        "set", "tau_Gse_less_Gmc", "window_low_J", "window_high_J", "kt_J", "Gse", "Gmc", *GREW,
+        *(f"{it}_ideal" for it in GREW)])
+    order = [(name in SLOW, excess, name) for excess in EXCESSES for name in ORDER]
+    for _, excess, name in sorted(order, key=lambda it: it[0]):
+        if not table.has(name, excess):
+            given = kept_words(program, name)
             report = at_growth(program, folder / name, given, excess)
             gse, gmc, size = report["Gse"], report["Gmc"], whole(report)
-            own = measured(folder / name / "assembly.yaml", gmc, size, often)
+            # Below 0 nothing grows, and little is waited for.
+            runs, events = (times(name, often), EVENTS) if excess > 0 else (1, EVENTS // 40)
+            own = measured(folder / name / "assembly.yaml", gmc, size, runs, events=events)
             path = ideal(folder, (folder / name / "tileset.yaml").read_text(), gse, gmc)
-            table.add([name, excess, *(figure(it, 4) for it in (report["kt_J"], gse, gmc)), *own,
-                       *measured(path, gmc, size, often, plain=True)])
+            table.add([name, excess, *(figure(it, 4) for it in (*report["window_kt_J"], report["kt_J"], gse, gmc)), *own,
+                       *measured(path, gmc, size, runs, plain=True, events=events)])
 
 
 def blocks(program, folder, out, often):
     """Sierpinski's set of abstract glues in blocks, where wrong ones bind in part."""
     table = Table(out / "blocks.csv", ["Gse", "tau_Gse_less_Gmc", "wrong_strength", "block", "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"])
     texts = {k: blocks_of(program, folder, k) for k in (1, 2, 3)}
-    for gse, excess in ((8.0, 1.0), (10.0, 1.0), (13.0, 1.0)):
-        for wrong in (0, 0.25, 0.5):
-            for k, text in texts.items():
-                gmc = 2 * gse - excess
-                path = ideal(folder, text, gse, gmc, wrong)
-                table.add([gse, excess, wrong, k, *measured(path, gmc, 150 * k * k, often, plain=True, side=k)])
+    for k, text in texts.items():
+        for gse in (8.0, 10.0, 13.0):
+            for wrong in (0.0, 0.125, 0.25, 0.375, 0.5):
+                key = [gse, EXCESS, wrong, k]
+                if not table.has(*key):
+                    gmc = 2 * gse - EXCESS
+                    path = ideal(folder, text, gse, gmc, wrong)
+                    table.add([*key, *measured(path, gmc, BLOCKS[k] * k * k, RUNS[k], plain=True, side=k)])
 
 
 def blocks_of(program, folder, k):
@@ -209,9 +245,11 @@ def proofreading(program, folder, out, often):
     table = Table(out / "proofreading.csv", [
         "set", "block", "words", "magnets", "gap", "strongest_mismatch", "tau_Gse_less_Gmc", "kt_J", "Gse", "Gmc",
         "errors_a_block", "standard_error", "blocks_a_docking_time", "grown"])
-    for name in ("sierpinski", "binary-counter"):
-        for k in (1, 2, 3):
-            for places in (8, 16):
+    for k in (1, 2, 3):
+        for places in (8, 16):
+            for name in ("sierpinski", "binary-counter"):
+                if any(row[:2] == [name, str(k)] and row[3] == str(places) for row in table.rows):
+                    continue
                 arguments = [set_of(name), "--proofread", str(k), "--length", str(places), "--shape", "shared", "--seconds", "4"]
                 try:
                     given, first = with_words(program, folder / "proof", arguments)
@@ -221,7 +259,7 @@ def proofreading(program, folder, out, often):
                 for excess in (1, 3):
                     report = at_growth(program, folder / "proof", given, excess)
                     mismatch = (report["strongest_mismatch"] or {"energy_J": 0.0})["energy_J"]
-                    own = measured(folder / "proof" / "assembly.yaml", report["Gmc"], 150 * k * k, often, side=k)
+                    own = measured(folder / "proof" / "assembly.yaml", report["Gmc"], BLOCKS[k] * k * k, RUNS[k], side=k)
                     table.add([name, k, report["tile_set"]["words_needed"], places, figure(first["faces_tried"][-1]["gap"]),
                                figure(-mismatch / report["bond_J"]), excess,
                                *(figure(report[it], 4) for it in ("kt_J", "Gse", "Gmc")), *own])
@@ -233,7 +271,7 @@ def pictures(program, folder, out, _):
     draw(program, folder, out)
 
 
-PARTS = {"builds": (builds, 3), "smallest": (smallest, 0), "shaking": (shaking, 5), "blocks": (blocks, 4),
+PARTS = {"builds": (builds, 3), "smallest": (smallest, 0), "shaking": (shaking, 4), "blocks": (blocks, 4),
          "proofreading": (proofreading, 5), "pictures": (pictures, 0)}
 
 

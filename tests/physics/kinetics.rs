@@ -215,6 +215,35 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     );
 }
 
+/// Fluxes along contact are laid for convex outlines only: what is left are the bounds that trial
+/// committors give.
+#[test]
+fn outlines_that_are_not_convex_have_bounds_from_one_side() {
+    let design = designs::load("shapes/tab-20mm.toml");
+    let problem = design.problem();
+    let bond = design.pair.bound;
+    let settings = RateSettings {
+        tolerance: 0.3,
+        unknowns: 4_000,
+        ..RateSettings::new(
+            5e-3,
+            vec![Basin {
+                at: bond,
+                below: 0.5 * problem.energy(&bond),
+            }],
+            0.75,
+        )
+    };
+    let found = rates(&problem, &settings).unwrap();
+    let bounds = found.bounds.as_ref().unwrap();
+    assert!(bounds.are_one_sided());
+    for (own, ends) in found.finest().rates.iter().zip(&bounds.rates) {
+        for (rate, [lower, upper]) in own.iter().zip(ends) {
+            assert!(*lower == 0.0 && rate <= upper, "{rate} {upper}");
+        }
+    }
+}
+
 /// Contact, and fluxes along it: the mean exit time that brute-force motion has, 0.0176 m^2 / D.
 #[test]
 fn bounds_hold_the_paper_tiles_exit() {
@@ -274,6 +303,35 @@ fn rates_balance_in_detail_and_are_those_of_the_integrals() {
     );
     // Between the first well and `free` the second one stands.
     assert!(finest.rates[0][2] < 1e-6 * finest.rates[0][1]);
+}
+
+#[test]
+fn a_map_shows_committors_between_none_and_all_and_flux_into_the_bond() {
+    // 15 kT deep, and far below its barrier.
+    for kt in [1.0, 0.2] {
+        let settings = RateSettings {
+            tolerance: 0.05,
+            certify: None,
+            map: Some(40),
+            ..RateSettings::new(kt, double_well_basins(), 0.6)
+        };
+        let map = rates(&radial(double_well), &settings).unwrap().map.unwrap();
+        let shown = map.committor.iter().filter(|q| q.is_finite());
+        assert!(shown.clone().count() > 1000);
+        assert!(shown.into_iter().all(|q| (-1e-9..=1.0 + 1e-9).contains(q)));
+        // What comes in through a circle is all.
+        let (mut inwards, mut squares) = (0.0, 0);
+        for (square, [x, y]) in map.flux.iter().enumerate() {
+            let [a, b] = map.middle(square);
+            let r = a.hypot(b);
+            if (0.42..0.47).contains(&r) {
+                inwards -= (x * a + y * b) / r * TAU * r;
+                squares += 1;
+            }
+        }
+        let through = inwards / f64::from(squares);
+        assert!((through - 1.0).abs() < 0.1, "{through}");
+    }
 }
 
 #[test]

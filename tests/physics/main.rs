@@ -4,6 +4,7 @@
 mod block_limits;
 mod blocks;
 mod bounds;
+mod brute_force;
 mod calibration;
 mod configuration;
 mod contact;

@@ -90,6 +90,11 @@ impl Chart {
         !matches!(self.wall, Wall::Circle(_))
     }
 
+    /// The turn (rad) of the fixed tile onto itself that phi goes through.
+    pub(in crate::kinetics) fn turn(&self) -> f64 {
+        self.step[1] * self.cells[1] as f64
+    }
+
     /// Size of a cell of this level (1, rad, rad).
     pub(in crate::kinetics) fn size(&self, level: u8) -> [f64; 3] {
         self.step.map(|step| step / f64::from(1u32 << level))

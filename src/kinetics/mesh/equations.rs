@@ -5,7 +5,7 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use crate::interruption;
 
 /// Solved when the preconditioned residual has shrunk to this share.
-const SHRUNK: f64 = 1e-10;
+const SHRUNK: f64 = 1e-9;
 /// Steps of conjugate gradients at most.
 const MOST_STEPS: usize = 20_000;
 
@@ -20,7 +20,12 @@ pub(super) struct Equations<'a> {
     unknown: Vec<Option<u32>>,
     /// One over the root of each unknown's diagonal.
     scale: Vec<f64>,
-    matrix: CsrMatrix<f64>,
+    /// The scaled matrix before its diagonal, row by row: where rows start, ...
+    starts: Vec<u32>,
+    /// ... in which columns, ...
+    columns: Vec<u32>,
+    /// ... and what stands there.
+    entries_before: Vec<f64>,
 }
 
 /// The solution was not found.
@@ -46,18 +51,24 @@ impl<'a> Equations<'a> {
                 })
             })
             .collect();
-        let mut matrix = CooMatrix::new(scale.len(), scale.len());
+        let mut before = CooMatrix::new(scale.len(), scale.len());
         entries(&mut |i, j, entry| {
-            if let (Some(i), Some(j)) = (unknown[i], unknown[j]) {
+            if let (Some(i), Some(j)) = (unknown[i], unknown[j])
+                && j < i
+            {
                 let (i, j) = (i as usize, j as usize);
-                matrix.push(i, j, entry * scale[i] * scale[j]);
+                before.push(i, j, entry * scale[i] * scale[j]);
             }
         });
+        let (starts, columns, before) = CsrMatrix::from(&before).disassemble();
+        let short = |all: Vec<usize>| all.into_iter().map(|k| k as u32).collect();
         Self {
             entries,
             unknown,
             scale,
-            matrix: CsrMatrix::from(&matrix),
+            starts: short(starts),
+            columns: short(columns),
+            entries_before: before,
         }
     }
 
@@ -106,65 +117,85 @@ impl<'a> Equations<'a> {
     }
 
     /// Hestenes and Stiefel's method (1952), preconditioned by a symmetric sweep of Gauss and
-    /// Seidel's.
+    /// Seidel's, (1 + L)(1 + L^T) for the matrix 1 + L + L^T. As Eisenstat (1981,
+    /// doi:10.1137/0902001) saw, the two halves of a sweep do the work of the product as well: with
+    /// `y = (1 + L^T)^-1 p` the preconditioned matrix times p is `y + (1 + L)^-1 (p - y)`.
     fn conjugate_gradients(&self, right: &[f64], x: &mut [f64]) -> Result<(), Unsolved> {
+        let mut swept = right.to_vec();
+        self.forwards(&mut swept);
+        let goal = SHRUNK * SHRUNK * dot(&swept, &swept);
+        if goal == 0.0 {
+            x.fill(0.0);
+            return Ok(());
+        }
+        let mut residual = self.left(right, x);
+        self.forwards(&mut residual);
+        let mut direction = residual.clone();
+        let mut size = dot(&residual, &residual);
         let mut along = vec![0.0; x.len()];
-        let mut swept = vec![0.0; x.len()];
-        self.sweep(right, &mut swept);
-        let goal = SHRUNK * SHRUNK * dot(right, &swept);
-        self.times(x, &mut along);
-        let mut residual: Vec<f64> = right.iter().zip(&along).map(|(b, a)| b - a).collect();
-        self.sweep(&residual, &mut swept);
-        let mut direction = swept.clone();
-        let mut size = dot(&residual, &swept);
         for _ in 0..MOST_STEPS {
             if size <= goal {
                 return Ok(());
             }
             interruption::check();
-            self.times(&direction, &mut along);
-            let length = size / dot(&direction, &along);
-            for i in 0..x.len() {
-                x[i] += length * direction[i];
-                residual[i] -= length * along[i];
+            along.copy_from_slice(&direction);
+            self.backwards(&mut along);
+            for ((rest, d), y) in swept.iter_mut().zip(&direction).zip(&along) {
+                *rest = d - y;
             }
-            self.sweep(&residual, &mut swept);
-            let next = dot(&residual, &swept);
-            for (d, s) in direction.iter_mut().zip(&swept) {
-                *d = s + next / size * *d;
+            self.forwards(&mut swept);
+            let product = |i: usize| along[i] + swept[i];
+            let curvature: f64 = (0..x.len()).map(|i| direction[i] * product(i)).sum();
+            let length = size / curvature;
+            for i in 0..x.len() {
+                residual[i] -= length * product(i);
+                x[i] += length * along[i];
+            }
+            let next = dot(&residual, &residual);
+            for (d, r) in direction.iter_mut().zip(&residual) {
+                *d = r + next / size * *d;
             }
             size = next;
         }
         Err(Unsolved)
     }
 
-    fn times(&self, x: &[f64], out: &mut [f64]) {
-        for (row, out) in self.matrix.row_iter().zip(out) {
-            let entries = row.col_indices().iter().zip(row.values());
-            *out = entries.map(|(&j, a)| a * x[j]).sum();
+    /// What is left of the right side.
+    fn left(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut left: Vec<f64> = right.iter().zip(x).map(|(b, x)| b - x).collect();
+        for i in 0..x.len() {
+            for (j, entry) in self.row(i) {
+                left[i] -= entry * x[j];
+                left[j] -= entry * x[i];
+            }
+        }
+        left
+    }
+
+    /// The entries of a row before the diagonal.
+    fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let own = self.starts[i] as usize..self.starts[i + 1] as usize;
+        let columns = self.columns[own.clone()].iter();
+        columns
+            .zip(&self.entries_before[own])
+            .map(|(&j, &entry)| (j as usize, entry))
+    }
+
+    /// Solves (1 + L) z = r in place.
+    fn forwards(&self, z: &mut [f64]) {
+        for i in 0..z.len() {
+            let sum: f64 = self.row(i).map(|(j, entry)| entry * z[j]).sum();
+            z[i] -= sum;
         }
     }
 
-    /// Solves (1 + L)(1 + L^T) z = r for the matrix 1 + L + L^T.
-    fn sweep(&self, r: &[f64], z: &mut [f64]) {
-        let n = self.len();
-        for i in 0..n {
-            let row = self.matrix.row(i);
-            let before = row.col_indices().iter().zip(row.values());
-            let sum: f64 = before
-                .take_while(|(j, _)| **j < i)
-                .map(|(&j, a)| a * z[j])
-                .sum();
-            z[i] = r[i] - sum;
-        }
-        for i in (0..n).rev() {
-            let row = self.matrix.row(i);
-            let after = row.col_indices().iter().zip(row.values()).rev();
-            let sum: f64 = after
-                .take_while(|(j, _)| **j > i)
-                .map(|(&j, a)| a * z[j])
-                .sum();
-            z[i] -= sum;
+    /// Solves (1 + L^T) z = r in place.
+    fn backwards(&self, z: &mut [f64]) {
+        for i in (0..z.len()).rev() {
+            let own = z[i];
+            for (j, entry) in self.row(i) {
+                z[j] -= entry * own;
+            }
         }
     }
 }

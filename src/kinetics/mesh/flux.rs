@@ -56,7 +56,7 @@ impl Network {
         pins: &[Option<usize>],
         rim: usize,
         profile: Profile,
-        resistance: &(dyn Fn(usize) -> Matrix6<f64> + Sync),
+        resistance: &[Option<Box<Matrix6<f64>>>],
     ) -> Option<Self> {
         if !mesh.chart.is_fitted() {
             return None;
@@ -80,7 +80,7 @@ impl Network {
                 ends[face] = Some(place);
             }
         }
-        let conductor = |&id: &usize| Conductor::new(id, sides[id], resistance(id));
+        let conductor = |&id: &usize| Conductor::new(id, sides[id], resistance[id].as_deref()?);
         let conductors = cells.par_iter().map(conductor).collect::<Option<_>>()?;
         Some(Self {
             conductors,
@@ -117,7 +117,7 @@ impl Network {
 }
 
 impl Conductor {
-    fn new(cell: usize, sides: [Side; 6], resistances: Matrix6<f64>) -> Option<Self> {
+    fn new(cell: usize, sides: [Side; 6], resistances: &Matrix6<f64>) -> Option<Self> {
         // Flux is counted outwards from here on.
         let outwards = |a: usize| if a.is_multiple_of(2) { -1.0 } else { 1.0 };
         let is_closed = |a: usize| sides[a] == Side::Closed;
@@ -162,26 +162,30 @@ pub(in crate::kinetics) struct Flux {
 }
 
 impl Fluxes<'_> {
-    /// From a place to all others. Its capacity (rad) is no greater than theirs, but for the
-    /// quadrature.
+    /// From a place to all others, found from a guess of the potentials. Its capacity (rad) is no
+    /// greater than theirs, but for the quadrature.
     ///
     /// # Errors
     /// Where the linear system is not solved.
-    pub fn from(&self, place: usize) -> Result<Flux, Unsolved> {
+    pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
         let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
         let given: Vec<f64> = self.network.ends.iter().map(one).collect();
         let none = vec![0.0; given.len()];
-        let potentials = self.equations.solve(&given, &none, &none)?;
+        let potentials = self.equations.solve(&given, &none, like)?;
         Ok(self.flux(&potentials, &|_| 0.0, &given))
     }
 
     /// From a source in each cell to the places. Its cost is no less than the integral of the source
     /// times the function that it belongs to, but for the quadrature and for how the source changes
-    /// within cells.
+    /// within cells. Found from a guess of the potentials.
     ///
     /// # Errors
     /// Where the linear system is not solved.
-    pub fn of(&self, source: &(dyn Fn(usize) -> f64 + Sync)) -> Result<Flux, Unsolved> {
+    pub fn of(
+        &self,
+        source: &(dyn Fn(usize) -> f64 + Sync),
+        like: &[f64],
+    ) -> Result<Flux, Unsolved> {
         let none = vec![0.0; self.network.ends.len()];
         let mut right = none.clone();
         for conductor in &self.network.conductors {
@@ -192,7 +196,7 @@ impl Fluxes<'_> {
                 }
             }
         }
-        let potentials = self.equations.solve(&none, &right, &none)?;
+        let potentials = self.equations.solve(&none, &right, like)?;
         Ok(self.flux(&potentials, source, &none))
     }
 
@@ -229,6 +233,19 @@ impl Fluxes<'_> {
                 0.0
             },
         }
+    }
+
+    /// The potentials on faces of a function on the mesh: its means there, a guess.
+    pub fn potentials(&self, nodes: &Nodes, values: &[f64]) -> Vec<f64> {
+        let mut potentials = vec![0.0; self.network.ends.len()];
+        for conductor in &self.network.conductors {
+            for (side, faces) in conductor.sides.iter().enumerate() {
+                if let Side::Whole([(face, _)]) = faces {
+                    potentials[*face as usize] = nodes.mean(conductor.cell, side, values);
+                }
+            }
+        }
+        potentials
     }
 
     /// For each cell the integral of the product of two gaps, `(J / w + grad f) w (J' / w + grad f')`.

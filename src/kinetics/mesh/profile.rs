@@ -4,6 +4,8 @@ use nalgebra::Vector6;
 
 /// Beyond so many times the decay length fluxes are spread evenly.
 const EVEN: f64 = 4.0;
+/// Rates that differ by this share are much the same.
+const ALIKE: f64 = 0.1;
 
 /// What flows along contact does so within the layer that e^(-U/kT) leaves: as `e^(-rate s)`, and
 /// evenly where little of that is left.
@@ -14,6 +16,11 @@ pub(in crate::kinetics) struct Profile {
 }
 
 impl Profile {
+    /// Whether it is much the same as another: any profile gives bounds.
+    pub(in crate::kinetics) fn is_like(&self, other: &Self) -> bool {
+        (self.rate - other.rate).abs() <= ALIKE * other.rate
+    }
+
     /// The integral of the density from contact to s.
     fn below(&self, s: f64) -> f64 {
         let even = (-EVEN).exp() * s;

@@ -12,9 +12,18 @@ use crate::units::si;
 
 /// Names and texts of the designs of every two tiles that meet in what grows.
 pub(super) fn all(assembly: &Assembly) -> Vec<(String, String)> {
+    let text = |(name, met): (String, Met)| {
+        let text = design(assembly, &met, &name);
+        (name, text)
+    };
+    named(assembly).into_iter().map(text).collect()
+}
+
+/// The tiles that meet and hold each other, with the names of their designs.
+pub(super) fn named(assembly: &Assembly) -> Vec<(String, Met)> {
     let mut names = BTreeSet::new();
     let met = assembly.built.grown.meetings().into_keys();
-    let bound = met.filter(|met| bond_of(assembly, met).is_some());
+    let bound = met.filter(|met| assembly.built.whole(met).is_some());
     bound
         .map(|met| {
             let plain = name(assembly, &met);
@@ -25,18 +34,9 @@ pub(super) fn all(assembly: &Assembly) -> Vec<(String, String)> {
                 name = format!("{plain}-{number}");
                 number += 1;
             }
-            let text = design(assembly, &met, &name);
-            (name, text)
+            (name, met)
         })
         .collect()
-}
-
-fn bond_of(assembly: &Assembly, (first, axis, second): &Met) -> Option<usize> {
-    let [out, back] = axis.sides();
-    let built = assembly.built;
-    let bonds = [(*first, out), (*second, back)]
-        .map(|(tile, side)| built.wiring.of(&built.set, tile, side));
-    bonds[0].filter(|_| bonds[0] == bonds[1])
 }
 
 fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {

@@ -2,12 +2,14 @@
 //! the workshop, and what is known of them in words.
 
 mod designs;
+mod pairs;
 mod picture;
 mod search;
 mod text;
 
 use serde_json::{Value, json};
 
+pub(crate) use pairs::deeper;
 pub use search::WordSearch;
 pub use text::{headline, summary};
 
@@ -26,7 +28,8 @@ use crate::words::{Rules, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; assembly.yaml (rgrow), assembly.tiles (xgrow), \
-                         designs/, sheet.md, matrix.csv, slides.csv, words.toml, report.json";
+                         designs/, sheet.md, matrix.csv, pairs.csv, slides.csv, words.toml, \
+                         report.json";
 
 /// A tile set that was built, and all that reproduces it.
 pub struct Assembly<'a> {
@@ -124,6 +127,7 @@ pub fn files(assembly: &Assembly, command: &str) -> Files {
     );
     add("tileset.yaml", rgrow::write(&assembly.built.set, &[]));
     add("matrix.csv", matrix_csv(assembly));
+    add("pairs.csv", pairs::csv(assembly));
     let slides = assembly.slides();
     add("slides.csv", slides_csv(assembly, &slides));
     add("words.toml", assembly.words_toml.clone());
@@ -237,6 +241,7 @@ fn value(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Value {
             .map(|row| row.iter().map(|energy| positive_zero(*energy)).collect::<Value>())
             .collect::<Value>(),
         "strongest_mismatch": mismatch,
+        "deeper_in_whole_tiles": deeper(assembly),
         "slides": text::slid(assembly, slides).map(|slid| json!({
             "deepest_J": slid.deepest,
             "pairs_that_hold_alone": slid.holding,

@@ -154,6 +154,9 @@ pub fn summary(assembly: &Assembly) -> String {
         )),
         None => line("no aligned mismatch attracts".to_owned()),
     }
+    if let Some(whole) = super::pairs::sentence(assembly) {
+        line(whole);
+    }
     line(format!(
         "errors a tile, grown just above standstill: {:.2e}; faster growth makes more of them",
         built.errors_at_standstill()

@@ -48,6 +48,14 @@ impl Page {
             ),
             fact("strongest mismatch", si(wrong, "J", 4), "aligned"),
             fact(
+                "bonds in whole tiles",
+                crate::report::assembly::deeper(assembly).map_or(String::new(), |range| {
+                    let [least, most] = range.map(|share| 100.0 * share);
+                    format!("{least:+.1} to {most:+.1} %")
+                }),
+                "deeper than of two faces",
+            ),
+            fact(
                 "errors a tile",
                 format!("{:.1e}", built.errors_at_standstill()),
                 "just above standstill",

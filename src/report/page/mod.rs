@@ -15,6 +15,8 @@ pub(super) mod landscape;
 pub(super) mod meetings;
 mod packed;
 mod pathways;
+pub(in crate::report) mod rate_charts;
+mod rates;
 mod tables;
 mod thumbnail;
 mod tree;

@@ -11,6 +11,9 @@ const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
 ];
 
+/// Curves take this share of a plot's width; the rest is their key's.
+const CURVES: f64 = 0.7;
+
 /// The pictures: stem of the file, title, SVG.
 pub fn all(question: &Question, found: &Yields) -> Vec<(&'static str, &'static str, String)> {
     let best = found.best();
@@ -28,28 +31,27 @@ pub fn all(question: &Question, found: &Yields) -> Vec<(&'static str, &'static s
     all
 }
 
-/// A curve through points of the plot (shares of its width and height), and its line in the key, the
-/// k-th from the top right.
+/// A curve through points of the plot (shares of the curves' width and its height), and its line in
+/// the key beside them, the k-th from the top.
 fn curve(points: &[[f64; 2]], k: usize, name: &str) -> String {
     let [left, top, width, height] = AREA;
     let places = points.iter().filter(|p| p[1].is_finite());
     let places: Vec<String> = places
-        .map(|[x, y]| format!("{:.1},{:.1}", left + width * x, top + height * (1.0 - y)))
+        .map(|[x, y]| {
+            let x = left + CURVES * width * x;
+            format!("{x:.1},{:.1}", top + height * (1.0 - y))
+        })
         .collect();
     let style = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"",
         COLOURS[k % COLOURS.len()],
         ["", "6 4", "2 3"][k % 3]
     );
-    let (right, y) = (left + width, top + 10.0 + 16.0 * k as f64);
+    let (key, y) = (left + (CURVES + 0.03) * width, top + 10.0 + 18.0 * k as f64);
     format!(
-        "<polyline points=\"{}\" {style}/><rect x=\"{:.1}\" y=\"{:.1}\" width=\"190\" \
-         height=\"16\" fill=\"#fff\" opacity=\"0.8\"/><path d=\"M{:.1},{y:.1}h28\" {style}/>{}",
+        "<polyline points=\"{}\" {style}/><path d=\"M{key:.1},{y:.1}h24\" {style}/>{}",
         places.join(" "),
-        right - 190.0,
-        y - 8.0,
-        right - 28.0,
-        label(right - 34.0, y + 4.0, "end", name)
+        label(key + 30.0, y + 4.0, "start", name)
     )
 }
 
@@ -64,7 +66,12 @@ fn shares() -> String {
 
 fn below(x: f64, text: &str) -> String {
     let [left, top, width, height] = AREA;
-    label(left + width * x, top + height + 18.0, "middle", text)
+    label(
+        left + CURVES * width * x,
+        top + height + 18.0,
+        "middle",
+        text,
+    )
 }
 
 /// Shares in the bond and in traps over the logarithm of time.
@@ -129,7 +136,7 @@ fn over_kt(found: &Yields) -> String {
     for outcome in &by_kt {
         inner += &below(x(outcome.kt), &si(outcome.kt, "J", 2));
         let [low, high] = outcome.interval.map(|share| top + height * (1.0 - share));
-        let at = left + width * x(outcome.kt);
+        let at = left + CURVES * width * x(outcome.kt);
         if low.is_finite() && high.is_finite() {
             let _ = write!(
                 inner,

@@ -45,14 +45,11 @@ impl Page {
                 })
                 .collect(),
             origin: format!(
-                "tilebind {}; {} magnets; attachment counted in {} docking runs for each kT \
-                 (drag {} per s, restitution {}), detachment by detailed balance; a tile binds one \
+                "tilebind {}; {} magnets; {}, detachment by detailed balance; a tile binds one \
                  partner at most",
                 env!("CARGO_PKG_VERSION"),
                 design.interaction.model.name(),
-                question.effort.runs,
-                question.effort.motion.drag,
-                question.effort.motion.restitution
+                question.effort.told(),
             ),
             ..Self::titled(format!("Yield of {}", design.name))
         }

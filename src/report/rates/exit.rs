@@ -4,17 +4,17 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Motion, NO_BOUNDS, ON_THE_MESH, SCOPE, apart, area, finite};
+use super::{Motion, NO_BOUNDS, ON_THE_MESH, ONE_SIDED, SCOPE, apart, area, finite};
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
 use crate::kinetics::exit::{Exit, ExitSettings};
 use crate::report::values;
 use crate::units::si;
 
-/// Bounds of the mean exit time (s) that are numbers.
-fn bounds(motion: &Motion, exit: &Exit) -> Option<[f64; 2]> {
-    let bounds = exit.bracket()?.map(|end| end / motion.diffusion);
-    bounds.iter().all(|end| end.is_finite()).then_some(bounds)
+/// Bounds of the mean exit time (s), those that are numbers.
+fn bounds(motion: &Motion, exit: &Exit) -> Option<[Option<f64>; 2]> {
+    let bounds = exit.bracket()?.map(|end| finite(end / motion.diffusion));
+    bounds[0].map(|_| bounds)
 }
 
 /// An exit as an object.
@@ -76,7 +76,13 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         finest.unknowns,
     );
     let _ = match bounds(motion, exit) {
-        Some([lower, upper]) => writeln!(
+        Some([Some(lower), None]) => writeln!(
+            text,
+            "  from the well about the start the mean exit time is {} at least; {ONE_SIDED};\n  \
+             {ON_THE_MESH}",
+            si(lower, "s", 3),
+        ),
+        Some([Some(lower), Some(upper)]) => writeln!(
             text,
             "  from the well about the start the mean exit time is between {} and {} ({} apart);\n  \
              {ON_THE_MESH}",
@@ -84,7 +90,7 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
             si(upper, "s", 3),
             apart([lower, upper]),
         ),
-        None => writeln!(text, "  {NO_BOUNDS}"),
+        _ => writeln!(text, "  {NO_BOUNDS}"),
     };
     text.push_str(SCOPE);
     text

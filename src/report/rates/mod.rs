@@ -1,10 +1,16 @@
 //! Exits and rates of overdamped motion, for people and for programs.
 
 mod exit;
+mod files;
+mod over_kt;
+mod place;
 mod table;
 
 pub use exit::{check_entry, check_summary, exit_entry, exit_summary};
-pub use table::{Place, Table};
+pub use files::{files, report};
+pub use over_kt::{AtKt, over_kt};
+pub use place::Place;
+pub use table::Table;
 
 use crate::design::Design;
 
@@ -35,7 +41,10 @@ const SCOPE: &str = "  overdamped motion, knocks without loss: drag of 50 /s and
 /// What is said of bounds.
 const ON_THE_MESH: &str = "bounds hold on the mesh (Dirichlet, Thomson); what its integrals over \
                            cells are off by is not bounded";
-const NO_BOUNDS: &str = "no bounds: they need convex outlines, and a start in a well";
+const NO_BOUNDS: &str = "no bounds: they are of a start in a well";
+/// Of outlines that are not convex.
+const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid for convex \
+                         outlines only";
 
 /// How far apart bounds are, in percent of the lower one.
 fn apart([lower, upper]: [f64; 2]) -> String {

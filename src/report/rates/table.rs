@@ -5,71 +5,13 @@ use std::fmt::Write;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-use super::{Motion, NO_BOUNDS, ON_THE_MESH, SCOPE, apart, finite, per_second};
-use crate::configuration::Configuration;
+use super::{Motion, NO_BOUNDS, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second};
 use crate::design::Design;
 use crate::kinetics::chain::Chain;
-use crate::kinetics::rates::{Basin, RateSettings, Rates};
-use crate::landscape;
-use crate::pipeline::Analysis;
+use crate::kinetics::rates::{RateSettings, Rates};
 use crate::report::terminal::write_table;
 use crate::report::values;
 use crate::units::si;
-
-/// A state with rates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Place {
-    /// What people call it.
-    pub name: String,
-    /// The minimum.
-    pub at: Configuration,
-    /// Its energy (J).
-    pub energy: f64,
-    /// Its basin is where U is lower (J).
-    pub below: f64,
-    /// How many states the pair's symmetries make of it.
-    pub copies: usize,
-}
-
-/// Part of the way up to its lowest barrier to which the basin of a state reaches.
-const BASIN: f64 = 0.5;
-/// Barriers of states with rates are at least so many kT high.
-const LEAST_BARRIER: f64 = 2.0;
-
-impl Place {
-    /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
-    /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
-    pub fn held(
-        analysis: &Analysis,
-        kt: f64,
-        traps: usize,
-        basin_energy: Option<f64>,
-    ) -> Vec<Self> {
-        let inventory = &analysis.inventory;
-        let held = inventory.kinds().filter_map(|kind| {
-            let state = kind.first();
-            let barrier = analysis.escape(state.id)?.forward();
-            let holds = kind.is_bond() || barrier >= LEAST_BARRIER * kt;
-            let below = basin_energy.filter(|_| kind.is_bond());
-            holds.then(|| Self {
-                name: inventory.name_of(landscape::Place::State(state.id)),
-                at: state.configuration,
-                energy: state.energy,
-                below: below.unwrap_or(state.energy + BASIN * barrier),
-                copies: kind.copies(),
-            })
-        });
-        held.take(1 + traps).collect()
-    }
-
-    /// Its basin.
-    pub fn basin(&self) -> Basin {
-        Basin {
-            at: self.at,
-            below: self.below,
-        }
-    }
-}
 
 /// Rates between states and `free`.
 pub struct Table<'a> {
@@ -86,25 +28,25 @@ pub struct Table<'a> {
 }
 
 impl Table<'_> {
-    fn count(&self) -> usize {
+    pub(in crate::report) fn count(&self) -> usize {
         self.places.len() + 1
     }
 
-    fn name(&self, place: usize) -> &str {
+    pub(in crate::report) fn name(&self, place: usize) -> &str {
         self.places.get(place).map_or("free", |place| &place.name)
     }
 
     /// Rate (1/s) from one place to another.
-    fn rate(&self, from: usize, to: usize) -> f64 {
+    pub(in crate::report) fn rate(&self, from: usize, to: usize) -> f64 {
         self.found.finest().rates[from][to] * self.motion.diffusion
     }
 
-    fn rate_out(&self, from: usize) -> f64 {
+    pub(in crate::report) fn rate_out(&self, from: usize) -> f64 {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
     /// Bounds (1/s) of the rate from one place to another, where there are any.
-    fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
+    pub(in crate::report) fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
         self.scaled(
             self.found
                 .bounds
@@ -114,7 +56,7 @@ impl Table<'_> {
     }
 
     /// Bounds (1/s) of the rate out of a place, where there are any.
-    fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
+    pub(in crate::report) fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
         self.scaled(
             self.found
                 .bounds
@@ -130,14 +72,14 @@ impl Table<'_> {
 
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
     /// does not count.
-    fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
+    pub(in crate::report) fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
         let rate = |i: usize, j: usize| self.rate(i, j);
         let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
         chain.mean_times(&[to])[from]
     }
 
     /// Every two places, from and to.
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+    pub(in crate::report) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let count = self.count();
         (0..count).flat_map(move |i| (0..count).filter(move |j| *j != i).map(move |j| (i, j)))
     }
@@ -236,17 +178,20 @@ impl Table<'_> {
         text
     }
 
-    /// The rates in a few lines.
-    pub fn summary(&self) -> String {
-        let free = self.places.len();
-        let mut text = format!(
-            "{}: free tiles bind at {} and the bond is left at {}, on a table of {} by {} m\n",
-            self.design.name,
-            per_second(self.rate(free, 0)),
+    /// What was asked, in a line.
+    pub(in crate::report) fn headline(&self) -> String {
+        format!(
+            "free tiles bind at {} and the bond is left at {}, on a table of {} by {} m",
+            per_second(self.rate(self.places.len(), 0)),
             per_second(self.rate_out(0)),
             2.0 * self.design.space().half_size[0],
             2.0 * self.design.space().half_size[1],
-        );
+        )
+    }
+
+    /// The rates in a few lines.
+    pub fn summary(&self) -> String {
+        let mut text = format!("{}: {}\n", self.design.name, self.headline());
         let _ = writeln!(
             text,
             "  kT = {}, drag {} /s: D = {}",
@@ -286,6 +231,20 @@ impl Table<'_> {
             text.push_str(SCOPE);
             return text;
         };
+        if bounds.are_one_sided() {
+            let told = (0..self.places.len()).map(|number| {
+                let [_, upper] = self.bounds_out(number);
+                format!(
+                    "{} at most {}",
+                    self.name(number),
+                    per_second(upper.unwrap_or(f64::INFINITY))
+                )
+            });
+            let told = told.collect::<Vec<_>>().join(", ");
+            let _ = writeln!(text, "  left: {told};\n  {ONE_SIDED};\n  {ON_THE_MESH}");
+            text.push_str(SCOPE);
+            return text;
+        }
         let wells = self.places.iter().zip(&bounds.leaving);
         let told = wells.map(|(place, ends)| format!("{} {}", place.name, apart(*ends)));
         let _ = writeln!(

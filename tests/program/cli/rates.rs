@@ -3,7 +3,7 @@
 use super::{json, tilebind};
 use crate::program::{stderr, stdout};
 
-const SLID: [&str; 8] = [
+const SLID: [&str; 10] = [
     "rates",
     "shapes/paper-tile.toml",
     "--kt",
@@ -12,6 +12,8 @@ const SLID: [&str; 8] = [
     "0.43,-0.04,0",
     "--free-at",
     "0.75",
+    "--certify",
+    "0.9",
 ];
 
 #[test]
@@ -80,6 +82,8 @@ fn rates_between_the_states_balance_in_detail() {
         "3e-3",
         "--traps",
         "1",
+        "--certify",
+        "0.9",
         "--out",
         out.to_str().unwrap(),
         "--json",
@@ -117,4 +121,22 @@ fn rates_between_the_states_balance_in_detail() {
     assert_eq!(table.lines().count(), 7);
     let table = std::fs::read_to_string(out.join("occupation.csv")).unwrap();
     assert_eq!(table.lines().count(), 4);
+    let report = std::fs::read_to_string(out.join("report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["places"], entry["places"]);
+    // Rates grow with kT; far below the barrier the corner's closed form is much the same.
+    let course = report["over_kT"].as_array().unwrap();
+    let of = |at: &serde_json::Value, key: &str| at[key]["bond A"].as_f64().unwrap();
+    let leaving: Vec<f64> = course.iter().map(|at| of(at, "leaving_per_s")).collect();
+    assert!(leaving.len() > 3 && leaving.is_sorted(), "{leaving:?}");
+    let off = of(&course[0], "corner_leaving_per_s") / leaving[0];
+    assert!((0.8..1.4).contains(&off), "{off}");
+    for name in [
+        "report.html",
+        "committor.csv",
+        "pictures/committor.svg",
+        "pictures/rates.svg",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
 }

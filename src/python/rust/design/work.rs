@@ -5,7 +5,7 @@ use pyo3::types::PyDict;
 use tilebind::dynamics::MotionSettings;
 use tilebind::workshop::Making;
 use tilebind::yields::Question;
-use tilebind::yields::attachment::Effort;
+use tilebind::yields::attachment::{Effort, Source};
 
 use super::Design;
 use crate::analysis::{self, Analysis};
@@ -216,6 +216,7 @@ impl Design {
             tiles,
             time,
             effort: Effort {
+                source: Source::Docking,
                 runs,
                 duration,
                 motion,

@@ -1,0 +1,88 @@
+//! A committor and its reactive flux, seen from above: over (x, y), theta taken together.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use super::field::Field;
+use super::mesh::{Leaf, Nodes, gradients, shapes};
+
+/// Points along s and phi that stand for a cell.
+const POINTS: usize = 4;
+
+/// A committor over the landscape: on squares of the plane in which the moving tile's reference
+/// point lies.
+///
+/// E and Vanden-Eijnden, doi:10.1007/s10955-005-9003-9: the flux of tiles on their way from one end
+/// to the other is `D e^(-U/kT) grad q`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// The map reaches from minus this to this (m) along x and y.
+    pub radius: f64,
+    /// Squares along x and y.
+    pub side: usize,
+    /// The mean of the committor over what is free at a square, weighted with e^(-U/kT), row by row
+    /// from the lowest x and y on, x first; not a number where nothing is.
+    pub committor: Vec<f64>,
+    /// What flows through a square along x and y, as a share of all that flows from end to end over
+    /// a metre across it (1/m).
+    pub flux: Vec<[f64; 2]>,
+}
+
+impl Map {
+    /// Of a function on a mesh, on so many squares along x and y.
+    pub(super) fn new(field: &Field, nodes: &Nodes, values: &[f64], side: usize) -> Self {
+        let chart = &field.mesh.chart;
+        let radius = chart.ray([0.0; 2]).radius(1.0);
+        let turn = chart.turn();
+        let turns = (TAU / turn).round() as usize;
+        let mut sums = vec![[0.0; 4]; side * side];
+        for (id, leaf, element) in field.mesh.live() {
+            let own = nodes.of(id, values);
+            let slopes = gradients([0.5; 3]).into_iter().zip(own);
+            let slope: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
+            let slope = element.gradients * slope;
+            for number in 0..POINTS * POINTS {
+                let part =
+                    [number % POINTS, number / POINTS].map(|k| (k as f64 + 0.5) / POINTS as f64);
+                let part = [part[0], part[1], 0.5];
+                let [s, phi, theta] = chart.coordinates(place(leaf, part));
+                let r = chart.ray([phi, theta]).radius(s);
+                let value: f64 = shapes(part).iter().zip(own).map(|(s, v)| s * v).sum();
+                let weight = element.weight / (POINTS * POINTS) as f64;
+                for copy in 0..turns {
+                    let (sin, cos) = (phi + turn * copy as f64).sin_cos();
+                    let at = [r * cos, r * sin].map(|x| (x / radius + 1.0) / 2.0 * side as f64);
+                    let [i, j] = at.map(|x| (x as usize).min(side - 1));
+                    let flux = [slope.x * cos - slope.y * sin, slope.x * sin + slope.y * cos];
+                    let terms = [1.0, value, flux[0], flux[1]];
+                    for (sum, term) in sums[j * side + i].iter_mut().zip(terms) {
+                        *sum += weight * term;
+                    }
+                }
+            }
+        }
+        let through = field.energy(nodes, values) * turns as f64;
+        let square = (2.0 * radius / side as f64).powi(2);
+        Self {
+            radius,
+            side,
+            committor: sums.iter().map(|sum| sum[1] / sum[0]).collect(),
+            flux: sums
+                .iter()
+                .map(|sum| [sum[2], sum[3]].map(|flow| flow / square / through))
+                .collect(),
+        }
+    }
+
+    /// The middle (m) of a square.
+    pub fn middle(&self, square: usize) -> [f64; 2] {
+        let of = |k: usize| ((k as f64 + 0.5) / self.side as f64 * 2.0 - 1.0) * self.radius;
+        [of(square % self.side), of(square / self.side)]
+    }
+}
+
+/// A point of a cell, in smallest units.
+fn place(leaf: &Leaf, part: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| leaf.low[i] as f64 + part[i] * leaf.size() as f64)
+}

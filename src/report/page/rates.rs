@@ -1,0 +1,154 @@
+//! The page of rates.
+
+use serde_json::{Value, json};
+
+use super::{Column, Fact, Illustration, Page, Table as Sorted, rate_charts};
+use crate::report::rates::{AtKt, Table};
+use crate::units::si;
+
+impl Page {
+    /// The page of rates between states and `free`.
+    pub fn of_rates(table: &Table, over_kt: &[AtKt]) -> Self {
+        let fact = |name: &str, value: String, note: String| Fact {
+            name: name.to_owned(),
+            value,
+            note,
+        };
+        let free = table.places.len();
+        let mut facts = vec![
+            fact(
+                "free tiles bind",
+                per_second(table.rate(free, 0)),
+                "to A, by any way".to_owned(),
+            ),
+            fact(
+                "kT",
+                si(table.asked.kt, "J", 3),
+                format!("drag {} /s", table.motion.drag),
+            ),
+            fact(
+                "free",
+                format!("{} apart", si(table.asked.free_at, "m", 3)),
+                "centres".to_owned(),
+            ),
+        ];
+        for (number, place) in table.places.iter().enumerate() {
+            let note = match table.bounds_out(number) {
+                [Some(lower), Some(upper)] if lower > 0.0 => {
+                    format!("between {} and {}", per_second(lower), per_second(upper))
+                }
+                [_, Some(upper)] => format!("at most {}", per_second(upper)),
+                _ => "no bounds".to_owned(),
+            };
+            let name = format!("{} is left", place.name);
+            facts.insert(
+                number,
+                fact(&name, per_second(table.rate_out(number)), note),
+            );
+        }
+        let pictures = rate_charts::all(table, over_kt).into_iter();
+        Self {
+            subtitle: table.headline(),
+            facts,
+            pictures: pictures
+                .map(|(_, title, svg)| Illustration {
+                    title: title.to_owned(),
+                    svg,
+                })
+                .collect(),
+            tables: vec![of_pairs(table), of_places(table)],
+            origin: format!(
+                "tilebind {}; {} magnets; overdamped motion at drag {} per s, reflected by contact; \
+                 bounds hold on the mesh, what its integrals are off by is not in them; no kT where \
+                 drag is less than 50 per s or knocks take energy",
+                env!("CARGO_PKG_VERSION"),
+                table.design.interaction.model.name(),
+                table.motion.drag,
+            ),
+            ..Self::titled(format!("Rates of {}", table.design.name))
+        }
+    }
+}
+
+fn per_second(rate: f64) -> String {
+    format!("{rate:.2e} /s")
+}
+
+fn column(name: &str, unit: &'static str) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit,
+    }
+}
+
+fn sorted(title: &str, note: &str, columns: Vec<Column>, rows: Vec<Vec<Value>>) -> Sorted {
+    Sorted {
+        title: title.to_owned(),
+        note: note.to_owned(),
+        columns,
+        rows,
+        states: Vec::new(),
+        paths: Vec::new(),
+    }
+}
+
+fn of_pairs(table: &Table) -> Sorted {
+    let shown = |rate: Option<f64>| match rate {
+        Some(rate) => json!([rate, per_second(rate)]),
+        None => Value::Null,
+    };
+    let row = |(from, to): (usize, usize)| {
+        let [lower, upper] = table.bounds(from, to);
+        vec![
+            json!(table.name(from)),
+            json!(table.name(to)),
+            shown(lower),
+            shown(Some(table.rate(from, to))),
+            shown(upper),
+            json!(table.rate(from, to) / table.rate_out(from)),
+            json!(table.mean_first_passage(from, to)),
+        ]
+    };
+    let columns = vec![
+        column("from", ""),
+        column("to", ""),
+        column("at least", ""),
+        column("rate", ""),
+        column("at most", ""),
+        column("comes first", "%"),
+        column("mean first passage", "s"),
+    ];
+    let rows = table.pairs().map(row).collect();
+    sorted("Rates", "from a basin or free to another", columns, rows)
+}
+
+fn of_places(table: &Table) -> Sorted {
+    let occupation = &table.found.finest().occupation;
+    let row = |(number, share): (usize, &f64)| {
+        let own = table.places.get(number);
+        vec![
+            json!(table.name(number)),
+            json!(own.map(|place| place.copies)),
+            json!([share, format!("{:.3e} %", 100.0 * share)]),
+            json!(own.map(|place| place.energy)),
+            match own {
+                Some(place) => json!([place.below, format!("U < {}", si(place.below, "J", 4))]),
+                None => json!([0.0, format!("{} apart", si(table.asked.free_at, "m", 4))]),
+            },
+        ]
+    };
+    let columns = vec![
+        column("place", ""),
+        column("copies", ""),
+        column("share of all time", ""),
+        column("energy", "J"),
+        column("its set", ""),
+    ];
+    let rows = occupation.iter().enumerate().map(row).collect();
+    sorted(
+        "Places and occupation",
+        "a set of configurations",
+        columns,
+        rows,
+    )
+}
