@@ -94,8 +94,8 @@ fn maps_show_the_lowest_energy_over_theta_and_where_the_blocked_region_ends() {
     let window = Window {
         origin: Vector2::zeros(),
         angle: 0.0,
-        low: [0.362, -0.1],
-        high: [0.522, 0.1],
+        low: [0.364, -0.1],
+        high: [0.524, 0.1],
         samples: [33, 5],
     };
     let map = EnergyMap::new(&problem, &window, 90);

@@ -276,4 +276,33 @@ mod tests {
             assert_eq!(listed, touching);
         }
     }
+    #[test]
+    fn a_cell_is_halved_down_to_units_and_holds_what_its_halves_do() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        for axis in 0..3 {
+            let mut key = Key {
+                low: [64, 128, 0],
+                size: [16, 32, 64],
+            };
+            while let Some(halves) = key.halves(axis) {
+                for _ in 0..50 {
+                    let place = [90.0, 200.0, 80.0].map(|most| rng.random_range(0.0..most));
+                    let held = halves.iter().any(|half| half.may_hold(&place));
+                    assert_eq!(key.may_hold(&place), held, "{key:?} {place:?}");
+                }
+                key = halves[rng.random_range(0..2)];
+            }
+            assert_eq!(key.size[axis], 1);
+        }
+        // Within a unit of its sides, and round the circle.
+        let key = Key {
+            low: [64, 128, 0],
+            size: [16, 32, 64],
+        };
+        assert!(key.may_hold(&[63.5, 160.5, 30.0]) && !key.may_hold(&[62.5, 150.0, 30.0]));
+        assert!(key.may_hold(&[70.0, 150.0, f64::from(UNITS) - 0.5]));
+        assert!(!key.may_hold(&[70.0, 150.0, f64::from(UNITS) - 1.5]));
+        assert!(!key.may_hold(&[70.0, 170.0, 30.0]) && !key.may_hold(&[82.0, 150.0, 30.0]));
+        assert!(!key.may_hold(&[70.0, 150.0, 66.0]));
+    }
 }

@@ -112,3 +112,24 @@ fn contacts_do_not_depend_on_the_outlines_frames() {
         }
     }
 }
+
+/// Corners that are off by some nanometres, as drawings' are, touch along the same lengths.
+#[test]
+fn contacts_are_as_long_where_corners_are_off_by_nanometres() {
+    let best = |a: &Outline, b: &Outline| matches(&Contact::new(a, b), 1)[0].contact;
+    let shaken = |outline: &Outline, seed: f64| {
+        let off = |k: usize| 1.5e-8 * (seed + 7.0 * k as f64).sin();
+        let vertices = outline.vertices().iter().enumerate();
+        let vertices = vertices.map(|(k, v)| v + nalgebra::Vector2::new(off(k), off(k + 3)));
+        Outline::new(vertices.collect()).unwrap()
+    };
+    let (a, b) = (saw(false), saw(true));
+    let expected = best(&a, &b);
+    for seed in [0.0, 1.0, 2.0, 3.0] {
+        let found = best(&shaken(&a, seed), &shaken(&b, seed + 0.5));
+        assert!(
+            (found - expected).abs() < 1e-5,
+            "{seed}: {found} {expected}"
+        );
+    }
+}

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::contact::cells::ContactCells;
@@ -89,4 +90,21 @@ fn without_possible_contacts_a_cell_is_wholly_free_or_wholly_not() {
         }
     }
     assert!(clear > 1000, "{clear}");
+}
+
+#[test]
+fn contacts_are_listed_as_far_as_there_is_room_for_them() {
+    let contact = Contact::new(&saw(false), &saw(true));
+    let cells = ContactCells::new(&contact);
+    let cell = Cell {
+        centre: Configuration::new(0.4, 0.0, 0.0),
+        half: [0.01, 0.01, 0.05],
+    };
+    let all = cells.possible(&cell, 10_000).unwrap().len();
+    assert!(all > 4);
+    assert_eq!(
+        cells.possible(&cell, all).map(|found| found.len()),
+        Some(all)
+    );
+    assert!(cells.possible(&cell, all - 1).is_none());
 }

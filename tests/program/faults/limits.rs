@@ -56,15 +56,20 @@ fn a_full_device_for_the_answer_is_a_failure() {
     }
 }
 
+/// From the least memory in which the program starts at all.
 #[test]
 fn memory_that_runs_out_leaves_whole_files() {
+    let limit = |megabytes: u64| format!("ulimit -c 0; ulimit -v {}", 1024 * megabytes);
+    let starts = |megabytes: &u64| after(&limit(*megabytes), &["--version"]).status.success();
+    let least = (8..400).step_by(2).find(starts).expect("it starts");
+    let mut ran_out = 0;
     for (name, more) in COMMANDS {
         let expected = undisturbed(name, more);
-        for megabytes in [12, 16] {
+        for megabytes in [least, least + 2, least + 4, least + 8] {
             let folder = tempfile::tempdir().unwrap();
             let out = folder.path().join("out");
-            let limit = format!("ulimit -c 0; ulimit -v {}", 1024 * megabytes);
-            let output = after(&limit, &arguments(name, more, &out));
+            let output = after(&limit(megabytes), &arguments(name, more, &out));
+            ran_out += u32::from(stderr(&output).contains("memory allocation"));
             let found = assert_whole(&out, expected);
             assert_eq!(
                 output.status.success(),
@@ -73,6 +78,7 @@ fn memory_that_runs_out_leaves_whole_files() {
             );
         }
     }
+    assert!(ran_out > 1, "{ran_out}");
 }
 
 #[test]
