@@ -10,6 +10,7 @@ use super::terminal::write_table;
 use super::writer::PICTURES;
 use crate::design::Design;
 use crate::units::si;
+use crate::yields::attachment::Source;
 use crate::yields::{Outcome, Question, StateRates, Yields};
 
 /// The answer as `report.json` has it.
@@ -175,11 +176,15 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
     let mut text = format!("{}\n", headline(design, question, found));
     let _ = writeln!(
         text,
-        "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: of the attachment rate, 95 %)\n",
+        "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: {})\n",
         found.crowd.tiles[0],
         found.crowd.tiles[1],
         100.0 * question.coverage,
-        found.crowd.area
+        found.crowd.area,
+        match question.effort.source {
+            Source::Docking => "of the attachment rate, 95 %",
+            Source::Overdamped => "what the two finest meshes differ by",
+        }
     );
     let head = [
         "kT",
@@ -257,9 +262,9 @@ fn row(outcome: &Outcome) -> [String; 7] {
             format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error)
         }),
         time(outcome.mean_times[0]),
-        match outcome.mean_times[1] > 1e6 {
-            true => format!("{:.0e} s", outcome.mean_times[1]),
-            false => time(outcome.mean_times[1]),
+        match outcome.mean_times[1] {
+            long if long.is_finite() && long > 1e6 => format!("{long:.0e} s"),
+            usual => time(usual),
         },
     ]
 }
