@@ -186,7 +186,10 @@ impl Places {
                 field.energy(nodes, &(0..nodes.len()).map(rest).collect::<Vec<_>>())
             }
         };
-        let capacities: Vec<f64> = (0..self.count).map(capacity).collect();
+        // Of a caged tile nothing is left but rounding, of either sign.
+        let capacities: Vec<f64> = (0..self.count)
+            .map(|place| capacity(place).max(0.0))
+            .collect();
         let held = |place: usize| -> f64 {
             let own = field
                 .mesh

@@ -56,7 +56,10 @@ fn apart([lower, upper]: [f64; 2]) -> String {
 
 /// A rate with three digits.
 fn per_second(rate: f64) -> String {
-    format!("{rate:.2e} /s")
+    match rate {
+        0.0 => "0 /s".to_owned(),
+        _ => format!("{rate:.2e} /s"),
+    }
 }
 
 /// A number that JSON has.

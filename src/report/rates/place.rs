@@ -20,7 +20,8 @@ pub struct Place {
     pub copies: usize,
 }
 
-/// Part of the way up to its lowest barrier to which the basin of a state reaches.
+/// Part of the way up to its lowest barrier to which the basin of a state reaches; or to free tiles,
+/// where that is lower.
 const BASIN: f64 = 0.5;
 /// Barriers of states with rates are at least so many kT high.
 const LEAST_BARRIER: f64 = 2.0;
@@ -44,7 +45,7 @@ impl Place {
                 name: inventory.name_of(landscape::Place::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
-                below: below.unwrap_or(state.energy + BASIN * barrier),
+                below: below.unwrap_or((state.energy + BASIN * barrier).min(BASIN * state.energy)),
                 copies: kind.copies(),
             })
         });
