@@ -16,6 +16,7 @@ use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::figures::command_line;
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
+use super::yields::OVERDAMPED;
 use super::{Failure, input, interrupt, memory, print, tell_of_kept};
 
 /// Mean exit times after which a moving tile is given up.
@@ -56,7 +57,7 @@ pub struct Rates {
     kt: f64,
 
     /// Drag rate (1/s): the drag is this times the mass
-    #[arg(long, value_name = "RATE", default_value_t = 50.0, value_parser = input::positive)]
+    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = input::positive)]
     drag: f64,
 
     /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed

@@ -97,7 +97,7 @@ enum Rates {
 }
 
 /// Drag rate (1/s) from which on motion is overdamped.
-const OVERDAMPED: f64 = 50.0;
+pub(super) const OVERDAMPED: f64 = 50.0;
 /// Most tiles.
 const MOST_TILES: usize = 10_000;
 /// Most settings.

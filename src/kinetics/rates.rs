@@ -24,6 +24,25 @@ pub struct Basin {
     pub below: f64,
 }
 
+impl Basin {
+    /// Part of the way up to its lowest barrier to which the basin of a state reaches; or to free
+    /// tiles, where that is lower.
+    const PART: f64 = 0.5;
+    /// Barriers of traps with rates are at least so many kT high.
+    const LEAST_BARRIER: f64 = 2.0;
+
+    /// The basin of a state of this energy (J), `height` (J) below its lowest way out.
+    pub fn of_state(at: Configuration, energy: f64, height: f64) -> Self {
+        let below = (energy + Self::PART * height).min(Self::PART * energy);
+        Self { at, below }
+    }
+
+    /// Whether a trap whose lowest way out is so high (J) has rates at kT (J).
+    pub fn holds(height: f64, kt: f64) -> bool {
+        height >= Self::LEAST_BARRIER * kt
+    }
+}
+
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSettings {

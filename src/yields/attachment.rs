@@ -15,10 +15,6 @@ use crate::problem::Problem;
 const SAME: f64 = 5e-3;
 /// Tiles start between the distance at which they are free and this multiple of it.
 const FARTHEST: f64 = 1.6;
-/// States with rates of overdamped motion have barriers of so many kT at least, ...
-const LEAST_BARRIER: f64 = 2.0;
-/// ... and basins up to this part of them.
-const BASIN: f64 = 0.5;
 
 /// How many docking runs, and how tiles move in them.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,11 +125,8 @@ pub(super) fn attached(
         .enumerate()
         .map(|(kind, hold)| {
             let height = hold.well().basin().level - hold.energy;
-            let basin = Basin {
-                at: hold.configuration,
-                below: hold.energy + BASIN * height,
-            };
-            (kind == 0 || height >= LEAST_BARRIER * kt).then_some(basin)
+            let basin = Basin::of_state(hold.configuration, hold.energy, height);
+            (kind == 0 || Basin::holds(height, kt)).then_some(basin)
         })
         .collect();
     Ok(solve(problem, &basins, kt, effort.motion.drag)?)

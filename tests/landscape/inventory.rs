@@ -31,6 +31,17 @@ fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
     }
 }
 
+/// Nothing acts and nothing is in the way.
+fn empty() -> Problem {
+    let space = ConfigurationSpace {
+        half_size: [10.0, 10.0],
+        rho: 0.1,
+        free_distance: 1.0,
+    };
+    let energy = DipolePotential::new(&[], &[]);
+    Problem::without_contact(space, Box::new(energy))
+}
+
 #[test]
 fn letters_go_by_depth_and_twins_share_one() {
     let state = |id: usize, class: usize, kind: StateKind, energy: f64| State {
@@ -70,13 +81,7 @@ fn letters_go_by_depth_and_twins_share_one() {
 
 #[test]
 fn an_escape_is_the_lowest_known_way_down() {
-    let space = ConfigurationSpace {
-        half_size: [10.0, 10.0],
-        rho: 0.1,
-        free_distance: 1.0,
-    };
-    let energy = DipolePotential::new(&[], &[]);
-    let problem = Problem::without_contact(space, Box::new(energy));
+    let problem = empty();
     let to_lower = barrier(Some((1, -2.0)), 3.0);
     let to_higher = barrier(Some((2, -0.5)), 1.0);
     let mut inventory = Inventory {
@@ -121,13 +126,7 @@ fn what_one_start_only_ended_in_tells_how_much_is_unseen() {
 
 #[test]
 fn another_run_widens_the_spread_of_the_barriers_between_the_same_places() {
-    let space = ConfigurationSpace {
-        half_size: [10.0, 10.0],
-        rho: 0.1,
-        free_distance: 1.0,
-    };
-    let energy = DipolePotential::new(&[], &[]);
-    let problem = Problem::without_contact(space, Box::new(energy));
+    let problem = empty();
     let at = |id: usize, x: f64| State {
         id,
         class: id,

@@ -121,6 +121,15 @@ pub struct Illustration {
     pub svg: String,
 }
 
+/// Pictures that are files too: each with its name, its title and the document.
+fn illustrations(pictures: Vec<(&str, &str, String)>) -> Vec<Illustration> {
+    let shown = |(_, title, svg): (&str, &str, String)| Illustration {
+        title: title.to_owned(),
+        svg,
+    };
+    pictures.into_iter().map(shown).collect()
+}
+
 /// A table that sorts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Column, Fact, Illustration, Page, Table as Sorted, rate_charts};
+use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
 use crate::report::rates::{AtKt, Table};
 use crate::units::si;
 
@@ -46,16 +46,11 @@ impl Page {
                 fact(&name, per_second(table.rate_out(number)), note),
             );
         }
-        let pictures = rate_charts::all(table, over_kt).into_iter();
+        let pictures = rate_charts::all(table, over_kt);
         Self {
             subtitle: table.headline(),
             facts,
-            pictures: pictures
-                .map(|(_, title, svg)| Illustration {
-                    title: title.to_owned(),
-                    svg,
-                })
-                .collect(),
+            pictures: illustrations(pictures),
             tables: vec![of_pairs(table), of_places(table)],
             origin: format!(
                 "tilebind {}; {} magnets; overdamped motion at drag {} per s, reflected by contact; \

@@ -1,6 +1,6 @@
 //! The page of a yield.
 
-use super::{Fact, Illustration, Page, yield_charts};
+use super::{Fact, Page, illustrations, yield_charts};
 use crate::design::Design;
 use crate::report::yields::headline;
 use crate::units::si;
@@ -34,16 +34,11 @@ impl Page {
             let note = format!("{tiles} tiles; no schedule yields more than {bound}");
             facts.push(fact("kT after kT", percent(mixture.value), &note));
         }
-        let pictures = yield_charts::all(question, found).into_iter();
+        let pictures = yield_charts::all(question, found);
         Self {
             subtitle: headline(design, question, found),
             facts,
-            pictures: pictures
-                .map(|(_, title, svg)| Illustration {
-                    title: title.to_owned(),
-                    svg,
-                })
-                .collect(),
+            pictures: illustrations(pictures),
             origin: format!(
                 "tilebind {}; {} magnets; {}, detachment by detailed balance; a tile binds one \
                  partner at most",

@@ -20,12 +20,6 @@ pub struct Place {
     pub copies: usize,
 }
 
-/// Part of the way up to its lowest barrier to which the basin of a state reaches; or to free tiles,
-/// where that is lower.
-const BASIN: f64 = 0.5;
-/// Barriers of states with rates are at least so many kT high.
-const LEAST_BARRIER: f64 = 2.0;
-
 impl Place {
     /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
     /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
@@ -39,13 +33,14 @@ impl Place {
         let held = inventory.kinds().filter_map(|kind| {
             let state = kind.first();
             let barrier = analysis.escape(state.id)?.forward();
-            let holds = kind.is_bond() || barrier >= LEAST_BARRIER * kt;
-            let below = basin_energy.filter(|_| kind.is_bond());
+            let holds = kind.is_bond() || Basin::holds(barrier, kt);
+            let usual = Basin::of_state(state.configuration, state.energy, barrier);
+            let given = basin_energy.filter(|_| kind.is_bond());
             holds.then(|| Self {
                 name: inventory.name_of(landscape::Place::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
-                below: below.unwrap_or((state.energy + BASIN * barrier).min(BASIN * state.energy)),
+                below: given.unwrap_or(usual.below),
                 copies: kind.copies(),
             })
         });
