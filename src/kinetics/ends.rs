@@ -5,7 +5,7 @@ use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
 use super::rim::Rims;
-use super::sets::{basin, is_at_the_rim, pass};
+use super::sets::{basin, is_at_the_rim, pass, reaching};
 use crate::configuration::Configuration;
 
 /// How far (in kT) below the pass an end or a start lies in equilibrium: of the flux no more than
@@ -64,7 +64,11 @@ impl Ends {
         let top = field.energy_at(&asked.start) + NEAR * field.kt;
         let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
         let bound = around(field, bond, limits[0]);
-        let near = around(field, &asked.start, limits[2]);
+        // Any well does for bounds: the wider it is, the nearer they are.
+        let mut near = vec![false; field.mesh.leaves.len()];
+        for id in reaching(&field.mesh, &beside, &held, limits[2]) {
+            near[id] = true;
+        }
         let is_apart = |(id, near): (usize, &bool)| !near || !(bound[id] || rim[id]);
         let is_well = near.iter().enumerate().all(is_apart);
         Ok(Self {
