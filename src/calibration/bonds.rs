@@ -29,7 +29,10 @@ pub struct PairTimes {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TimesError {
     /// A column is not there, or another one is.
-    #[error("the first line must name the columns bound_s,apart_s (in any order), not `{0}`")]
+    #[error(
+        "the first line must name the columns bound_s,apart_s (in any order) or distance_m alone, not \
+         `{0}`"
+    )]
     Columns(String),
     /// A line has too many entries, or cannot be read.
     #[error("line {0} has not two entries; leave one empty, but keep its comma")]

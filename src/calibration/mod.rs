@@ -13,6 +13,7 @@
 //! G in front of it. A standard error as large as the constant itself says so.
 
 pub mod bonds;
+pub mod distances;
 mod fit;
 mod rows;
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::Settings;
 use tilebind::calibration::bonds::PairTimes;
+use tilebind::calibration::distances::PairDistances;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::kinetics::Bond;
@@ -29,10 +30,13 @@ the fit say how good the model is for other poses.
 
 With --bonds the table has two columns, bound_s and apart_s: whole intervals for which a pair was
 bound, and for which it was apart (s). Their means give K and so the effective kT of the shaking. Speeds
-of tiles do not: where both were measured, they differed tenfold.
+of tiles do not: where both were measured, they differed tenfold. Or the table has the column
+distance_m: how far apart the reference points of a pair were (m) when it was looked at, each time long
+after the last. The kT of the greatest likelihood is printed, for the distances up to --within.
 
 Examples:
   tilebind calibrate my.toml measured.csv
+  tilebind calibrate my.toml --bonds distances.csv --within 0.75
   tilebind calibrate my.toml --bonds intervals.csv --area 0.6")]
 pub struct Calibrate {
     /// The design file of the tiles that were measured
@@ -42,13 +46,19 @@ pub struct Calibrate {
     #[arg(required_unless_present = "bonds", conflicts_with = "bonds")]
     table: Option<PathBuf>,
 
-    /// Fit kT instead, to intervals for which pairs were bound and apart (CSV: bound_s,apart_s)
+    /// Fit kT instead, to intervals for which pairs were bound and apart (CSV: bound_s,apart_s), or
+    /// to distances of pairs (CSV: distance_m)
     #[arg(long, value_name = "FILE")]
     bonds: Option<PathBuf>,
 
     /// Area that a pair had for itself (m^2) [default: the design's table]
     #[arg(long, value_name = "M2", value_parser = input::positive, requires = "bonds")]
     area: Option<f64>,
+
+    /// Distances (m) up to which those of --bonds count, for the rim of the table is felt beyond
+    /// [default: where tiles are free]
+    #[arg(long, value_name = "R", value_parser = input::length, requires = "bonds")]
+    within: Option<f64>,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = input::model(),
@@ -91,6 +101,17 @@ impl Calibrate {
         let wrong =
             |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", file.display()));
         let text = input::text(file).map_err(|error| wrong(&error))?;
+        if PairDistances::is_named_in(&text) {
+            let within = self.within.unwrap_or(design.space().free_distance);
+            let fit = PairDistances::read(&text)
+                .and_then(|read| read.fit(&design.problem(), &design.pair.bound, within));
+            let found = fit.map_err(|error| wrong(&error))?;
+            return print(&if self.json {
+                report::distances_json(design, &found)
+            } else {
+                report::distances_summary(design, &found)
+            });
+        }
         let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, &Silent);

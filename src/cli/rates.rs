@@ -33,7 +33,8 @@ Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: 
 reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
 sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
-all; what the mesh's integrals are off by is not in them. Without --start: rates between the bond, the deepest
+all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
+estimated). Without --start: rates between the bond, the deepest
 traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
 beside every number.
 

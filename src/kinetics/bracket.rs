@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::field::Field;
 use super::mesh::{Gap, Nodes, System, Unsolved, loads};
 use super::rates::MeshRates;
+use super::rim::Rims;
 
 /// How near each other bounds are asked to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,6 +95,8 @@ pub(super) struct Asked<'a> {
     pub pins: &'a [Option<usize>],
     /// The place that the mesh's rim belongs to.
     pub rim: usize,
+    /// Those of the places.
+    pub rims: &'a Rims,
     /// Cells that carry no load.
     pub left_out: &'a [bool],
 }
@@ -116,6 +119,8 @@ pub(super) struct Bracket {
     times: Vec<[f64; 2]>,
     /// What refining the cells may bring.
     pub shares: Vec<f64>,
+    /// By how much capacities are off, relative, because basins are made of cells: an estimate.
+    pub of_rims: f64,
 }
 
 /// A figure and its bounds.
@@ -237,6 +242,14 @@ impl Bracket {
                 *share += 0.5 * (own[cell].max(0.0) * ratio + other.max(0.0)) / held;
             }
         }
+        let mut of_rims: f64 = 0.0;
+        for values in &values[..count] {
+            let (errors, sum) = asked.rims.errors(field, nodes, values);
+            of_rims = of_rims.max(sum);
+            for (cell, error) in errors {
+                shares[cell] += error;
+            }
+        }
         Ok(Self {
             capacities,
             flows,
@@ -244,6 +257,7 @@ impl Bracket {
             held: (0..count).map(|place| held(&values[place])).collect(),
             times,
             shares,
+            of_rims,
         })
     }
 

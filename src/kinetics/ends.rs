@@ -4,7 +4,8 @@ use super::bracket::{Asked, Bracket, Step};
 use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::sets::{basin, is_at_the_rim, pass};
+use super::rim::Rims;
+use super::sets::{basin, is_at_the_rim, pass, reaching};
 use crate::configuration::Configuration;
 
 /// How far (in kT) below the pass an end or a start lies in equilibrium: of the flux no more than
@@ -20,6 +21,8 @@ pub(super) struct Ends {
     well: Option<Vec<bool>>,
     /// The cells about the start that bounds are of.
     near: Option<Vec<bool>>,
+    /// Below which energies (J) these lie: the bound, the well and the cells about the start.
+    limits: [f64; 3],
 }
 
 /// Why the value at a corner is given.
@@ -58,16 +61,37 @@ impl Ends {
         field.set_level(level.unwrap_or(0.0));
         let deep = field.level() - DEEP * field.kt;
         let is_deep = field.energy_at(&asked.start) < deep;
-        let bound = around(field, bond, asked.basin_energy.max(deep));
         let top = field.energy_at(&asked.start) + NEAR * field.kt;
-        let near = around(field, &asked.start, deep.max(top));
+        let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
+        let bound = around(field, bond, limits[0]);
+        // Any well does for bounds: the wider it is, the nearer they are.
+        let mut near = vec![false; field.mesh.leaves.len()];
+        for id in reaching(&field.mesh, &beside, &held, limits[2]) {
+            near[id] = true;
+        }
         let is_apart = |(id, near): (usize, &bool)| !near || !(bound[id] || rim[id]);
         let is_well = near.iter().enumerate().all(is_apart);
         Ok(Self {
             bound,
             well: is_deep.then(|| around(field, &asked.start, deep)),
             near: is_well.then_some(near),
+            limits,
         })
+    }
+
+    /// The rims of the ends and of the start's well.
+    pub fn rims(&self, field: &Field) -> Rims {
+        self.rims_with(field, self.well.as_ref(), self.limits[1])
+    }
+
+    /// The rims of the ends and of some cells below a limit (J).
+    fn rims_with(&self, field: &Field, well: Option<&Vec<bool>>, below: f64) -> Rims {
+        let limit = |id: usize| match well.is_some_and(|well| well[id]) {
+            true => Some(below),
+            false => self.bound[id].then_some(self.limits[0]),
+        };
+        let limits: Vec<_> = (0..self.bound.len()).map(limit).collect();
+        Rims::new(field, &limits)
     }
 
     /// For each corner whether its value is given. Where ends meet, which they do on coarse meshes
@@ -123,6 +147,7 @@ impl Ends {
             bound: bound.clamp(0.0, 1.0),
             unknowns: system.len(),
             error: f64::INFINITY,
+            of_rims: f64::INFINITY,
         };
         if self.well.is_none() {
             let committor = system.solve(&one_on(Pin::Bound), &none, guess(0))?;
@@ -181,6 +206,8 @@ impl Ends {
             nodes,
             pins: &pins.iter().map(place).collect::<Vec<_>>(),
             rim: 2,
+            // It is the same whatever the well.
+            rims: &self.rims_with(field, None, 0.0),
             left_out: &self.bound,
         };
         let bracket = Bracket::new(&asked, 1)?;

@@ -60,6 +60,8 @@ pub struct MeshExit {
     pub unknowns: usize,
     /// Estimated relative error of the solution's energy.
     pub error: f64,
+    /// What of it is due to the bond's basin being made of whole cells.
+    pub of_rims: f64,
 }
 
 /// The exit from a configuration.
@@ -163,9 +165,13 @@ pub fn exit(
         if !(found.time.is_finite() && found.time > 0.0) {
             return Err(ExitError::Never(settings.kt));
         }
-        let (shares, error) = field.errors(&nodes, &functions);
-        meshes.push(MeshExit { error, ..found });
-        let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
+        let errors = field.errors(&nodes, &ends.rims(&field), &functions);
+        meshes.push(MeshExit {
+            error: errors.largest,
+            of_rims: errors.of_rims,
+            ..found
+        });
+        let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > settings.unknowns {
             let mut bounds = bounds(problem, bond, settings)?;
             if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
@@ -174,7 +180,7 @@ pub fn exit(
             }
             return Ok(Exit { meshes, bounds });
         }
-        field.refine(&shares);
+        field.refine(&errors.shares);
         earlier = Some((nodes, functions));
     }
 }

@@ -10,6 +10,7 @@ use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use super::mesh::{Chart, Element, Integrator, Nodes, Octree, gradients, shapes};
+use super::rim::Rims;
 use super::sets;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -35,6 +36,16 @@ pub(super) struct Field<'a> {
     problem: &'a Problem,
     integrator: Integrator<'a>,
     costs: Mutex<Costs>,
+}
+
+/// Estimated errors of functions' energies, relative to them.
+pub(super) struct Errors {
+    /// By cells, added up.
+    pub shares: Vec<f64>,
+    /// The largest of all functions, ...
+    pub largest: f64,
+    /// ... and what of one is due to basins' being made of cells.
+    pub of_rims: f64,
 }
 
 /// Functions on a mesh that has been refined since.
@@ -183,23 +194,32 @@ impl<'a> Field<'a> {
     }
 
     /// The estimated errors of functions' energies by cells, each relative to the function's energy
-    /// and added up, and the largest of the functions' own sums.
+    /// and added up.
     ///
     /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient against
-    /// the continuous one that comes of averaging it at the corners.
-    pub fn errors(&self, nodes: &Nodes, functions: &[Vec<f64>]) -> (Vec<f64>, f64) {
+    /// the continuous one that comes of averaging it at the corners; to it comes what it matters
+    /// that basins are made of cells.
+    pub fn errors(&self, nodes: &Nodes, rims: &Rims, functions: &[Vec<f64>]) -> Errors {
         let mut shares = vec![0.0; self.mesh.leaves.len()];
-        let mut largest: f64 = 0.0;
+        let (mut largest, mut of_rims) = (0.0_f64, 0.0_f64);
         for values in functions {
             let energy = self.energy(nodes, values).max(f64::MIN_POSITIVE);
-            let mut sum = 0.0;
+            let (at_rims, mut sum) = rims.errors(self, nodes, values);
+            of_rims = of_rims.max(sum);
+            for (id, error) in at_rims {
+                shares[id] += error;
+            }
             for (id, error) in self.gradient_errors(nodes, values) {
                 shares[id] += error / energy;
                 sum += error / energy;
             }
             largest = largest.max(sum);
         }
-        (shares, largest)
+        Errors {
+            shares,
+            largest,
+            of_rims,
+        }
     }
 
     fn gradient_errors(&self, nodes: &Nodes, values: &[f64]) -> Vec<(usize, f64)> {

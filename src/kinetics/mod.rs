@@ -20,7 +20,16 @@
 //! committor is an upper bound of the capacity (Dirichlet's principle), but for the quadrature. Lower
 //! bounds come of fluxes without sources (Thomson's principle), on a second mesh whose cells begin at
 //! contact: through those that contact cuts no such flux would go. From both follow bounds of rates
-//! and of mean exit times; they hold on the mesh, for the integrals over cells are not bounded.
+//! and of mean exit times.
+//!
+//! # What is proved
+//! The bounds hold on the mesh: that a trial function bounds a capacity from above and a flux from
+//! below is a theorem, and what the flux loses on its way to rounding and to the solver's last step
+//! is subtracted. Two things are not in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come
+//! of Gauss' rule; a proof would take the energies' bounds over cells
+//! ([`crate::potential::CellBounds`]) for them. And a basin is made of the cells whose mean of U lies
+//! below its limit; by Hadamard's formula, what that shifts capacities by is estimated, stated with
+//! each mesh, and makes the mesh be refined there.
 //! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
 //! begins there, and there are bounds from one side only: Dirichlet's.
 //!
@@ -36,6 +45,7 @@ pub mod bond;
 mod bracket;
 pub mod chain;
 pub mod corner;
+pub mod distance;
 mod ends;
 pub mod exit;
 mod field;
@@ -47,6 +57,7 @@ pub mod mixture;
 mod places;
 pub mod population;
 pub mod rates;
+mod rim;
 mod root;
 mod sets;
 pub mod well;

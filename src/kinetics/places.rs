@@ -4,7 +4,8 @@ use super::bracket::{Asked, Bounded, Bracket, Step};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
 use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
-use super::sets::{basin, is_at_the_rim, pass};
+use super::rim::Rims;
+use super::sets::{basin, is_at_the_rim, pass, reaching};
 
 /// How far (in kT) below its lowest pass a well lies in equilibrium.
 const DEEP: f64 = 12.0;
@@ -12,6 +13,10 @@ const DEEP: f64 = 12.0;
 /// Which cell belongs to which basin.
 pub(super) struct Places {
     of: Vec<Option<usize>>,
+    /// Below which energies (J) the basins lie.
+    limits: Vec<f64>,
+    /// For each basin the cells that it reaches into.
+    reached: Vec<Vec<usize>>,
     /// How many places there are, `free` among them.
     pub count: usize,
     /// Cells that two basins reach into, with the limit (J) of the later one.
@@ -49,11 +54,17 @@ impl Places {
         field.set_level(passes.iter().copied().fold(f64::INFINITY, f64::min));
         let mut places = Self {
             of: vec![None; field.mesh.leaves.len()],
+            limits: Vec::new(),
+            reached: Vec::new(),
             count: wells.len() + 1,
             shared: Vec::new(),
         };
         for (number, (basin, pass)) in settings.basins.iter().zip(passes).enumerate() {
             let limit = basin.below.max(pass - DEEP * settings.kt);
+            places.limits.push(limit);
+            let held = field.mesh.holding(&basin.at);
+            let reached = reaching(&field.mesh, &beside, &held, limit);
+            places.reached.push(reached);
             let inside = around(field, basin, limit);
             for id in (0..inside.len()).filter(|&id| inside[id]) {
                 match places.of[id] {
@@ -63,6 +74,16 @@ impl Places {
             }
         }
         Ok(places)
+    }
+
+    /// The rims of the basins.
+    pub fn rims(&self, field: &Field) -> Rims {
+        let limits: Vec<_> = self
+            .of
+            .iter()
+            .map(|place| place.map(|place| self.limits[place]))
+            .collect();
+        Rims::new(field, &limits)
     }
 
     /// For each corner the place in which its value is given.
@@ -148,6 +169,7 @@ impl Places {
             volumes: occupations,
             unknowns: system.len(),
             error: f64::INFINITY,
+            of_rims: f64::INFINITY,
         };
         Ok((found, committors))
     }
@@ -168,7 +190,8 @@ impl Places {
 
     /// Bounds from above of the rates out of each place, then of those from each place to each other,
     /// divided by D (1/m^2), for any outline: trial committors may reach through contact, fluxes may
-    /// not. A place is occupied for no less than what its own cells hold.
+    /// not. A place is occupied for no less than what the cells that it reaches into hold below its
+    /// limit: all but their volume times the weight there.
     pub fn upper_bounds(
         &self,
         field: &Field,
@@ -191,14 +214,17 @@ impl Places {
             .map(|place| capacity(place).max(0.0))
             .collect();
         let held = |place: usize| -> f64 {
-            let own = field
-                .mesh
-                .live()
-                .filter(|(id, ..)| self.of[*id] == Some(place));
-            let sum: f64 = own
-                .map(|(.., element)| element.load.iter().sum::<f64>())
-                .sum();
-            copies * sum + if place == last { beyond } else { 0.0 }
+            if place == last {
+                return beyond;
+            }
+            let rim = ((field.ground() - self.limits[place]) / field.kt).exp();
+            let below = |&id: &usize| {
+                let element = field.mesh.leaves[id].element.as_ref();
+                element.map_or(0.0, |it| it.load.iter().sum::<f64>() - rim * it.free)
+            };
+            let own = self.reached[place].iter().map(below);
+            // Where that is nothing, bounds are infinite.
+            (copies * own.map(|part| part.max(0.0)).sum::<f64>()).max(f64::MIN_POSITIVE)
         };
         let held: Vec<f64> = (0..self.count).map(held).collect();
         let least = |i: usize, j: usize| capacities[i].min(capacities[j]);
@@ -224,6 +250,7 @@ impl Places {
             nodes,
             pins: &self.pins(field, nodes),
             rim: self.count - 1,
+            rims: &self.rims(field),
             left_out: &vec![false; field.mesh.leaves.len()],
         };
         let bracket = Bracket::new(&asked, self.count)?;
@@ -277,6 +304,7 @@ impl Places {
             volumes: held.iter().map(|own| own.value).collect(),
             unknowns: nodes.len(),
             error,
+            of_rims: bracket.of_rims,
         };
         for i in places.clone() {
             bounds.extend(places.clone().map(|j| over(bracket.flow(i, j).ends, i)));

@@ -95,8 +95,12 @@ pub struct MeshRates {
     pub volumes: Vec<f64>,
     /// Unknowns of the mesh.
     pub unknowns: usize,
-    /// Estimated relative error of the committors' energies.
+    /// Estimated relative error of the committors' energies; on a mesh with bounds how far those of
+    /// the rates out of the basins are apart.
     pub error: f64,
+    /// What of it is due to the basins being made of whole cells, and on a mesh with bounds what
+    /// comes to it.
+    pub of_rims: f64,
 }
 
 /// The rates on ever finer meshes.
@@ -188,9 +192,14 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         let places = Places::new(&mut field, settings)?;
         let nodes = Nodes::new(&field.mesh);
         let (found, functions) = places.solve(&field, &nodes, beyond, earlier.as_ref())?;
-        let (mut shares, error) = field.errors(&nodes, &functions);
+        let errors = field.errors(&nodes, &places.rims(&field), &functions);
+        let (mut shares, error) = (errors.shares, errors.largest);
         let unknowns = found.unknowns;
-        meshes.push(MeshRates { error, ..found });
+        meshes.push(MeshRates {
+            error,
+            of_rims: errors.of_rims,
+            ..found
+        });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
         let is_done = is_fine || unknowns > settings.unknowns;
         if let Some(&(_, limit)) = places.shared.first() {

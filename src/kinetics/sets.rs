@@ -12,17 +12,45 @@ pub(super) fn is_at_the_rim(mesh: &Octree, leaf: &Leaf) -> bool {
     leaf.low[0] + leaf.size() == mesh.chart.cells[0] * UNITS
 }
 
-/// The cells joined to some of `from` by cells that reach below an energy (J). `beside` has each
-/// cell's neighbours.
+/// The cells joined to some of `from` by cells whose mean lies below an energy (J); those of `from`
+/// that reach below it belong to them in any case. `beside` has each cell's neighbours.
 pub(super) fn basin(mesh: &Octree, beside: &[Vec<u32>], from: &[usize], limit: f64) -> Vec<bool> {
     let mut inside = vec![false; mesh.leaves.len()];
     let mut open: Vec<usize> = from.to_vec();
+    open.retain(|&id| lowest(mesh, id) < limit);
+    for &id in &open {
+        inside[id] = true;
+    }
     while let Some(id) = open.pop() {
-        if lowest(mesh, id) < limit && !std::mem::replace(&mut inside[id], true) {
-            open.extend(beside[id].iter().map(|&n| n as usize));
+        for other in beside[id].iter().map(|&other| other as usize) {
+            let element = mesh.leaves[other].element.as_ref();
+            let is_below = element.is_some_and(|it| it.mean < limit);
+            if is_below && !std::mem::replace(&mut inside[other], true) {
+                open.push(other);
+            }
         }
     }
     inside
+}
+
+/// The cells joined to some of `from` by cells that reach below an energy (J).
+pub(super) fn reaching(
+    mesh: &Octree,
+    beside: &[Vec<u32>],
+    from: &[usize],
+    limit: f64,
+) -> Vec<usize> {
+    let mut seen = vec![false; mesh.leaves.len()];
+    let mut open: Vec<usize> = from.to_vec();
+    let mut found = Vec::new();
+    while let Some(id) = open.pop() {
+        if lowest(mesh, id) < limit && !std::mem::replace(&mut seen[id], true) {
+            found.push(id);
+            open.extend(beside[id].iter().map(|&n| n as usize));
+        }
+    }
+    found.sort_unstable();
+    found
 }
 
 /// The highest energy (J) on the best way from some cells to others, by the lowest energy in each

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::json;
 use crate::calibration::bonds::PairTimes;
+use crate::calibration::distances::DistanceFit;
 use crate::calibration::{Calibration, QUANTITIES, Residuals};
 use crate::design::Design;
 use crate::dynamics::docking::OnRate;
@@ -215,4 +216,68 @@ impl KtFit {
             "critical": OnRate::CRITICAL,
         }))
     }
+}
+
+/// The sentence that answers, of a fit to distances, and whether one kT tells of them at all.
+pub fn distances_summary(design: &Design, found: &DistanceFit) -> String {
+    let energy = |kt: Option<f64>| kt.map_or("?".to_owned(), |kt| si(kt, "J", 3));
+    let [low, high] = found.interval.map(energy);
+    let mut text = match found.kt {
+        Some(_) => format!(
+            "{}: pairs are as far apart as at kT = {} ({low} to {high}, 95 %)\n",
+            design.name,
+            energy(found.kt),
+        ),
+        None => format!(
+            "{}: of a bond of 0.5 to 60 kT, an end fits these distances best ({low} to {high}, \
+             95 %)\n",
+            design.name
+        ),
+    };
+    let _ = writeln!(
+        text,
+        "{} distances up to {}, {} beyond are left out; the distribution is known to {:.1} points",
+        found.count,
+        si(found.within, "m", 3),
+        found.beyond,
+        100.0 * found.error,
+    );
+    if let Some((statistic, freedom)) = found.pearson
+        && statistic > critical(freedom)
+    {
+        let _ = writeln!(
+            text,
+            "these are not the distances of equilibrium at one kT: Pearson's statistic of \
+             {statistic:.1} is above {:.1}",
+            critical(freedom)
+        );
+    }
+    text
+}
+
+/// The same as JSON.
+pub fn distances_json(design: &Design, found: &DistanceFit) -> String {
+    let (statistic, freedom) = found.pearson.unzip();
+    json::text(&json!({
+        "tilebind": env!("CARGO_PKG_VERSION"),
+        "design": {"name": design.name, "sha256": design.sha256},
+        "model": design.interaction.model.name(),
+        "kT_J": found.kt,
+        "kT_interval_J": found.interval,
+        "distances": {
+            "count": found.count,
+            "beyond": found.beyond,
+            "within_m": found.within,
+            "distribution_error": found.error,
+            "statistic": statistic,
+            "degrees_of_freedom": freedom,
+            "critical": freedom.map(critical),
+        },
+    }))
+}
+
+/// The quantile of 95 % of chi-square (Wilson and Hilferty 1931, doi:10.1073/pnas.17.12.684).
+fn critical(freedom: usize) -> f64 {
+    let part = 2.0 / (9.0 * freedom.max(1) as f64);
+    freedom as f64 * (1.0 - part + 1.645 * part.sqrt()).powi(3)
 }

@@ -9,6 +9,8 @@ use rayon::prelude::*;
 use tilebind::kinetics::exit::{ExitSettings, exit};
 use tilebind::{Configuration, Design, Problem};
 
+use crate::designs;
+
 /// Squares with a magnet behind each face: every face binds every face.
 const SMALL: &str = r#"
 name = "small"
@@ -48,16 +50,44 @@ fn asked() -> ExitSettings {
     }
 }
 
+/// What is walked through: the copies of the bond among them.
+struct Scene {
+    problem: Problem,
+    bonds: Vec<Configuration>,
+    asked: ExitSettings,
+}
+
+impl Scene {
+    fn new(design: &Design, asked: ExitSettings) -> Self {
+        let problem = design.problem();
+        let copies = problem.symmetries.iter();
+        let bonds = copies.map(|copy| copy.apply(&design.pair.bound)).collect();
+        Self {
+            problem,
+            bonds,
+            asked,
+        }
+    }
+
+    /// Whether a tile of this energy (J) is bound: other wells that are as deep are farther away.
+    fn is_bound(&self, q: &Configuration, energy: f64) -> bool {
+        const NEAR: f64 = 0.02;
+        let is_near = |bond: &Configuration| self.problem.space.distance(bond, q) < NEAR;
+        energy < self.asked.basin_energy && self.bonds.iter().any(is_near)
+    }
+}
+
 /// Steps until a tile is bound or free, and whether it is bound.
-fn walk(problem: &Problem, asked: &ExitSettings, step: f64, seed: u64) -> (f64, f64) {
+fn walk(scene: &Scene, step: f64, seed: u64) -> (f64, f64) {
+    let Scene { problem, asked, .. } = scene;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     // Even steps of the variance step^2.
     let reach = 3f64.sqrt() * step;
     let mut q = asked.start;
     let mut energy = problem.energy(&q);
     for count in 0.. {
-        if energy < asked.basin_energy || q.x.hypot(q.y) >= asked.free_at {
-            let is_bound = energy < asked.basin_energy;
+        let is_bound = scene.is_bound(&q, energy);
+        if is_bound || q.x.hypot(q.y) >= asked.free_at {
             return (f64::from(count), if is_bound { 1.0 } else { 0.0 });
         }
         let mut by = || rng.random_range(-reach..reach);
@@ -74,11 +104,10 @@ fn walk(problem: &Problem, asked: &ExitSettings, step: f64, seed: u64) -> (f64, 
 }
 
 /// Mean exit time times D (m^2) and share of the bound, each with its standard error.
-fn walks(problem: &Problem, step: f64, runs: u64) -> [[f64; 2]; 2] {
-    let asked = asked();
+fn walks(scene: &Scene, step: f64, runs: u64) -> [[f64; 2]; 2] {
     let all: Vec<(f64, f64)> = (0..runs)
         .into_par_iter()
-        .map(|seed| walk(problem, &asked, step, seed))
+        .map(|seed| walk(scene, step, seed))
         .collect();
     let of = |values: Vec<f64>| {
         let mean = values.iter().sum::<f64>() / runs as f64;
@@ -103,15 +132,16 @@ fn at_zero(points: &[(f64, [f64; 2])]) -> [f64; 2] {
     [(xx * y - x * xy) / size, (xx / size).sqrt()]
 }
 
-fn compare(steps: &[f64], runs: u64) {
-    let design = Design::parse(SMALL, "small.toml").unwrap();
-    let problem = design.problem();
-    let found = exit(&problem, &design.pair.bound, &asked())
-        .unwrap()
-        .finest();
+fn compare(design: &Design, asked: ExitSettings, steps: &[f64], runs: u64) {
+    let scene = Scene::new(design, asked);
+    let found = exit(&scene.problem, &design.pair.bound, &asked).unwrap();
+    for mesh in &found.meshes {
+        println!("{mesh:?}");
+    }
+    let found = found.finest();
     let walked: Vec<_> = steps
         .iter()
-        .map(|&step| (step, walks(&problem, step, runs)))
+        .map(|&step| (step, walks(&scene, step, runs)))
         .collect();
     for (which, value) in [found.time, found.bound].into_iter().enumerate() {
         let points: Vec<_> = walked
@@ -129,14 +159,78 @@ fn compare(steps: &[f64], runs: u64) {
     }
 }
 
+fn small() -> Design {
+    Design::parse(SMALL, "small.toml").unwrap()
+}
+
 #[test]
 fn exits_are_those_of_overdamped_motion_step_by_step() {
-    compare(&[2e-3, 3e-3, 4e-3], 2000);
+    compare(&small(), asked(), &[2e-3, 3e-3, 4e-3], 2000);
 }
 
 /// Half a minute; `cargo test --release -- --ignored --nocapture step_by_step` prints the figures.
 #[test]
 #[ignore = "half a minute"]
 fn exits_are_those_of_many_finer_steps_step_by_step() {
-    compare(&[0.7e-3, 1e-3, 1.4e-3, 2e-3], 20_000);
+    compare(&small(), asked(), &[0.7e-3, 1e-3, 1.4e-3, 2e-3], 20_000);
+}
+
+/// Exits from next to the bond, slid along it, of a shipped design.
+fn compare_shipped(file: &str, start: [f64; 3], [kt, basin]: [f64; 2], steps: &[f64]) {
+    let design = designs::load(file);
+    let free_at = design.space().free_distance;
+    let asked = ExitSettings {
+        certify: None,
+        ..ExitSettings::new(kt, Configuration::from(start), basin, free_at)
+    };
+    compare(&design, asked, steps, 1000);
+}
+
+/// A minute each.
+#[test]
+#[ignore = "a minute"]
+fn the_hexagons_exits_step_by_step() {
+    let file = "shapes/hexagon.toml";
+    compare_shipped(
+        file,
+        [0.445, -0.04, 0.05],
+        [4e-3, -0.02],
+        &[1.5e-3, 2e-3, 3e-3],
+    );
+}
+
+#[test]
+#[ignore = "a minute"]
+fn the_tabs_exits_step_by_step() {
+    let file = "shapes/tab-20mm.toml";
+    compare_shipped(
+        file,
+        [0.46, -0.02, 0.0],
+        [5e-3, -0.03],
+        &[1e-3, 1.4e-3, 2e-3],
+    );
+}
+
+#[test]
+#[ignore = "a minute"]
+fn the_teeths_exits_step_by_step() {
+    let file = "shapes/triangle-teeth-10mm.toml";
+    compare_shipped(
+        file,
+        [0.45, -0.04, 0.0],
+        [5e-3, -0.03],
+        &[1e-3, 1.4e-3, 2e-3],
+    );
+}
+
+#[test]
+#[ignore = "a minute"]
+fn the_paper_tiles_exits_at_another_temperature_step_by_step() {
+    let file = "shapes/paper-tile.toml";
+    compare_shipped(
+        file,
+        [0.43, -0.04, 0.0],
+        [6e-3, -0.03],
+        &[1.5e-3, 2e-3, 3e-3],
+    );
 }

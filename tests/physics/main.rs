@@ -16,6 +16,7 @@ mod dipoles;
 mod dynamics;
 mod fixtures;
 mod kinetics;
+mod narrow;
 mod shield_factor;
 mod shielding;
 mod strength;

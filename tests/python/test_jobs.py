@@ -198,6 +198,15 @@ def test_kt_of_pairs_that_bind_and_part(design):
         design.calibrate_bonds(frames[0][["bound_s"]])
 
 
+def test_kt_of_distances(design):
+    # Half of all pairs at contact, the others spread over the table.
+    distances = np.concatenate([np.full(50, 0.431), np.sqrt(np.linspace(0.46**2, 0.7**2, 50))])
+    found = design.calibrate_bonds(pandas.DataFrame({"distance_m": distances}), within=0.7)
+    assert found["kT_interval_J"][0] < found["kT_J"] < found["kT_interval_J"][1]
+    with pytest.raises(ValueError, match="line 3"):
+        design.calibrate_bonds(pandas.DataFrame({"distance_m": [0.5, -1.0]}))
+
+
 def test_words_and_crosstalk(design):
     found = tilebind.words(6, gap=0.4, seconds=2, progress=False)
     assert found["proved"] and found["count"] == len(found["words"]) == found["upper_bound"]

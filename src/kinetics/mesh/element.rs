@@ -13,10 +13,15 @@ pub(in crate::kinetics) struct Element {
     pub stiffness: [f64; 36],
     /// Of w, kept in bounds (m^2 rad).
     pub weight: f64,
+    /// How much is free (m^2 rad).
+    pub free: f64,
     /// Of w times each shape function (m^2 rad).
     pub load: [f64; 8],
-    /// The least U met (J).
+    /// The least and the greatest U met (J).
     pub lowest: f64,
+    pub highest: f64,
+    /// The mean of U over what is free (J).
+    pub mean: f64,
     /// In the cell's middle the gradients of the parts of its size, as columns: along the ray from
     /// the centre, across it and by theta.
     pub gradients: Matrix3<f64>,
@@ -28,8 +33,11 @@ impl Element {
         Self {
             stiffness: [0.0; 36],
             weight: 0.0,
+            free: 0.0,
             load: [0.0; 8],
             lowest: f64::INFINITY,
+            highest: f64::NEG_INFINITY,
+            mean: 0.0,
             gradients,
         }
     }
@@ -60,6 +68,8 @@ pub(super) struct Sum<'a> {
     pub chart: &'a Chart,
     pub leaf: &'a Leaf,
     pub element: Element,
+    /// How much of the cell is free, as a share of it, and the integral of U over that (J).
+    pub free: [f64; 2],
 }
 
 impl Sum<'_> {
@@ -124,6 +134,7 @@ impl Sum<'_> {
             }
         }
         self.element.weight += weights[0] * volume;
+        self.element.free += volume;
         for (load, shape) in self.element.load.iter_mut().zip(shapes(part)) {
             *load += weights[1] * volume * shape;
         }

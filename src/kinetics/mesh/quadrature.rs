@@ -61,8 +61,8 @@ struct Line {
     ray: Ray,
     /// Where it crosses the cell's face, in parts of phi's and theta's sizes.
     at: [f64; 2],
-    /// Points of the integral along it: part of s's size, share of it, weight and load.
-    points: Vec<(f64, f64, [f64; 2])>,
+    /// Points of the integral along it: part of s's size, share of it, weight and load, and U (J).
+    points: Vec<(f64, f64, [f64; 2], f64)>,
     /// The integrals of weight and load.
     sums: [f64; 2],
 }
@@ -78,6 +78,8 @@ struct Point<'a> {
     share: f64,
     /// Weight and load.
     weights: [f64; 2],
+    /// U (J).
+    energy: f64,
 }
 
 impl<'a> Integrator<'a> {
@@ -109,10 +111,13 @@ impl<'a> Integrator<'a> {
             chart,
             leaf,
             element: Element::new(Matrix3::zeros()),
+            free: [0.0; 2],
         };
         let middle = sum.ray([0.5; 2]);
         sum.element.gradients = middle.upright() * sum.gradients(&middle, sum.along(0.5));
         let add = |sum: &mut Sum, point: &Point| {
+            sum.free[0] += point.share;
+            sum.free[1] += point.share * point.energy;
             sum.add(
                 point.part,
                 point.ray,
@@ -122,7 +127,10 @@ impl<'a> Integrator<'a> {
             );
         };
         self.fill(&mut sum, [[0.0, 1.0]; 2], cut, 0, &add);
-        let element = sum.element;
+        let Sum {
+            mut element, free, ..
+        } = sum;
+        element.mean = free[1] / free[0];
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
 
@@ -133,6 +141,7 @@ impl<'a> Integrator<'a> {
             chart,
             leaf,
             element,
+            free: [0.0; 2],
         };
         let ends = [0.0, 1.0].map(|part| sum.along(part));
         let cost = RefCell::new(Matrix6::zeros());
@@ -178,7 +187,7 @@ impl<'a> Integrator<'a> {
         }
         let share = face.iter().map(|[from, to]| to - from).product::<f64>() / 4.0;
         for line in &lines {
-            for &(u, width, weights) in &line.points {
+            for &(u, width, weights, energy) in &line.points {
                 let part = [u, line.at[0], line.at[1]];
                 let metric = self.problem.mass_metric(sum.coordinates(part)[2]);
                 let inverse = metric.try_inverse().unwrap_or_else(Matrix3::identity);
@@ -191,6 +200,7 @@ impl<'a> Integrator<'a> {
                         inverse,
                         share,
                         weights,
+                        energy,
                     },
                 );
             }
@@ -255,6 +265,7 @@ impl<'a> Integrator<'a> {
         let mut energies = vec![0.0; qs.len()];
         potential.energies(&qs, &mut energies);
         sum.element.lowest = ends.iter().copied().fold(sum.element.lowest, f64::min);
+        sum.element.highest = ends.iter().copied().fold(sum.element.highest, f64::max);
         for (u, energy) in us.into_iter().zip(energies) {
             let above = |level: f64| (level - energy) / self.kt;
             let weights = [
@@ -264,7 +275,7 @@ impl<'a> Integrator<'a> {
             for (sum, weight) in line.sums.iter_mut().zip(weights) {
                 *sum += weight * width / 2.0;
             }
-            line.points.push((u, width / 2.0, weights));
+            line.points.push((u, width / 2.0, weights, energy));
         }
     }
 }

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tilebind::calibration::bonds::PairTimes;
+use tilebind::calibration::distances::PairDistances;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::Design;
 use tilebind::kinetics::Bond;
@@ -57,9 +58,21 @@ pub fn kt_of_bonds<'py>(
     design: &Design,
     table: &Bound<'py, PyAny>,
     area: Option<f64>,
+    within: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     fault::positive("area", area)?;
-    let times = PairTimes::read(&text(table)?).map_err(fault::value)?;
+    fault::positive("within", within)?;
+    let text = text(table)?;
+    if PairDistances::is_named_in(&text) {
+        let read = PairDistances::read(&text).map_err(fault::value)?;
+        let within = within.unwrap_or(design.space().free_distance);
+        let found = job::quietly(py, || {
+            read.fit(&design.problem(), &design.pair.bound, within)
+                .map(|found| report::calibration::distances_json(design, &found))
+        })?;
+        return convert::json(py, &found.map_err(fault::value)?);
+    }
+    let times = PairTimes::read(&text).map_err(fault::value)?;
     let area = area.unwrap_or(design.table[0] * design.table[1]);
     let found = job::quietly(py, || {
         let settings = Settings::without_proofs(Settings::default().seed);

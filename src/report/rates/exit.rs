@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Motion, NO_BOUNDS, ON_THE_MESH, ONE_SIDED, SCOPE, apart, area, finite};
+use super::{Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, area, finite};
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
 use crate::kinetics::exit::{Exit, ExitSettings};
@@ -27,6 +27,7 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
         "mean_exit_bounds_s": bounds(motion, exit),
         // Proved are the inequalities, not the integrals over cells.
         "bounds_hold": exit.bracket().map(|_| "on the mesh"),
+        "bounds_leave_out": exit.bracket().map(|_| NOT_BOUNDED),
         "exits": {"bound": finest.bound, "free": 1.0 - finest.bound},
         "kt_J": asked.kt,
         "drag_per_s": motion.drag,
@@ -37,6 +38,7 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
             "unknowns": finest.unknowns,
             "mean_exit_spread": time,
             "exits_spread": bound,
+            "of_basins": finite(finest.of_rims),
         },
     })
 }
@@ -72,8 +74,9 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
     let _ = writeln!(
         text,
         "  the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the shares",
+         points in the shares;\n  the basin, made of whole cells, is off by an estimated {:.1} % of its capacity",
         finest.unknowns,
+        100.0 * finest.of_rims,
     );
     let _ = match bounds(motion, exit) {
         Some([Some(lower), None]) => writeln!(

@@ -41,6 +41,11 @@ const SCOPE: &str = "  overdamped motion, knocks without loss: drag of 50 /s and
 /// What is said of bounds.
 const ON_THE_MESH: &str = "bounds hold on the mesh (Dirichlet, Thomson); what its integrals over \
                            cells are off by is not bounded";
+/// What is not in bounds that hold on the mesh.
+const NOT_BOUNDED: [&str; 2] = [
+    "the integrals of exp(-U/kT) and exp(U/kT) over cells, by Gauss' rule",
+    "basins made of whole cells: mesh.of_basins is what that shifts capacities by, an estimate",
+];
 const NO_BOUNDS: &str = "no bounds: they are of a start in a well";
 /// Of outlines that are not convex.
 const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid for convex \

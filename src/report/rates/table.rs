@@ -5,7 +5,9 @@ use std::fmt::Write;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-use super::{Motion, NO_BOUNDS, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second};
+use super::{
+    Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second,
+};
 use crate::design::Design;
 use crate::kinetics::chain::Chain;
 use crate::kinetics::rates::{RateSettings, Rates};
@@ -123,7 +125,8 @@ impl Table<'_> {
             "rates": self.pairs().map(rate).collect::<Vec<_>>(),
             // Proved are the inequalities, not the integrals over cells.
             "bounds_hold": self.found.bounds.as_ref().map(|_| "on the mesh"),
-            "mesh": {"unknowns": finest.unknowns},
+            "bounds_leave_out": self.found.bounds.as_ref().map(|_| NOT_BOUNDED),
+            "mesh": {"unknowns": finest.unknowns, "of_basins": finite(finest.of_rims)},
         })
     }
 

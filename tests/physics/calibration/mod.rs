@@ -1,5 +1,6 @@
 //! Shields fitted to measurements whose truth is known.
 
+mod distances;
 mod rows;
 
 use std::f64::consts::{FRAC_PI_2, PI};

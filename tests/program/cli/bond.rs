@@ -164,6 +164,39 @@ fn pairs_that_bind_and_part_tell_kt() {
 }
 
 #[test]
+fn distances_of_pairs_tell_kt() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("distances.csv");
+    // Half of all pairs at contact, the others anywhere else.
+    let far = |k: usize| (0.21 + 0.28 * (k as f64 + 0.5) / 20.0).sqrt();
+    let rows: String = (0..20).map(|k| format!("0.431\n{:.4}\n", far(k))).collect();
+    std::fs::write(&file, format!("distance_m\n{rows}0.9\n")).unwrap();
+    let (table, design) = (file.to_str().unwrap(), design(PAPER));
+    let asked = ["calibrate", &design, "--bonds", table, "--within", "0.7"];
+    let found = json(&[&asked[..], &["--json"]].concat());
+    let kt = found["kT_J"].as_f64().unwrap();
+    let [low, high] = numbers(&found["kT_interval_J"])[..] else {
+        panic!()
+    };
+    // Bond and traps of 65 and 33 mJ hold half of all pairs at a seventh to a thirtieth of the bond.
+    assert!(low < kt && kt < high, "{found}");
+    assert!((2e-3..9e-3).contains(&kt), "{kt}");
+    assert_eq!(found["distances"]["beyond"], 1);
+    std::fs::write(
+        &file,
+        "distance_m\n0.5\n0.2\n".to_owned() + &"0.6\n".repeat(10),
+    )
+    .unwrap();
+    let output = tilebind(&asked);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains("line 3") && told.contains("overlap"),
+        "{told}"
+    );
+}
+
+#[test]
 fn bound_tiles_come_loose_where_they_are_shaken_enough() {
     let file = design(PAPER);
     let rate = |kt: &str| {

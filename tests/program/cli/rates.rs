@@ -35,6 +35,8 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     let [lower, upper] = [0, 1].map(|end| number(&format!("/mean_exit_bounds_s/{end}")));
     assert!(lower < number("/mean_exit_s") && number("/mean_exit_s") < upper);
     assert_eq!(entry["bounds_hold"], "on the mesh");
+    assert_eq!(entry["bounds_leave_out"].as_array().unwrap().len(), 2);
+    assert!((0.0..0.05).contains(&number("/mesh/of_basins")));
     assert_eq!(
         (number("/basin_energy_J"), number("/free_at_m")),
         (-0.03, 0.75)

@@ -281,22 +281,26 @@ impl Design {
     /// ----------
     /// table : pandas.DataFrame, str or os.PathLike
     ///     The measurements or a CSV file of them: `bound_s` and `apart_s`, whole intervals for
-    ///     which a pair was bound, and for which it was apart (s).
+    ///     which a pair was bound, and for which it was apart (s); or `distance_m`, how far apart
+    ///     the reference points of a pair were, each time long after the last (m).
     /// area : float, optional
-    ///     Area that a pair had for itself (m^2); the design's table by default.
+    ///     Area that a pair had for itself (m^2); the design's table by default. Of intervals only.
+    /// within : float, optional
+    ///     Distances up to which they count (m); where tiles are free by default.
     ///
     /// Returns
     /// -------
     /// dict
     ///     As ``tilebind calibrate --bonds --json``.
-    #[pyo3(signature = (table, *, area = None))]
+    #[pyo3(signature = (table, *, area = None, within = None))]
     fn calibrate_bonds<'py>(
         &self,
         py: Python<'py>,
         table: &Bound<'py, PyAny>,
         area: Option<f64>,
+        within: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        workshop::kt_of_bonds(py, &self.content.design, table, area)
+        workshop::kt_of_bonds(py, &self.content.design, table, area, within)
     }
 
     /// Start bound, with a thermal velocity, many times: the rate of detachment under shaking.

@@ -1,0 +1,94 @@
+//! How far apart a pair in equilibrium is.
+
+use super::field::Field;
+use super::mesh::UNITS;
+use crate::configuration::Configuration;
+use crate::problem::Problem;
+
+/// Meshes are refined until the shares of all distances together move by less than this, ...
+const SETTLED: f64 = 4e-3;
+/// ... twice in a row, or until they have so many cells.
+const MOST_CELLS: usize = 150_000;
+
+/// The distances of the centres of a pair that is in equilibrium at one kT and no farther apart than
+/// an end.
+///
+/// The probability of a distance r is in proportion to `r` times the integral of e^(-U/kT) over all
+/// directions and angles that contact leaves free: with the magnets off it is `2 r / end^2` outside
+/// contact. How large the table is does not matter, as long as its rim is farther away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distances {
+    /// The distances (m) between which the shares lie, ascending: one more than shares.
+    pub edges: Vec<f64>,
+    /// The probability of each part.
+    pub shares: Vec<f64>,
+    /// The sum of what the shares moved by with the last refinement: an estimate of their error.
+    pub moved: f64,
+}
+
+impl Distances {
+    /// At kT (J) out to an end (m), in about 32 parts; energies are counted from the deepest state
+    /// that is known, `bond`.
+    pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
+        let ground = problem.energy(bond);
+        let mut field = Field::new(problem, kt, end, ground, &[*bond]);
+        let mut known: Option<Vec<f64>> = None;
+        let mut settled = 0;
+        loop {
+            let shares = shares(&field);
+            let moved = known.map_or(f64::INFINITY, |known| {
+                let changes = known.iter().zip(&shares).map(|(a, b)| (a - b).abs());
+                changes.sum()
+            });
+            settled = if moved < SETTLED { settled + 1 } else { 0 };
+            let cells = field.mesh.live().count();
+            if settled == 2 || cells > MOST_CELLS {
+                return Self {
+                    edges: edges(&field),
+                    shares,
+                    moved,
+                };
+            }
+            let mut errors = vec![0.0; field.mesh.leaves.len()];
+            for (id, _, element) in field.mesh.live() {
+                // What is much the same all over a cell is integrated well.
+                let change = ((element.highest - element.lowest) / kt).min(1.0);
+                errors[id] = element.load.iter().sum::<f64>() * change * change;
+            }
+            field.refine(&errors);
+            known = Some(shares);
+        }
+    }
+
+    /// Which part a distance (m) lies in; `None` beyond the end and where tiles would overlap.
+    pub fn part(&self, distance: f64) -> Option<usize> {
+        let part = self.edges.partition_point(|edge| *edge <= distance);
+        let last = self.shares.len();
+        let part = if distance == self.edges[last] {
+            last
+        } else {
+            part
+        };
+        let found = part.checked_sub(1).filter(|part| *part < last)?;
+        (self.shares[found] > 0.0).then_some(found)
+    }
+}
+
+/// The first cells' ends along the distance (m).
+fn edges(field: &Field) -> Vec<f64> {
+    let chart = &field.mesh.chart;
+    let radius = |cell: i64| {
+        let [s, phi, theta] = chart.coordinates([(cell * UNITS) as f64, 0.0, 0.0]);
+        chart.ray([phi, theta]).radius(s)
+    };
+    (0..=chart.cells[0]).map(radius).collect()
+}
+
+fn shares(field: &Field) -> Vec<f64> {
+    let mut sums = vec![0.0; field.mesh.chart.cells[0] as usize];
+    for (_, leaf, element) in field.mesh.live() {
+        sums[(leaf.low[0] / UNITS) as usize] += element.load.iter().sum::<f64>();
+    }
+    let all: f64 = sums.iter().sum();
+    sums.iter().map(|sum| sum / all).collect()
+}
