@@ -20,7 +20,7 @@
 //! is `results/paper-tile/models.svg`), and with dipoles its table of states has the blocks' energy
 //! and the dipoles' error in each.
 //!
-//! Of two tiles with very many magnets far groups of point dipoles are replaced by fewer dipoles at
+//! Of two tiles with very many magnets (128 each) far groups of point dipoles are replaced by fewer dipoles at
 //! the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4 pi
 //! r^3)`, r the distance of the groups; energies, gradients and bounds alike.
 //!

@@ -1,5 +1,7 @@
 //! Bounds of the energy's derivatives along motions, the moving dipoles in the lanes.
 
+use std::ops::Range;
+
 use super::DipolePotential;
 use super::bundle::Bundle;
 use super::field::{Frame, Source, TOGETHER};
@@ -7,7 +9,7 @@ use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
 use super::tasks::frame_of_one;
 use crate::configuration::Configuration;
 use crate::potential::groups::tree::{LOST_OF_BOUNDS, Purpose};
-use crate::potential::groups::walk::Leeway;
+use crate::potential::groups::walk::{Leeway, Walk};
 use crate::potential::motion;
 use crate::units::MU0_OVER_4PI;
 
@@ -31,26 +33,24 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
             bound: l.splat(0.0),
             nearest: l.splat(f64::INFINITY),
         };
-        let leeway = Leeway {
-            travel: self.reach,
-            purpose: Purpose::Bound,
-            ..Leeway::default()
-        };
+        let (sources, all) = (&self.potential.sources, 0..self.potential.moving.x.len());
         let mut lost = 0.0;
-        let mut meetings = self.potential.meetings(self.q, leeway);
-        while let Some(meeting) = meetings.next() {
-            let sources = &self.potential.sources[meeting.fixed];
-            let mut first = meeting.moving.start;
-            while first + 2 * L::WIDTH <= meeting.moving.end {
-                self.block::<L, 2>(l, &frame, sources, first, &mut sums);
-                first += 2 * L::WIDTH;
-            }
-            if first < meeting.moving.end {
-                self.block::<L, 1>(l, &frame, sources, first, &mut sums);
-            }
-            if meeting.replaced > 0.0 {
-                let k = LOST_OF_BOUNDS * MU0_OVER_4PI * meeting.replaced;
-                lost += motion::bound(&self.terms, k, meeting.distance);
+        match &self.potential.groups {
+            None => self.meet(l, &frame, sources, all, &mut sums),
+            Some([fixed, moving]) => {
+                let leeway = Leeway {
+                    travel: self.reach,
+                    purpose: Purpose::Bound,
+                    ..Leeway::default()
+                };
+                for meeting in Walk::new([fixed, moving], self.q, leeway) {
+                    let sources = &sources[meeting.fixed];
+                    self.meet(l, &frame, sources, meeting.moving, &mut sums);
+                    if meeting.replaced > 0.0 {
+                        let k = LOST_OF_BOUNDS * MU0_OVER_4PI * meeting.replaced;
+                        lost += motion::bound(&self.terms, k, meeting.distance);
+                    }
+                }
             }
         }
 
@@ -73,6 +73,26 @@ struct Sums<F> {
 }
 
 impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
+    /// The pairs of some moving dipoles, whole vectors of them, with some of the fixed ones.
+    #[inline(always)]
+    fn meet<L: Lanes>(
+        &self,
+        l: L,
+        frame: &Frame<L::F>,
+        sources: &[Source],
+        moving: Range<usize>,
+        sums: &mut Sums<L::F>,
+    ) {
+        let mut first = moving.start;
+        while first + 2 * L::WIDTH <= moving.end {
+            self.block::<L, 2>(l, frame, sources, first, sums);
+            first += 2 * L::WIDTH;
+        }
+        if first < moving.end {
+            self.block::<L, 1>(l, frame, sources, first, sums);
+        }
+    }
+
     /// The pairs of `N` vectors of moving dipoles from the dipole `first` on.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(

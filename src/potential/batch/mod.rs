@@ -32,7 +32,6 @@ use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::groups::are_many;
 use super::groups::tree::{Group, Tree};
-use super::groups::walk::{Leeway, Meeting, Walk};
 use super::lever::Lever;
 use super::motion;
 use crate::configuration::Configuration;
@@ -116,39 +115,9 @@ impl DipolePotential {
         }
     }
 
-    /// The dipoles of both tiles that meet in a configuration: all, or group by group.
-    fn meetings(&self, q: &Configuration, leeway: Leeway) -> Meetings<'_> {
-        match &self.groups {
-            None => Meetings::All(Some(Meeting {
-                fixed: 0..self.sources.len(),
-                moving: 0..self.moving.x.len(),
-                replaced: 0.0,
-                distance: 0.0,
-            })),
-            Some([fixed, moving]) => Meetings::Groups(Walk::new([fixed, moving], q, leeway)),
-        }
-    }
-
     /// The instruction set it is computed with.
     pub fn level(&self) -> Level {
         self.level
-    }
-}
-
-/// See [`DipolePotential::meetings`].
-enum Meetings<'a> {
-    All(Option<Meeting>),
-    Groups(Walk<'a>),
-}
-
-impl Iterator for Meetings<'_> {
-    type Item = Meeting;
-
-    fn next(&mut self) -> Option<Meeting> {
-        match self {
-            Self::All(one) => one.take(),
-            Self::Groups(walk) => walk.next(),
-        }
     }
 }
 

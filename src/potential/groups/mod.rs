@@ -25,5 +25,5 @@ pub mod walk;
 
 /// Whether so many dipoles of two tiles are worth being put in groups.
 pub fn are_many(fixed: usize, moving: usize) -> bool {
-    fixed * moving >= 1 << 13
+    fixed * moving >= 1 << 14
 }
