@@ -13,6 +13,7 @@
 //! *A theorem on polygon cutting with applications*, 1982).
 
 use std::cmp::Reverse;
+use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -27,8 +28,11 @@ const LARGE: usize = 600;
 
 /// Lists of vertex numbers, each a convex polygon running the way the whole one does
 /// (counter-clockwise), or none where the vertices form no simple polygon. Takes time as the square
-/// of the number of vertices, where these are very many.
+/// of the number of vertices, where these are very many and do not lie convex.
 pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>> {
+    if is_convex(vertices) {
+        return Some(vec![(0..vertices.len()).collect()]);
+    }
     let mut parts = Vec::new();
     let mut diagonals = Vec::new();
     let mut open = vec![(0..vertices.len()).collect::<Vec<_>>()];
@@ -54,6 +58,23 @@ pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>>
         merge(&mut parts, vertices, i, j);
     }
     Some(parts)
+}
+
+/// Whether the closed way over the vertices turns back at none of them, left or not at all at
+/// each, and once around in all.
+fn is_convex(vertices: &[Vector2<f64>]) -> bool {
+    let n = vertices.len();
+    let angle = |k: usize| {
+        let at = |k: usize| vertices[k % n];
+        let (u, v) = (at(k + 1) - at(k), at(k + 2) - at(k + 1));
+        cross(u, v).atan2(u.dot(&v))
+    };
+    let angles = (0..n).map(angle);
+    n > 2
+        && angles
+            .clone()
+            .all(|angle| (-STRAIGHT..PI - STRAIGHT).contains(&angle))
+        && angles.sum::<f64>() < 3.0 * PI
 }
 
 /// A diagonal with about as many vertices on either side, the shortest of those that part them
@@ -319,5 +340,28 @@ mod tests {
             corners().fold(f64::INFINITY, f64::min) < 0.5
         });
         assert!(long.count() <= 2, "{parts:?}");
+    }
+
+    #[test]
+    fn a_convex_outline_is_its_own_part_and_one_that_goes_round_twice_is_not() {
+        let ring = |turns: f64, n: usize| -> Vec<_> {
+            let angle = |k: usize| 2.0 * PI * turns * k as f64 / n as f64;
+            let point = |k| Vector2::new(angle(k).cos(), angle(k).sin());
+            (0..n).map(point).collect()
+        };
+        let many = 5_000;
+        let whole = (0..many).collect::<Vec<_>>();
+        assert_eq!(convex_parts(&ring(1.0, many)), Some(vec![whole]));
+        assert!(is_convex(&points(&[
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [2.0, 0.0],
+            [0.0, 1.0]
+        ])));
+        assert!(!is_convex(&ring(2.0, 5)), "a star");
+        assert!(
+            !is_convex(&points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]])),
+            "a line"
+        );
     }
 }

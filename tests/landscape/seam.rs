@@ -141,6 +141,7 @@ impl CellBounds for Seam {
             form: self.form(&cell.centre),
             low: -remainder,
             high: remainder,
+            ..Enclosure::unknown()
         }
     }
 }

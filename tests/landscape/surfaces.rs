@@ -84,6 +84,7 @@ impl CellBounds for DoubleWell {
             form,
             low: -third - rounding,
             high: third + fourth + rounding,
+            ..Enclosure::unknown()
         }
     }
 }
@@ -219,6 +220,7 @@ impl CellBounds for MuellerBrown {
             form: self.form(&cell.centre),
             low: -remainder,
             high: remainder,
+            ..Enclosure::unknown()
         }
     }
 }

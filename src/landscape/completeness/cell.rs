@@ -12,8 +12,10 @@ use crate::potential::bounds::{CellBounds, Enclosure};
 
 /// Cells in which more contacts than these may be made are subdivided first.
 const MOST_CONTACTS: usize = 600;
-/// Longest component of a step downhill, in units of the cell's half size along it.
+/// Longest component of a step downhill, in units of the cell's half size along it: of one that is
+/// judged by the energy's values, and of one that is judged by its slopes.
 const FALL: f64 = 1.0;
+const SHORT_FALL: f64 = 1.0 / 16.0;
 /// The same of steps off contact, which have to clear the whole cell; a peg in a hole turns far.
 const WAYS_OUT: [f64; 2] = [6.0, 60.0];
 /// A projected force shorter than this share of the whole one is taken for none.
@@ -55,7 +57,7 @@ impl CellProof<'_> {
         let CellContact::Open { cuts, corners, .. } = contact else {
             return Verdict::Nothing;
         };
-        let enclosure = self.bounds.enclose(cell);
+        let enclosure = self.bounds.enclose(&widened(cell, SHORT_FALL));
         let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners).lower;
         if lowest > self.level {
             return Verdict::Nothing;
@@ -77,10 +79,7 @@ impl CellProof<'_> {
     /// The contacts that may be made by steps from the cell with components of at most `longest`
     /// half sizes.
     fn within_steps(&self, cell: &Cell, longest: f64) -> Option<Vec<PossibleContact>> {
-        self.possible(&Cell {
-            centre: cell.centre,
-            half: cell.half.map(|h| (1.0 + longest) * h),
-        })
+        self.possible(&widened(cell, longest))
     }
 
     fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
@@ -89,24 +88,27 @@ impl CellProof<'_> {
         })
     }
 
-    /// Whether one step leads downhill from every free configuration of the cell.
+    /// Whether one step leads downhill from every free configuration of the cell. Short ones show
+    /// the most, where the energy's slope is bounded; `room` is known of all that they sweep.
     fn falls(
         &self,
         cell: &Cell,
-        enclosure: &Enclosure,
+        room: &Enclosure,
         cuts: &[Cut],
         corners: &[[Cut; 2]],
     ) -> Option<bool> {
-        let unknown = enclosure.high - enclosure.low;
+        let is_smooth = room.slope.is_finite();
+        let longest = if is_smooth { SHORT_FALL } else { FALL };
+        let unknown = room.change(longest);
         let out = self.pushed_out(cell, cuts, corners);
-        let gradient = slope(&enclosure.form, &out);
+        let gradient = slope(&room.form, &out);
         let most: f64 = (0..3)
-            .map(|i| gradient[i].abs() * FALL * cell.half[i])
+            .map(|i| gradient[i].abs() * longest * cell.half[i])
             .sum();
         if most <= unknown {
             return None;
         }
-        let contacts = self.within_steps(cell, FALL)?;
+        let contacts = self.within_steps(cell, longest)?;
         let force = -(self.metric.try_inverse()? * gradient);
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
         let (direction, _) = closest_admissible(force, &self.metric, &held)?;
@@ -114,11 +116,22 @@ impl CellProof<'_> {
         if length(&direction) <= HELD * length(&force) {
             return None;
         }
-        let wanted = fitted(&direction, &cell.half, FALL);
-        let step = self.opening_step(cell, &contacts, (wanted, FALL), |_| 0.0)?;
-        // What is unknown over the cell is known no better over all that the step sweeps.
-        let is_promising = gradient.dot(&step) + unknown < 0.0;
-        Some(is_promising && self.is_fall(cell, &step, cuts, corners))
+        let wanted = fitted(&direction, &cell.half, longest);
+        let step = self.opening_step(cell, &contacts, (wanted, longest), |_| 0.0)?;
+        if gradient.dot(&step) + room.change(share(&step, cell)) >= 0.0 {
+            return Some(false);
+        }
+        let lowers = |known: &Enclosure, from: &Vector3<f64>, swept: &Cell| {
+            self.is_lowered(cell, &step, (known, from, swept), cuts, corners)
+        };
+        // What is within a short step is known already, and so is that the step closes nothing.
+        Some(if is_smooth {
+            lowers(room, &Vector3::zeros(), &widened(cell, longest))
+        } else {
+            let swept = swept(cell, &step);
+            self.closes_nothing(&swept, &step)
+                && lowers(&self.bounds.enclose(&swept), &(-step / 2.0), &swept)
+        })
     }
 
     /// The offset from the centre, within the cell, of about the nearest free configuration.
@@ -174,30 +187,29 @@ impl CellProof<'_> {
         contacts.is_some_and(|all| all.iter().all(|c| c.opening(&swept.half, step) >= 0.0))
     }
 
-    /// Whether the step keeps free configurations free and lowers the energy from everywhere in the
-    /// cell, with no more than the allowed rise on the way.
-    fn is_fall(
+    /// Whether the step lowers the energy from everywhere in the cell, with no more than the allowed
+    /// rise on the way; by what is known of a box that holds all that it sweeps, in which the cell's
+    /// centre lies at `from`.
+    fn is_lowered(
         &self,
         cell: &Cell,
         step: &Vector3<f64>,
+        (known, from, swept): (&Enclosure, &Vector3<f64>, &Cell),
         cuts: &[Cut],
         corners: &[[Cut; 2]],
     ) -> bool {
-        let swept = swept(cell, step);
-        if !self.closes_nothing(&swept, step) {
-            return false;
-        }
-        let known = self.bounds.enclose(&swept);
-        let change = change(&known.form, step);
+        let change = change(&known.form, from, step);
         // The greatest change is minus the least of its negative.
         let negative = Enclosure {
             form: Quadratic::default().minus(1.0, &change),
             ..Enclosure::default()
         };
         let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts, corners).lower;
-        let slack = known.high - known.low + 2.0 * known.form.rounding(&swept.half);
+        let slack = known.change(share(step, swept)) + 2.0 * known.form.rounding(&swept.half);
         let bend = quadratic(&known.form, step);
-        let risen = (greatest - bend / 2.0).max(0.0) * f64::from(bend < 0.0) + slack;
+        // A part t of the step changes the form by t times its change, less t (1 - t) / 2 times
+        // the bend.
+        let risen = greatest.max(0.0) + (-bend).max(0.0) / 8.0 + slack;
         greatest + slack < 0.0 && risen <= self.rise
     }
 
@@ -272,12 +284,27 @@ fn quadratic(form: &Quadratic, d: &Vector3<f64>) -> f64 {
     d.dot(&product(form, d))
 }
 
-/// By how much a form about the middle of a step changes along it, as a form of the offset of the
-/// step's start from where it starts at the cell's centre.
-fn change(form: &Quadratic, step: &Vector3<f64>) -> Quadratic {
+/// By how much a form changes along a step that starts `from` its centre, as a form of the offset
+/// from there.
+fn change(form: &Quadratic, from: &Vector3<f64>, step: &Vector3<f64>) -> Quadratic {
+    let bent = product(form, step);
     Quadratic {
-        value: Vector3::from(form.gradient).dot(step),
-        gradient: product(form, step).into(),
+        value: slope(form, &(from + step / 2.0)).dot(step),
+        gradient: bent.into(),
         hessian: [0.0; 6],
+    }
+}
+
+/// The largest share of a cell's half sizes that a step's components have.
+fn share(step: &Vector3<f64>, cell: &Cell) -> f64 {
+    let shares = (0..3).map(|i| step[i].abs() / cell.half[i]);
+    shares.fold(0.0, f64::max)
+}
+
+/// A cell with the share `more` of its half sizes added on all sides.
+fn widened(cell: &Cell, more: f64) -> Cell {
+    Cell {
+        centre: cell.centre,
+        half: cell.half.map(|half| (1.0 + more) * half),
     }
 }

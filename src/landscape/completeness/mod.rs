@@ -9,8 +9,9 @@
 //! - **falling**: one step `w` leads from every free configuration of the cell to another free
 //!   one that is lower by at least some `d > 0`. Free throughout: no gap that a vertex and an edge
 //!   can close in the box that the step sweeps closes along it. Lower: the energy's second-order
-//!   form changes along `w` by `g w + w H d`, bounded over the cell, plus what the enclosure leaves
-//!   open, which is also all that the energy may rise on the way;
+//!   form changes along `w` by `g w + w H d + w H w / 2`, bounded over the cell, plus what the
+//!   enclosure leaves open of the slope along a short step (of the values along a long one, where
+//!   the slope has no bound), which is also about all that the energy may rise on the way;
 //! - **explained**: one step leads from every free configuration of the cell into a box without
 //!   contact, and from there a proved pathway to a known minimum, all of it no more than `e` above
 //!   the cell's lowest energy;

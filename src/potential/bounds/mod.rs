@@ -22,6 +22,12 @@ pub struct Enclosure {
     pub low: f64,
     /// The most that U exceeds it by (J).
     pub high: f64,
+    /// How closely the form follows U along motions: on a straight way within the cell on which the
+    /// tiles' interiors are disjoint, with components of at most the share s of the cell's half
+    /// sizes, `U - form` changes by at most `s slope + jump` (J).
+    pub slope: f64,
+    /// What tiles that touch add to that (J).
+    pub jump: f64,
 }
 
 impl Enclosure {
@@ -30,7 +36,32 @@ impl Enclosure {
         Self {
             low: f64::NEG_INFINITY,
             high: f64::INFINITY,
+            slope: f64::INFINITY,
             ..Self::default()
+        }
+    }
+
+    /// A form with a remainder (J) on either side that is of the given order in the cell's size: a
+    /// bound of a derivative of that order along any way from the centre, made of products of
+    /// speeds. The same product with one speed for that of a motion bounds the remainder's slope.
+    pub(super) fn of_order(order: f64, form: Quadratic, remainder: f64) -> Self {
+        Self {
+            form,
+            low: -remainder,
+            high: remainder,
+            slope: order * remainder,
+            jump: 0.0,
+        }
+    }
+
+    /// The most that `U - form` changes (J) on a straight way with components of at most this share
+    /// of the cell's half sizes.
+    pub fn change(&self, share: f64) -> f64 {
+        let known = self.high - self.low;
+        if self.slope.is_finite() {
+            known.min(share * self.slope + self.jump)
+        } else {
+            known
         }
     }
 }

@@ -2,10 +2,9 @@
 
 use nalgebra::Vector2;
 
-use super::panel::Quadrature;
-use super::quadrature::{Corner, Fineness, NO_CORNER};
+use super::panel::Near;
+use super::quadrature::{Corner, NO_CORNER};
 use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task};
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 
@@ -76,6 +75,19 @@ pub struct PairEnergy {
     pub gradient: Vector2<f64>,
     /// By the second block's angle about its own centre (J/rad).
     pub slope: f64,
+}
+
+impl PairEnergy {
+    /// [`exact`] for the given instruction set; the derivatives are zero where not asked for.
+    pub(super) fn near<const SLOPE: bool>(level: Level, first: &Block, second: &Block) -> Self {
+        let pair = BlockPair::new(first, second, second.position);
+        let (energy, gradient) = level.run(Near::<SLOPE>::of(&[pair]));
+        Self {
+            energy,
+            gradient: gradient.xy(),
+            slope: gradient.z,
+        }
+    }
 }
 
 /// Two blocks as four pairs of pole faces, all at the same angle. Coordinates are those of the
@@ -219,30 +231,7 @@ impl BlockPair {
 /// Two blocks' energy and its derivatives by their pole faces, however far apart they are: exact
 /// near by, while far away (from some thirty times their size on) digits are lost to cancellation.
 pub fn exact(first: &Block, second: &Block) -> PairEnergy {
-    struct Exact<'a>(&'a Block, &'a Block);
-    impl Task for Exact<'_> {
-        type Output = PairEnergy;
-
-        #[inline(always)]
-        fn run<L: Lanes>(self, l: L) -> PairEnergy {
-            near::<L, true>(l, self.0, self.1)
-        }
-    }
-    Level::best().run(Exact(first, second))
-}
-
-/// [`exact`] in vectors; the derivatives are zero where not asked for.
-#[inline(always)]
-pub(super) fn near<L: Lanes, const SLOPE: bool>(l: L, first: &Block, second: &Block) -> PairEnergy {
-    let pair = BlockPair::new(first, second, second.position);
-    let mut quadrature = Quadrature::new(l, &pair, Fineness::NORMAL);
-    quadrature.add::<L, SLOPE>(l, &pair);
-    let (energy, gradient) = quadrature.sum::<L, SLOPE>(l);
-    PairEnergy {
-        energy,
-        gradient: gradient.xy(),
-        slope: gradient.z,
-    }
+    PairEnergy::near::<true>(Level::best(), first, second)
 }
 
 #[cfg(test)]

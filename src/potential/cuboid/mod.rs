@@ -200,6 +200,12 @@ impl CuboidPotential {
         all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
     }
 
+    /// The bounds of the derivatives of the fixed block `i` and the moving block `j`, for moments of
+    /// 1 A m^2.
+    pub(in crate::potential) fn limits(&self, i: usize, j: usize) -> &Limits {
+        &self.far[self.fixed[i].size][self.moving[j].size].limits
+    }
+
     /// The far form of two groups at a configuration with this rotation, e^(i times the angle
     /// between their axes), and the moving tile's place (m): in the frame whose x axis is the fixed
     /// blocks' axis.

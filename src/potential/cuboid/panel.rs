@@ -5,7 +5,38 @@ use nalgebra::{Vector2, Vector3};
 use super::block::{BlockPair, Faces};
 use super::quadrature::{Fineness, MOST, Panel, Rules, panels};
 use super::sheet::{potential, subtended};
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
+use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+
+/// The energy (J) of pairs of blocks that have the same sizes and stand at the same angle to each
+/// other, and its gradient where asked for: the one place that brings the quadrature into machine
+/// code, for it takes long to compile. At least one pair.
+pub struct Near<'a, const SLOPE: bool> {
+    pairs: &'a [BlockPair],
+    fineness: Fineness,
+}
+
+impl<'a, const SLOPE: bool> Near<'a, SLOPE> {
+    /// Of these pairs, as finely as energies are stated.
+    pub fn of(pairs: &'a [BlockPair]) -> Self {
+        Self {
+            pairs,
+            fineness: Fineness::NORMAL,
+        }
+    }
+}
+
+impl<const SLOPE: bool> Task for Near<'_, SLOPE> {
+    type Output = (f64, Vector3<f64>);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let mut quadrature = Quadrature::new(l, &self.pairs[0], self.fineness);
+        for pair in self.pairs {
+            quadrature.add::<L, SLOPE>(l, pair);
+        }
+        quadrature.sum::<L, SLOPE>(l)
+    }
+}
 
 /// Nodes that are waited for before they are evaluated.
 const BATCH: usize = 64;
@@ -18,7 +49,7 @@ const ROOM: usize = BATCH + MOST + MAX_WIDTH;
 ///
 /// Nodes of all panels follow each other without gaps, so that vectors are full whatever the
 /// rules' lengths.
-pub struct Quadrature<F> {
+struct Quadrature<F> {
     fineness: Fineness,
     rules: &'static Rules,
     panels: Vec<Panel>,
@@ -46,7 +77,7 @@ pub struct Quadrature<F> {
 impl<F: Copy> Quadrature<F> {
     /// For pairs like this one.
     #[inline(always)]
-    pub fn new<L: Lanes<F = F>>(l: L, pair: &BlockPair, fineness: Fineness) -> Self {
+    fn new<L: Lanes<F = F>>(l: L, pair: &BlockPair, fineness: Fineness) -> Self {
         Self {
             fineness,
             rules: Rules::get(),
@@ -68,7 +99,7 @@ impl<F: Copy> Quadrature<F> {
 
     /// Adds a pair of blocks.
     #[inline(always)]
-    pub fn add<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L, pair: &BlockPair) {
+    fn add<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L, pair: &BlockPair) {
         let faces = pair.all_faces();
         if SLOPE {
             pair.add_closed_gradient(l, &faces, &mut self.gradient);
@@ -211,7 +242,7 @@ impl<F: Copy> Quadrature<F> {
 
     /// The energy and, if asked for, the gradient of all that was added.
     #[inline(always)]
-    pub fn sum<L: Lanes<F = F>, const SLOPE: bool>(mut self, l: L) -> (f64, Vector3<f64>) {
+    fn sum<L: Lanes<F = F>, const SLOPE: bool>(mut self, l: L) -> (f64, Vector3<f64>) {
         // Nodes of no weight fill the last vector.
         l.store(l.splat(0.0), &mut self.weight[self.count..]);
         l.store(l.splat(0.0), &mut self.x[self.count..]);
@@ -233,22 +264,8 @@ mod tests {
     use super::super::block::Block;
     use super::*;
     use crate::potential::batch::Level;
-    use crate::potential::batch::lanes::Task;
     use rand::{RngExt, SeedableRng};
     use std::f64::consts::{FRAC_PI_2, PI};
-
-    struct Job<'a>(&'a BlockPair, Fineness);
-
-    impl Task for Job<'_> {
-        type Output = (f64, Vector3<f64>);
-
-        #[inline(always)]
-        fn run<L: Lanes>(self, l: L) -> Self::Output {
-            let mut quadrature = Quadrature::new(l, self.0, self.1);
-            quadrature.add::<L, true>(l, self.0);
-            quadrature.sum::<L, true>(l)
-        }
-    }
 
     /// Panels so fine that nothing is left to gain.
     const FINE: Fineness = Fineness {
@@ -296,8 +313,10 @@ mod tests {
                     let size = [[0.010, 0.010, 0.003], [0.008, 0.007, 0.005]][trial / 3 % 2];
                     let pair = pair(size, gap, sign * tilt + turn, slide);
                     let level = Level::best();
-                    let (energy, gradient) = level.run(Job(&pair, Fineness::NORMAL));
-                    let (fine, slope) = level.run(Job(&pair, FINE));
+                    let pairs = &[pair];
+                    let (energy, gradient) = level.run(Near::<true>::of(pairs));
+                    let fineness = FINE;
+                    let (fine, slope) = level.run(Near::<true> { pairs, fineness });
                     // Relative to the force where sliding takes the energy through zero.
                     let force = slope.xy().norm();
                     let scale = fine.abs().max(0.001 * force);

@@ -3,11 +3,10 @@
 use nalgebra::{Complex, Vector2, Vector3};
 
 use super::CuboidPotential;
-use super::block::{self, BlockPair, PairEnergy};
+use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
-use super::panel::Quadrature;
-use super::quadrature::Fineness;
+use super::panel::Near;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 use crate::units::MU0_OVER_4PI;
@@ -40,7 +39,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
                     &mut near,
                 );
                 if !near.is_empty() {
-                    let sum = self.near(l, [fixed, moving], rotation, &near);
+                    let sum = self.near([fixed, moving], rotation, &near);
                     energy += sum.0;
                     gradient += sum.1;
                     near.clear();
@@ -106,26 +105,21 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     }
 
     /// The pairs, of the blocks with these numbers in two groups, by their pole faces.
-    #[inline(always)]
-    fn near<L: Lanes>(
+    fn near(
         &self,
-        l: L,
         [fixed, moving]: [&Group; 2],
         rotation: Complex<f64>,
         pairs: &[[usize; 2]],
     ) -> (f64, Vector3<f64>) {
         let centre = self.q.position();
-        let pair = |[i, j]: [usize; 2]| {
+        let pair = |&[i, j]: &[usize; 2]| {
             let first = fixed.block(&self.potential.fixed, i);
             let second = moving.block(&self.potential.moving, j);
             let second = second.moved(rotation.re, rotation.im, centre);
             BlockPair::new(&first, &second, centre)
         };
-        let mut quadrature = Quadrature::new(l, &pair(pairs[0]), Fineness::NORMAL);
-        for numbers in pairs {
-            quadrature.add::<L, SLOPE>(l, &pair(*numbers));
-        }
-        quadrature.sum::<L, SLOPE>(l)
+        let pairs: Vec<_> = pairs.iter().map(pair).collect();
+        self.potential.level.run(Near::<SLOPE>::of(&pairs))
     }
 }
 
@@ -165,11 +159,8 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
                             self.out[at] = if lane.square < far.near() {
                                 let moving = &self.potential.moving[second].block;
                                 let moved = moving.moved(cos, sin, self.q.position());
-                                block::near::<L, SLOPE>(
-                                    l,
-                                    &self.potential.fixed[first].block,
-                                    &moved,
-                                )
+                                let fixed = &self.potential.fixed[first].block;
+                                PairEnergy::near::<SLOPE>(self.potential.level, fixed, &moved)
                             } else {
                                 lane.pair
                             };

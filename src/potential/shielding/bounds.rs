@@ -121,15 +121,15 @@ impl CellBounds for ShieldedBounds {
             extent: self.extent,
             rest: &mut rest,
         });
-        let mut out = Enclosure {
-            form: Quadratic {
-                value,
-                gradient: gradient.into(),
-                ..Quadratic::default()
-            },
-            low: -left_out,
-            high: left_out,
+        let form = Quadratic {
+            value,
+            gradient: gradient.into(),
+            ..Quadratic::default()
         };
+        let mut out = Enclosure::of_order(2.0, form, left_out);
+        if !rest.is_empty() {
+            out.slope = f64::INFINITY;
+        }
         for (i, j) in rest {
             let Some(interval) = self.interval(cell, i, j) else {
                 return Enclosure::unknown();

@@ -259,6 +259,8 @@ impl Stage {
             };
             out.low += low;
             out.high += high;
+            out.slope += one.slope;
+            out.jump += one.jump;
         }
         // What the sums lose to rounding, generously.
         let size = by_magnets

@@ -11,7 +11,7 @@ use tilebind::potential::bounds::CuboidBounds;
 use tilebind::potential::{CellBounds, CuboidPotential, Potential};
 use tilebind::tile::Tile;
 
-use super::paper_tiles;
+use super::{assert_follows, paper_tiles};
 
 /// The tile of the paper with blocks of other shapes at other angles, as deep in the tile as they
 /// just fit.
@@ -84,6 +84,7 @@ fn check_random_cells(tiles: &[Tile; 2], level: Level, cells: usize) -> usize {
                 enclosure.low,
                 enclosure.high
             );
+            assert_follows(&enclosure, &potential, &cell, d, 3e-6);
         }
     }
     tested
@@ -128,6 +129,31 @@ fn the_width_shrinks_with_the_cell() {
     // Face to face: second order but for logarithms.
     assert!(at(0.43, 1e-4) < 1e-2 * depth, "{}", at(0.43, 1e-4));
     assert!(at(0.43, 1e-4) > 30.0 * at(0.43, 1e-5), "{}", at(0.43, 1e-5));
+}
+
+#[test]
+fn slopes_are_followed_more_closely_than_values_over_short_ways() {
+    let (a, b) = paper_tiles();
+    let bounds = CuboidBounds::new(&a, &b);
+    // Clear of each other, faces flush, edges flush with edges, and tilted on a corner.
+    for [x, y, theta] in [
+        [0.46, 0.013, 0.0],
+        [0.43, 0.013, 0.0],
+        [0.43, 0.01, 0.0],
+        [0.4301, 0.0, 2e-3],
+    ] {
+        let enclosure = bounds.enclose(&Cell {
+            centre: [x, y, theta].into(),
+            half: [1e-4, 1e-4, 2e-4],
+        });
+        let known = enclosure.high - enclosure.low;
+        // As many halves of what is known of values as the order of what is left out.
+        assert!(enclosure.slope < 2.0 * known, "{x} {y} {enclosure:?}");
+        assert!(
+            enclosure.change(0.1) < 0.25 * known,
+            "{x} {y} {enclosure:?}"
+        );
+    }
 }
 
 #[test]

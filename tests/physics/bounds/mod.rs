@@ -7,7 +7,7 @@ mod widths;
 
 use std::f64::consts::PI;
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix3, Vector2, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use tilebind::cell::Cell;
@@ -102,6 +102,37 @@ pub fn assert_encloses(
             enclosure.low,
             enclosure.high
         );
+        assert_follows(enclosure, potential, cell, d, 1e-9);
     }
     tested
+}
+
+/// Asserts that the form's slope at the offset d from a cell's centre, along all diagonals of the
+/// cell, is no farther from the energy's than the enclosure says, and than the gradient's relative
+/// error.
+pub fn assert_follows(
+    enclosure: &Enclosure,
+    potential: &dyn Potential,
+    cell: &Cell,
+    d: [f64; 3],
+    error: f64,
+) {
+    let (energy, gradient) = potential.energy_and_gradient(&cell.centre.moved(d.into()));
+    let [xx, yy, tt, xy, xt, yt] = enclosure.form.hessian;
+    let bent = Matrix3::new(xx, xy, xt, xy, yy, yt, xt, yt, tt) * Vector3::from(d);
+    let rest = gradient - Vector3::from(enclosure.form.gradient) - bent;
+    let size: f64 = (0..3).map(|i| gradient[i].abs() * cell.half[i]).sum();
+    for signs in [
+        [1.0, 1.0, 1.0],
+        [1.0, 1.0, -1.0],
+        [1.0, -1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+    ] {
+        let along: f64 = (0..3).map(|i| signs[i] * cell.half[i] * rest[i]).sum();
+        assert!(
+            along.abs() <= enclosure.slope + error * (size + energy.abs()),
+            "{cell:?} {d:?} {signs:?}: {along} > {}",
+            enclosure.slope
+        );
+    }
 }

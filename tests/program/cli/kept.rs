@@ -23,7 +23,7 @@ const SHORT: [&str; 5] = [
 ];
 
 fn analyse(out: &Path, more: &[&str]) -> Output {
-    let quick = "--milestones 500 --far-starts 20 --certify-seconds 0 --complete-seconds 0 --quiet";
+    let quick = "--milestones 200 --far-starts 5 --certify-seconds 0 --complete-seconds 0 --quiet";
     let mut arguments = vec!["analyse", DESIGN, "--out", out.to_str().unwrap()];
     arguments.extend(quick.split(' '));
     arguments.extend(more);

@@ -40,18 +40,21 @@
 //! is `4 ln(sqrt(h^2 + high^2) / sqrt(h^2 + low^2))`, high and low half the sum and half the
 //! difference of the thicknesses, and the rule and the integral are each no farther from its tangent
 //! than `4 e^2 (1/2 ln(sqrt(e^2 + high^2) / sqrt(e^2 + low^2)) + 3/4)`, e how far h changes along half
-//! the panel. What a motion by dh bends along h is left out of the forms: `A_hh` is not negative
-//! while u is at least h, nor is that second derivative, so it lies between 0 and the bound above
-//! (e = dh) plus half dh^2 times the sum of `E(p) = 2 (r_high - r_low) / p` over both edges. The rest
-//! is of third order: `A_vvv` is at most the sum of `2 E(p) / p`, `A_vvh` of `3/2 E(p) / p`.
+//! the panel. Along h the forms have a constant second derivative (an *arch*): in place of the one
+//! just named, which falls with h like a logarithm, that of a height near the middle of those within
+//! reach (see `faces::arch`, with what it is wrong by); and in place of `A_hh`, which is not negative
+//! while u is at least h and at most the sum of `E(p) = 2 (r_high - r_low) / p` over both edges,
+//! half of that. The rest is of third order: `A_vvv` and `A_vhh` are at most the sum of
+//! `2 E(p) / p`, `A_vvh` of `3/2 E(p) / p`, and what a way bends off its straight part.
 //!
-//! **Touching panels** are cut to about a quarter of the reach and have first-order forms about their
+//! **Touching panels** are cut to about a quarter of the reach and have forms about their
 //! middles. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of the
 //! face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and
 //! `4 asinh(w1 / 2 / sqrt(h^2 + low^2))`, from the level ones. The latter grows like a logarithm as
-//! h tends to 0, and its average over a straight way on one side of the face adds 3/4 to half of the
-//! arc function at the far end (`int (1 - t) ln(1/t) dt = 3/4`; beside the face, where h may
-//! change its sign, at most 7/4). Phi_h jumps at the face itself, but a panel over the face that got
+//! h tends to 0. Over the face the forms have an arch in its place, the sum over both ends, s from
+//! there, of `2 [asinh(s / sqrt(h^2 + low^2)) - asinh(s / sqrt(h^2 + high^2))]`. Beside the face,
+//! where h may change its sign, its average over a straight way adds at most 7/4 to half of the arc
+//! function at the far end. Phi_h jumps at the face itself, but a panel over the face that got
 //! below it would be inside the first block, which lies in its own tile: not free. The forms are
 //! hence those of the outer side. Should a block stick out of its tile, or the cell be too large, and
 //! at the face's upright edges, the panel has an interval: Phi falls with the distance from the
@@ -60,6 +63,12 @@
 //! A pair of which all that says less than `2 K / d^3` (d the least distance of the blocks) or
 //! `sqrt(U11 U22)` (Cauchy and Schwarz; Uii the energy of a block's charges with a copy of
 //! themselves, bounded in the same way) has the smaller of these as its interval.
+//!
+//! # Slopes
+//! What a form of order n leaves out changes along a motion by the share s of the cell's half sizes
+//! by at most n s times its remainder, as in `dipole::taylor`; terms of their own are where the
+//! remainder is an average (`int ln(1/t) dt = 1`) or of a rule. Along h the slope jumps where
+//! blocks that stick out of their tiles overlap: by at most 4 pi thicknesses over at most so far.
 //!
 //! # Rounding
 //! Dipoles as in [`DipoleBounds`]. Phi and its derivatives are sums of a few dozen terms on partial
@@ -86,7 +95,7 @@ use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::correction::Correction;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
-use faces::{Motion, Pair};
+use faces::{Left, Motion, Pair};
 use nodes::{Nodes, Sum, Totals};
 
 /// Blocks closer than this many sums of their radii are taken by their pole faces.
@@ -167,11 +176,11 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
         .iter()
         .map(|magnet| {
             let block = Block::from(magnet);
-            let (totals, rest) = faces(level, &block, &block, &SELF, &mut Nodes::new());
+            let (totals, left) = faces(level, &block, &block, &SELF, &mut Nodes::new());
             Enclosed {
                 block,
                 inside: inside(magnet),
-                own: (totals.value + rest).max(0.0).sqrt(),
+                own: (totals.value + left.spread).max(0.0).sqrt(),
             }
         })
         .collect()
@@ -186,21 +195,21 @@ const SELF: Motion = Motion {
     apart: false,
 };
 
-/// The form of two blocks by their pole faces, in the frame of the first one's axis, and the bound
-/// (J) of what it leaves out, rounding included.
+/// The form of two blocks by their pole faces, in the frame of the first one's axis, and what it
+/// leaves out, rounding included.
 fn faces(
     level: Level,
     first: &Block,
     second: &Block,
     motion: &Motion,
     nodes: &mut Nodes,
-) -> (Totals, f64) {
+) -> (Totals, Left) {
     let volume = |block: &Block| block.size.iter().product::<f64>();
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     nodes.clear();
     let left = Pair::new(first, second, strength, motion).append(nodes);
     nodes.fill(level.width());
-    let mut totals = level.run(Sum {
+    let totals = level.run(Sum {
         nodes,
         half: first.size[1] / 2.0,
         heights: [
@@ -211,8 +220,12 @@ fn faces(
     let whole: f64 = first.size.iter().chain(&second.size).sum();
     let whole = whole + (second.position - first.position).norm();
     let rounding = ROUNDING * strength.abs() * second.size[1] * whole * whole;
-    totals.value += left.middle;
-    (totals, left.spread + totals.spread + rounding)
+    let left = Left {
+        spread: left.spread + totals.spread + rounding,
+        slope: left.slope + 3.0 * totals.turned + rounding,
+        jump: left.jump,
+    };
+    (totals, left)
 }
 
 /// Whether the outline runs through a block's inner part.
@@ -254,11 +267,7 @@ impl CellBounds for CuboidBounds {
             weights: &weights,
             stride: self.dipoles.stride(),
         });
-        let mut out = Enclosure {
-            form,
-            low: -remainder,
-            high: remainder,
-        };
+        let mut out = Enclosure::of_order(3.0, form, remainder);
         out.form.value += energy;
         for (total, share) in out.form.gradient.iter_mut().zip(gradient.iter()) {
             *total += share;
@@ -304,13 +313,28 @@ impl CuboidBounds {
         };
         let by_faces = (!coarse)
             .then(|| faces(self.level, first, &second, &motion, nodes))
-            .filter(|(_, rest)| *rest < most);
-        let rest = by_faces.as_ref().map_or(most, |(totals, rest)| {
-            out.form = out.form.minus(-1.0, &in_the_plane(totals, first.axis));
-            *rest
-        });
-        out.low -= rest;
-        out.high += rest;
+            .filter(|(_, left)| left.spread < most);
+        let left = by_faces.map_or_else(
+            || {
+                let limits = self.potential.limits(i, j);
+                let rate = cell.half[2] / reach.max(f64::MIN_POSITIVE);
+                let steepest = limits.gradient(rate, gap) * (1.0 + ROUNDING);
+                let strength = (first.moment * second.moment).abs();
+                Left {
+                    spread: most,
+                    slope: strength * steepest * reach,
+                    ..Left::default()
+                }
+            },
+            |(totals, left)| {
+                out.form = out.form.minus(-1.0, &in_the_plane(&totals, first.axis));
+                left
+            },
+        );
+        out.low -= left.spread;
+        out.high += left.spread;
+        out.slope += left.slope;
+        out.jump += left.jump;
     }
 }
 

@@ -21,6 +21,8 @@ pub(super) struct Node {
     pub slope: f64,
     pub bend: f64,
     pub bend_h: f64,
+    /// Second derivative (J/m^2) along h that the form has instead of the potential's own.
+    pub arch: f64,
     /// Weight of the potential in what is uncertain, and that of the magnitude of its slopes (that
     /// times m).
     pub spread: f64,
@@ -29,7 +31,8 @@ pub(super) struct Node {
     pub arm: [f64; 2],
 }
 
-const COLUMNS: usize = 12;
+const COLUMNS: usize = 13;
+const SUMS: usize = 12;
 
 /// Nodes as a structure of arrays.
 #[derive(Clone, Debug)]
@@ -58,6 +61,7 @@ impl Nodes {
             node.slope,
             node.bend,
             node.bend_h,
+            node.arch,
             node.spread,
             node.turn,
             u,
@@ -88,8 +92,9 @@ pub(super) struct Totals {
     pub gradient: [f64; 3],
     /// As (uu, vv, angle angle, uv, u angle, v angle).
     pub hessian: [f64; 6],
-    /// What is uncertain (J).
+    /// What is uncertain (J), and its part that comes from the slopes.
     pub spread: f64,
+    pub turned: f64,
 }
 
 /// Sums up all nodes in the field of a pole face of half the width `half` (m); `heights` are half
@@ -105,29 +110,30 @@ impl Task for Sum<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Totals {
-        let mut sums = [l.splat(0.0); 11];
+        let mut sums = [l.splat(0.0); SUMS];
         let mut from = 0;
         while from < self.nodes.0[0].len() {
             self.add(l, from, &mut sums);
             from += L::WIDTH;
         }
-        let mut totals = [0.0; 11];
+        let mut totals = [0.0; SUMS];
         for (total, sum) in totals.iter_mut().zip(sums) {
             *total = l.sum(sum);
         }
-        let [value, u, v, turn, uu, vv, tt, uv, ut, vt, spread] = totals;
+        let [value, u, v, turn, uu, vv, tt, uv, ut, vt, spread, turned] = totals;
         Totals {
             value,
             gradient: [u, v, turn],
             hessian: [uu, vv, tt, uv, ut, vt],
-            spread,
+            spread: spread + turned,
+            turned,
         }
     }
 }
 
 impl Sum<'_> {
     #[inline(always)]
-    fn add<L: Lanes>(&self, l: L, from: usize, sums: &mut [L::F; 11]) {
+    fn add<L: Lanes>(&self, l: L, from: usize, sums: &mut [L::F; SUMS]) {
         let [
             v,
             h,
@@ -137,6 +143,7 @@ impl Sum<'_> {
             slope,
             bend,
             bend_h,
+            arch,
             spread,
             turn,
             arm_u,
@@ -149,12 +156,14 @@ impl Sum<'_> {
         let phi: Expansion<L::F> = expansion(l, ends, l.load(&h[from..]), self.heights);
 
         let weight = l.load(&slope[from..]);
-        let gu = l.mul(l.mul(weight, side), phi.h);
-        let bend = l.load(&bend[from..]);
         let shift = l.load(&shift[from..]);
+        let arch = l.load(&arch[from..]);
+        let arched = l.mul(arch, shift);
+        let gu = l.mul(side, l.mul_add(weight, phi.h, arched));
+        let bend = l.load(&bend[from..]);
         // Along v at the place that is meant.
         let gv = l.mul_add(weight, phi.x, l.mul(l.mul(bend, shift), phi.xh));
-        let huu = l.mul(l.load(&bend_h[from..]), phi.hh);
+        let huu = l.mul_add(l.load(&bend_h[from..]), phi.hh, arch);
         let hvv = l.mul(bend, phi.xx);
         let huv = l.mul(l.mul(bend, side), phi.xh);
         // A turn moves the node along i arm and bends its way along -arm.
@@ -165,11 +174,12 @@ impl Sum<'_> {
         let htt = l.mul_add(hut, tu, l.mul(hvt, tv));
         let htt = l.neg_mul_add(gu, arm_u, l.neg_mul_add(gv, arm_v, htt));
 
-        let shifted = l.mul(l.mul(weight, phi.h), shift);
+        let steep = l.mul_add(weight, phi.h, l.mul(l.splat(0.5), arched));
+        let shifted = l.mul(steep, shift);
         let value = l.mul_add(l.load(&value[from..]), phi.value, shifted);
         let steepness = l.add(magnitude(l, phi.x), magnitude(l, phi.h));
-        let uncertain = l.mul(l.load(&turn[from..]), steepness);
-        let uncertain = l.mul_add(l.load(&spread[from..]), phi.value, uncertain);
+        let turned = l.mul(l.load(&turn[from..]), steepness);
+        let uncertain = l.mul(l.load(&spread[from..]), phi.value);
         let shares = [
             value,
             gu,
@@ -182,6 +192,7 @@ impl Sum<'_> {
             hut,
             hvt,
             uncertain,
+            turned,
         ];
         for (sum, share) in sums.iter_mut().zip(shares) {
             *sum = l.add(*sum, share);

@@ -210,11 +210,7 @@ impl CellBounds for DipoleBounds {
             return self.enclose_groups([fixed, moving], cell);
         }
         let (form, remainder, weights) = self.far::<false>(cell);
-        let mut out = Enclosure {
-            form,
-            low: -remainder,
-            high: remainder,
-        };
+        let mut out = Enclosure::of_order(3.0, form, remainder);
         for (j, i) in self.near(&weights) {
             self.add_near(&mut out, cell, &self.fixed[j], i);
         }
@@ -256,6 +252,7 @@ impl DipoleBounds {
         if pair.may_coincide() {
             out.low = f64::NEG_INFINITY;
             out.high = f64::INFINITY;
+            out.slope = f64::INFINITY;
             return;
         }
         let margin = self.rounding * pair.greatest_scale();
@@ -269,5 +266,9 @@ impl DipoleBounds {
         out.form.value += middle;
         out.low += low - middle - margin;
         out.high += high - middle + margin;
+        // By the bounds of the first derivative, see `taylor`.
+        let nearest = pair.distances.low;
+        let scale = pair.greatest_scale() * (1.0 + 1e-9);
+        out.slope += scale * (6.0 * cell.reach(moving.lever[i]) / nearest + 2.0 * cell.half[2]);
     }
 }

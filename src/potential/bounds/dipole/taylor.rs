@@ -29,7 +29,10 @@
 //! |U'''| / K <= w^3 G0 + 3 w^2 G1 v + 3 w (G2 v^2 + G1 a w^2) + G3 v^3 + 3 G2 v a w^2 + G1 a w^3
 //! ```
 //!
-//! and the remainder is a sixth of that.
+//! and the remainder is a sixth of that. It is a sum of products of three speeds, of the place and
+//! of the turning. A motion by the share s of the cell's half sizes has at most the share s of
+//! these speeds, and the derivative of what the form leaves out is half of the same sum with one
+//! factor of each product for the motion: at most 3 s times the remainder.
 //!
 //! **Blocks** ([`Taylor`] with `BLOCKS`) add the remainder of what their energy V has over that of
 //! point dipoles, beyond its value and gradient. A block is an even spread of dipoles, so V is the

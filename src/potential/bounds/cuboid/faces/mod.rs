@@ -1,10 +1,12 @@
 //! One pair of blocks near each other: quadratures over the second one's pole faces whose errors
 //! are bounded over a whole cell.
 
+mod arch;
 mod over;
 mod rule;
+mod touch;
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 use std::iter::Sum;
 use std::ops::Add;
 
@@ -27,7 +29,7 @@ const FAR: f64 = 3.0;
 /// Panels that may touch the face are cut to this share of the reach, those that have no form of
 /// first order to the second one; none finer than the third, a share of the face.
 const SHARE: f64 = 0.25;
-const SHARE_WITHOUT_FORM: f64 = 0.05;
+const SHARE_WITHOUT_FORM: f64 = 0.1;
 const FINEST: f64 = 1.0 / 8192.0;
 
 /// The second block as seen from the first, in the first one's frame: u along its axis, v along
@@ -56,20 +58,13 @@ pub(super) struct Motion {
     pub apart: bool,
 }
 
-/// What forms leave out (J): its middle and how far it may be from there.
+/// How far (J) the energy may be from what forms say, and the slope and the jumps of an
+/// [`Enclosure`](super::Enclosure).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Left {
-    pub middle: f64,
     pub spread: f64,
-}
-
-impl Left {
-    fn within(spread: f64) -> Self {
-        Self {
-            middle: 0.0,
-            spread,
-        }
-    }
+    pub slope: f64,
+    pub jump: f64,
 }
 
 impl Add for Left {
@@ -77,8 +72,9 @@ impl Add for Left {
 
     fn add(self, other: Self) -> Self {
         Self {
-            middle: self.middle + other.middle,
             spread: self.spread + other.spread,
+            slope: self.slope + other.slope,
+            jump: self.jump + other.jump,
         }
     }
 }
@@ -183,14 +179,14 @@ impl Pair {
         if distance >= FAR * self.motion.reach
             && let Some(rule) = Rule::at(distance / panel.half)
         {
-            return Left::within(self.gauss(panel, distance, rule, nodes));
+            return self.gauss(panel, distance, rule, nodes);
         }
         let fine =
             |share: f64| panel.half <= (share * self.motion.reach).max(FINEST * self.second[1]);
         if fine(SHARE) {
             let remainder = self.touching_remainder(panel);
             if remainder.is_some() || fine(SHARE_WITHOUT_FORM) {
-                return Left::within(self.touch(panel, remainder, nodes));
+                return self.touch(panel, remainder, nodes);
             }
         } else if let Some(left) = self.over(panel, nodes) {
             return left;
@@ -210,7 +206,7 @@ impl Pair {
     }
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
-    fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> f64 {
+    fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> Left {
         let (places, weights) = rule.nodes();
         for (place, share) in places.iter().zip(weights) {
             let weight = share * panel.weight();
@@ -239,7 +235,16 @@ impl Pair {
             .min(6.0 * PI * thin / d2);
         let bends = bend * w * w;
         let remainder = (third * v * v * v + 3.0 * second * v * bends + first * bends * w) / 6.0;
-        panel.weight().abs() * (error + remainder)
+        // The rule's error for a slope: on the ellipse that of Phi is at most sqrt(2) / ((1 -
+        // ELLIPSE) d) times the bound of Phi.
+        let speed = v + w * ELLIPSE * d;
+        let slope = error * SQRT_2 * speed / ((1.0 - ELLIPSE) * d) + 3.0 * remainder;
+        let weight = panel.weight().abs();
+        Left {
+            spread: weight * (error + remainder),
+            slope: weight * slope,
+            ..Left::default()
+        }
     }
 
     /// How far (m) the points of a panel get from its middle, along h and along v.
@@ -251,24 +256,23 @@ impl Pair {
 
     /// How far (m) the cell moves the points of a panel, along h and along v.
     fn moved(&self, panel: &SheetPanel) -> [f64; 2] {
+        self.ways(panel, 0.5).map(|way| way + SLACK)
+    }
+
+    /// How fast (m) they are in a motion by the cell's half sizes from anywhere in the cell.
+    fn speeds(&self, panel: &SheetPanel) -> [f64; 2] {
+        self.ways(panel, 1.0)
+    }
+
+    /// A turn goes across the arm, and along it by this share of its square.
+    fn ways(&self, panel: &SheetPanel, bent: f64) -> [f64; 2] {
         let Motion {
             reach, sides, turn, ..
         } = self.motion;
         let arm = panel.arm.abs() + panel.along.abs() * panel.half;
-        // A turn goes across the arm, and along it by its square.
-        let way = |across: f64, along: f64| turn * (across + 0.5 * turn * along);
+        let way = |across: f64, along: f64| turn * (across + bent * turn * along);
         let far = [sides.x + way(arm.y, arm.x), sides.y + way(arm.x, arm.y)];
-        far.map(|way| way.min(reach) + SLACK)
-    }
-
-    /// A panel that may touch the first block's pole face: its middle's form of first order, of the
-    /// given remainder, or an interval by monotony.
-    fn touch(&self, panel: &SheetPanel, remainder: Option<f64>, nodes: &mut Nodes) -> f64 {
-        let Some(remainder) = remainder else {
-            return self.interval(panel, nodes);
-        };
-        nodes.push(&self.first_order(panel, 2.0 * panel.weight()));
-        panel.weight().abs() * remainder
+        far.map(|way| way.min(reach))
     }
 
     /// The middle of a panel with its form of first order.
@@ -292,52 +296,6 @@ impl Pair {
     /// where the tiles are free: it would be inside the block.
     fn stays_out(&self, h: f64, up: f64) -> bool {
         self.motion.apart && h > -up && 2.0 * up <= self.first[0] - SLACK
-    }
-
-    /// The second-order remainder of Phi (m^2) about the middle of a panel, averaged over it. `None`
-    /// where it has none (see the module's text), or one that says less than an interval.
-    fn touching_remainder(&self, panel: &SheetPanel) -> Option<f64> {
-        let sheet = self.first[1] / 2.0;
-        let [up, aside] = self.extent(panel);
-        let (h, v) = (panel.middle.x, panel.middle.y.abs());
-        let inside = v + aside <= sheet - SLACK;
-        let beside = v - aside >= sheet + SLACK;
-        if !(beside || (inside && (h > up || self.stays_out(h, up)))) {
-            return None;
-        }
-        let [_, thin, thick] = self.charge();
-        let [_, low] = self.heights();
-        let least = if inside { h - up } else { h.abs() - up };
-        let floor = least.max(0.0);
-        let edge = |beside: f64| self.upright(beside.hypot(floor));
-        let near = (v - sheet).abs() - aside;
-        let far = (v + sheet - aside).max(near);
-        let edges = 0.5 * (edge(near) + edge(far)) * (up * up + aside * aside);
-        let level = |height: f64| (sheet / height.hypot(low)).asinh();
-        let passing = if inside { 0.75 } else { 1.75 };
-        let levels = 4.0 * up * up * (0.5 * level(floor)).min(0.5 * level(up) + passing);
-        let remainder = edges + levels + 4.0 * PI * thick * SLACK;
-        (remainder <= 4.0 * PI * thin * (up + aside)).then_some(remainder)
-    }
-
-    /// Phi falls with the distance from the face's line and with that from its middle line, so
-    /// its extremes over a box are at two of the box's points.
-    fn interval(&self, panel: &SheetPanel, nodes: &mut Nodes) -> f64 {
-        let [up, aside] = self.extent(panel);
-        let (h, v) = (panel.middle.x.abs(), panel.middle.y.abs());
-        let weight = panel.weight();
-        let highest = ((h - up).max(0.0), (v - aside).max(0.0), weight.abs());
-        let lowest = (h + up, v + aside, -weight.abs());
-        for (h, v, spread) in [highest, lowest] {
-            nodes.push(&Node {
-                h,
-                v,
-                value: weight,
-                spread,
-                ..panel.node()
-            });
-        }
-        0.0
     }
 
     /// Width of the first block's pole face and the smaller and the greater thickness (m).

@@ -1,0 +1,78 @@
+//! Constant second derivatives in place of such as grow like a logarithm near a face.
+
+/// The share of the way out at which the second derivative is taken: near it the bounds from both
+/// sides are alike.
+const SHARE: f64 = 0.85;
+
+/// A constant second derivative along h, in place of one, L, that is positive and falls with h, at
+/// most as fast as `-4 ln h`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arch {
+    /// The constant.
+    pub bend: f64,
+    /// The most by which the integral of L along a way differs from that of the constant.
+    pub off: f64,
+}
+
+impl Arch {
+    /// For ways of at most `up` between the heights `low`, at least 0, and `high`: `range` gives the
+    /// most and the least that L is at a height.
+    ///
+    /// With c = L(low + u), `int (L - c) dh` over a way is at most what it is from low to low + u,
+    /// where `L - c <= 4 ln((low + u) / h)` (`u - low ln(1 + u / low)` is the integral of that
+    /// logarithm), and at least the way times the least of `L - c`.
+    pub fn of(low: f64, up: f64, high: f64, range: impl Fn(f64) -> [f64; 2]) -> Self {
+        let u = SHARE * up;
+        let [most, least] = range(low + u);
+        let bend = 0.5 * (most + least);
+        let integral = if low > 0.0 {
+            u - low * (u / low).ln_1p()
+        } else {
+            u
+        };
+        let above = 4.0 * integral.max(0.0) + (most - bend) * up;
+        let below = (bend - range(high)[1]) * up;
+        Self {
+            bend,
+            off: above.max(below) * (1.0 + 1e-9),
+        }
+    }
+
+    /// What ways of at most `up`, at speeds of at most `fast`, that bend off by up to `arc` add to
+    /// the bounds of the remainder and of its slope, as the form knows of their straight part only.
+    pub fn bent_off(&self, arc: f64, [up, fast]: [f64; 2], turn: f64) -> [f64; 2] {
+        let bend = self.bend.abs() * arc;
+        [
+            bend * (up + arc + up * turn),
+            bend * (2.0 * up + fast + 2.0 * arc + 3.0 * up * turn),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrals_of_a_logarithm_stay_within_the_bound_and_close_to_it() {
+        let l = |h: f64| 4.0 * (1.0f64 + 1.0 / h).ln();
+        // Closed: 4 [(h + 1) ln(h + 1) - h ln h].
+        let xlnx = |x: f64| if x > 0.0 { x * x.ln() } else { 0.0 };
+        let integral = |h: f64| 4.0 * (xlnx(h + 1.0) - xlnx(h));
+        for low in [0.0, 1e-3, 0.05] {
+            for up in [1e-4, 0.01, 0.1] {
+                let high = low + 2.0 * up;
+                let arch = Arch::of(low, up, high, |h| [l(h); 2]);
+                let mut farthest: f64 = 0.0;
+                for (i, j) in (0..=40).flat_map(|i| (0..=40).map(move |j| (i, j))) {
+                    let from = low + 2.0 * up * f64::from(i) / 40.0;
+                    let to = from + (high - from).min(up) * f64::from(j) / 40.0;
+                    let off = integral(to) - integral(from) - arch.bend * (to - from);
+                    assert!(off.abs() <= arch.off, "{low} {up} {from} {to}");
+                    farthest = farthest.max(off.abs());
+                }
+                assert!(farthest > 0.6 * arch.off, "{low} {up} {farthest} {arch:?}");
+            }
+        }
+    }
+}
