@@ -233,13 +233,16 @@ impl DipoleBounds {
         let r = way[0].hypot(way[1]);
         if self.groups.is_some() && r < ANY_ANGLE * reach {
             let least = least_distance(r, reach, depths);
-            let bound = if least > 0.0 {
-                2.0 * strength / least.powi(3) * (1.0 + self.rounding)
+            let [bound, slope] = if least > 0.0 {
+                let scale = strength / least.powi(3) * (1.0 + self.rounding + 1e-9);
+                let turn = 2.0 * cell.half[2];
+                [2.0 * scale, scale * (6.0 * reach / least + turn)]
             } else {
-                f64::INFINITY
+                [f64::INFINITY; 2]
             };
             out.low -= bound;
             out.high += bound;
+            out.slope += slope;
             return;
         }
         let pair = NearPair::new(
