@@ -62,6 +62,8 @@
 //! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
 //!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds. Within
 //!   the certificate's time limit results are the same bytes on any number of threads.
+//! - Tiles of 128 magnets and more: far groups of point dipoles are replaced by fewer, with
+//!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair.
 //! - Curves are polygons with chords within 0.2 mm.
 //! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
 //!   one outline without holes and at most 64 faces.

@@ -20,6 +20,10 @@
 //! is `results/paper-tile/models.svg`), and with dipoles its table of states has the blocks' energy
 //! and the dipoles' error in each.
 //!
+//! Of two tiles with very many magnets (128 each) far groups of point dipoles are replaced by fewer dipoles at
+//! the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4 pi
+//! r^3)`, r the distance of the groups; energies, gradients and bounds alike.
+//!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields
 //! act smoothly; blocks behind shields and the nearest-face rule have none.
@@ -32,6 +36,7 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+pub(crate) mod groups;
 pub mod interaction;
 mod lever;
 pub mod motion;

@@ -11,6 +11,7 @@ mod contact;
 mod design_files;
 #[path = "../shared/designs.rs"]
 mod designs;
+mod dipole_groups;
 mod dipole_kernel;
 mod dipoles;
 mod dynamics;

@@ -1,11 +1,17 @@
 //! Bounds of the energy's derivatives along motions, the moving dipoles in the lanes.
 
+use std::ops::Range;
+
 use super::DipolePotential;
 use super::bundle::Bundle;
-use super::field::{Frame, TOGETHER};
+use super::field::{Frame, Source, TOGETHER};
 use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
 use super::tasks::frame_of_one;
 use crate::configuration::Configuration;
+use crate::potential::groups::tree::{LOST_OF_BOUNDS, Purpose};
+use crate::potential::groups::walk::{Leeway, Walk};
+use crate::potential::motion;
+use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
 /// less `reach`; infinite where an r is not positive.
@@ -27,19 +33,30 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
             bound: l.splat(0.0),
             nearest: l.splat(f64::INFINITY),
         };
-        let length = self.potential.moving.x.len();
-        let mut first = 0;
-        while first + 2 * L::WIDTH <= length {
-            self.block::<L, 2>(l, &frame, first, &mut sums);
-            first += 2 * L::WIDTH;
-        }
-        if first < length {
-            self.block::<L, 1>(l, &frame, first, &mut sums);
+        let (sources, all) = (&self.potential.sources, 0..self.potential.moving.x.len());
+        let mut lost = 0.0;
+        match &self.potential.groups {
+            None => self.meet(l, &frame, sources, all, &mut sums),
+            Some([fixed, moving]) => {
+                let leeway = Leeway {
+                    travel: self.reach,
+                    purpose: Purpose::Bound,
+                    ..Leeway::default()
+                };
+                for meeting in Walk::new([fixed, moving], self.q, leeway) {
+                    let sources = &sources[meeting.fixed];
+                    self.meet(l, &frame, sources, meeting.moving, &mut sums);
+                    if meeting.replaced > 0.0 {
+                        let k = LOST_OF_BOUNDS * MU0_OVER_4PI * meeting.replaced;
+                        lost += motion::bound(&self.terms, k, meeting.distance);
+                    }
+                }
+            }
         }
 
         let mut nearest = [f64::INFINITY; MAX_WIDTH];
         l.store(sums.nearest, &mut nearest);
-        let bound = l.sum(sums.bound);
+        let bound = l.sum(sums.bound) + lost;
         if bound.is_finite() && nearest.iter().all(|r| *r > 0.0) {
             bound
         } else {
@@ -56,12 +73,33 @@ struct Sums<F> {
 }
 
 impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
+    /// The pairs of some moving dipoles, whole vectors of them, with some of the fixed ones.
+    #[inline(always)]
+    fn meet<L: Lanes>(
+        &self,
+        l: L,
+        frame: &Frame<L::F>,
+        sources: &[Source],
+        moving: Range<usize>,
+        sums: &mut Sums<L::F>,
+    ) {
+        let mut first = moving.start;
+        while first + 2 * L::WIDTH <= moving.end {
+            self.block::<L, 2>(l, frame, sources, first, sums);
+            first += 2 * L::WIDTH;
+        }
+        if first < moving.end {
+            self.block::<L, 1>(l, frame, sources, first, sums);
+        }
+    }
+
     /// The pairs of `N` vectors of moving dipoles from the dipole `first` on.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(
         &self,
         l: L,
         frame: &Frame<L::F>,
+        sources: &[Source],
         first: usize,
         sums: &mut Sums<L::F>,
     ) {
@@ -73,7 +111,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
             [*x, *y] = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
         let mut shares = [l.splat(0.0); N];
-        for pair in self.potential.sources.as_chunks::<TOGETHER>().0 {
+        for pair in sources.as_chunks::<TOGETHER>().0 {
             let dx = b.sub(
                 [x; TOGETHER],
                 b.rows([pair[0].position[0], pair[1].position[0]]),

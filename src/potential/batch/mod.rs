@@ -24,12 +24,14 @@ mod tasks;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 pub use level::Level;
 
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
+use super::groups::are_many;
+use super::groups::tree::{Group, Tree};
 use super::lever::Lever;
 use super::motion;
 use crate::configuration::Configuration;
@@ -49,6 +51,9 @@ pub struct DipolePotential {
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
     lever: Lever,
+    /// Of both tiles, where there are so many dipoles that they are worth it; `sources` and
+    /// `moving` are then those of the trees.
+    groups: Option<[Vec<Group>; 2]>,
 }
 
 /// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
@@ -72,6 +77,25 @@ impl DipolePotential {
 
     /// Of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
+        if are_many(fixed.len(), moving.len()) {
+            let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, level.width())];
+            if trees.iter().any(Tree::has_stands) {
+                return Self::of_trees(trees, level);
+            }
+        }
+        Self::one_by_one(fixed, moving, level)
+    }
+
+    fn of_trees([fixed, moving]: [Tree; 2], level: Level) -> Self {
+        Self {
+            lever: Lever::of([Vector2::new(moving.lever, 0.0)].into_iter()),
+            groups: Some([fixed.groups, moving.groups]),
+            ..Self::one_by_one(&fixed.dipoles, &moving.dipoles, level)
+        }
+    }
+
+    /// Every pair by itself, however many there are.
+    fn one_by_one(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         let sources = scaled_and_filled(fixed, TOGETHER);
         let lanes = scaled_and_filled(moving, level.width());
         let column = |value: fn(&Dipole) -> f64| lanes.iter().map(value).collect();
@@ -87,6 +111,7 @@ impl DipolePotential {
                 magnitude: column(|d| d.moment.norm()),
             },
             lever: Lever::of(moving.iter().map(|d| d.position)),
+            groups: None,
         }
     }
 
@@ -123,6 +148,12 @@ impl Potential for DipolePotential {
 
     fn energies(&self, qs: &[Configuration], out: &mut [f64]) {
         assert_eq!(qs.len(), out.len(), "one energy for each configuration");
+        if self.groups.is_some() {
+            for (q, u) in qs.iter().zip(out) {
+                *u = self.energy(q);
+            }
+            return;
+        }
         self.level.run(Many::<_, false> {
             potential: self,
             qs,
@@ -132,6 +163,12 @@ impl Potential for DipolePotential {
 
     fn energies_and_gradients(&self, qs: &[Configuration], out: &mut [(f64, Vector3<f64>)]) {
         assert_eq!(qs.len(), out.len(), "one result for each configuration");
+        if self.groups.is_some() {
+            for (q, result) in qs.iter().zip(out) {
+                *result = self.energy_and_gradient(q);
+            }
+            return;
+        }
         self.level.run(Many::<_, true> {
             potential: self,
             qs,

@@ -1,12 +1,15 @@
 //! Which numbers go in which lanes.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::DipolePotential;
-use super::field::{Frame, Shares, field, pair_of};
+use super::field::{Frame, Shares, Source, field, pair_of};
 use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
 use crate::configuration::Configuration;
 use crate::potential::finite;
+use crate::potential::groups::walk::{Leeway, Walk};
 
 /// The same angle, in the range of the vectors' sine and cosine.
 #[inline(always)]
@@ -60,12 +63,34 @@ pub struct One<'a, const SLOPE: bool> {
 }
 
 impl<const SLOPE: bool> One<'_, SLOPE> {
-    /// The shares of `N` vectors of moving dipoles from the dipole `first` on.
+    /// The shares of some moving dipoles, whole vectors of them, with some of the fixed ones.
+    #[inline(always)]
+    fn meet<L: Lanes>(
+        &self,
+        l: L,
+        frame: &Frame<L::F>,
+        sources: &[Source],
+        moving: Range<usize>,
+        shares: &mut Shares<L::F>,
+    ) {
+        let mut first = moving.start;
+        while first + 2 * L::WIDTH <= moving.end {
+            self.block::<L, 2>(l, frame, sources, first, shares);
+            first += 2 * L::WIDTH;
+        }
+        if first < moving.end {
+            self.block::<L, 1>(l, frame, sources, first, shares);
+        }
+    }
+
+    /// The shares of `N` vectors of moving dipoles from the dipole `first` on, with some of the
+    /// fixed ones.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(
         &self,
         l: L,
         frame: &Frame<L::F>,
+        sources: &[Source],
         first: usize,
         shares: &mut Shares<L::F>,
     ) {
@@ -75,7 +100,7 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
             let i = first + k * L::WIDTH;
             *place = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
-        let fields = field::<L, N, SLOPE>(l, &self.potential.sources, &places);
+        let fields = field::<L, N, SLOPE>(l, sources, &places);
         for k in 0..N {
             let i = first + k * L::WIDTH;
             let moment = [l.load(&moving.moment_x[i..]), l.load(&moving.moment_y[i..])];
@@ -91,14 +116,15 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let frame = frame_of_one(l, self.q);
         let mut shares = Shares::zero(l);
-        let length = self.potential.moving.x.len();
-        let mut first = 0;
-        while first + 2 * L::WIDTH <= length {
-            self.block::<L, 2>(l, &frame, first, &mut shares);
-            first += 2 * L::WIDTH;
-        }
-        if first < length {
-            self.block::<L, 1>(l, &frame, first, &mut shares);
+        let (sources, all) = (&self.potential.sources, 0..self.potential.moving.x.len());
+        match &self.potential.groups {
+            None => self.meet(l, &frame, sources, all, &mut shares),
+            Some([fixed, moving]) => {
+                for meeting in Walk::new([fixed, moving], self.q, Leeway::default()) {
+                    let sources = &sources[meeting.fixed];
+                    self.meet(l, &frame, sources, meeting.moving, &mut shares);
+                }
+            }
         }
         let mut sums = shares.to_array();
         for sum in &mut sums {

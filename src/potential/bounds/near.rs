@@ -59,6 +59,12 @@ impl Interval {
     }
 }
 
+/// The least distance (m) of two dipoles that are `r` (m) apart at a cell's centre, of which one
+/// moves by up to `reach` (m), and whose distances to their own outlines sum to `depths` (m).
+pub fn least_distance(r: f64, reach: f64, depths: f64) -> f64 {
+    (r - reach).max(depths - SLACK)
+}
+
 /// What a cell does to two dipoles.
 #[derive(Clone, Copy, Debug)]
 pub struct NearPair {
@@ -98,7 +104,7 @@ impl NearPair {
             swing,
             distance: r,
             distances: Interval {
-                low: (r - reach).max(depths - SLACK),
+                low: least_distance(r, reach, depths),
                 high: r + reach,
             },
         }

@@ -7,12 +7,13 @@ use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::potential::batch::Level;
-use tilebind::potential::bounds::DipoleBounds;
+use tilebind::potential::bounds::{DipoleBounds, Enclosure};
+use tilebind::potential::dipole::{ScalarDipoles, dipoles};
 use tilebind::potential::{CellBounds, DipolePotential, Potential};
 use tilebind::tile::Tile;
 use tilebind::units::MU0_OVER_4PI;
 
-use super::{assert_encloses, paper_tiles};
+use super::{assert_encloses, paper_tiles, pixel_tile};
 
 #[test]
 fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
@@ -224,4 +225,36 @@ fn rounding_is_covered() {
     }
     assert!(tested > 300);
     assert!((1e-8..0.1).contains(&largest), "{largest}");
+}
+
+/// With so many magnets that groups of them are enclosed as wholes.
+#[test]
+fn groups_enclose_what_their_magnets_do() {
+    let (a, b) = (pixel_tile(48, 1), pixel_tile(48, 3));
+    let bounds = DipoleBounds::new(&a, &b);
+    let each = DipoleBounds::with_level(&a, &b, Level::best());
+    let potential = ScalarDipoles::new(&dipoles(&a.magnets), &dipoles(&b.magnets));
+    let contact = Contact::new(&a.outline, &b.outline);
+    let mut rng = ChaCha8Rng::seed_from_u64(12);
+    let (mut tested, mut wider) = (0, 0.0f64);
+    for _ in 0..150 {
+        let size = 10f64.powf(rng.random_range(-4.0..-1.0));
+        let cell = Cell {
+            centre: Configuration::new(
+                rng.random_range(0.4..0.9),
+                rng.random_range(-0.3..0.3),
+                rng.random_range(-0.4..0.4),
+            ),
+            half: std::array::from_fn(|_| size * rng.random_range(0.05..1.0)),
+        };
+        let (enclosure, one_by_one) = (bounds.enclose(&cell), each.enclose(&cell));
+        tested += assert_encloses(&enclosure, &potential, &contact, &cell, &mut rng);
+        let width = |known: &Enclosure| known.high - known.low;
+        // Of larger cells, in which dipoles come near each other at any angle, less is asked.
+        if size < 2e-3 {
+            wider = wider.max(width(&enclosure) / width(&one_by_one));
+        }
+    }
+    assert!(tested > 500, "{tested}");
+    assert!(wider < 1.2, "{wider}");
 }

@@ -52,6 +52,32 @@ pub fn paper_tiles() -> (Tile, Tile) {
     )
 }
 
+/// The same square with many small magnets on each face, north and south as the bits of a number
+/// that `seed` multiplies.
+pub fn pixel_tile(each: usize, seed: u64) -> Tile {
+    let pitch = 0.4 / each as f64;
+    let mut tile = square_tile([1.0; 4]);
+    let faces: Vec<Magnet> = tile.magnets.iter().step_by(4).cloned().collect();
+    tile.magnets.clear();
+    for face in faces {
+        let (sin, cos) = face.angle.sin_cos();
+        let (normal, tangent) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+        for k in 0..each {
+            let s = (k as f64 - (each as f64 - 1.0) / 2.0) * pitch;
+            let bits = seed
+                .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+                .rotate_left(k as u32);
+            tile.magnets.push(Magnet {
+                position: normal * (0.215 - pitch / 2.0) + tangent * s,
+                angle: face.angle + if bits & 1 == 0 { 0.0 } else { PI },
+                moment: face.moment * (pitch / 0.04).powi(3),
+                ..face.clone()
+            });
+        }
+    }
+    tile
+}
+
 /// Asserts that the energies of free ones among twenty random configurations of a cell lie in its
 /// enclosure; returns how many these were.
 pub fn assert_encloses(

@@ -14,15 +14,19 @@
 //! `rho^-3` and `E S` to that of `rho^-4` in the remainder, N the number of pairs. Assumed, not
 //! proved: sine, cosine and arc functions of the platform are right to 8 units in the last place.
 
+mod groups;
 mod taylor;
 
-use super::near::{Interval, NearPair, depths};
+use super::near::{Interval, NearPair, depths, least_distance};
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
 use crate::potential::dipole::Dipole;
+use crate::potential::groups::are_many;
+use crate::potential::groups::tree::Group;
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
+use groups::in_groups;
 pub(super) use taylor::{Spread, Taylor};
 
 /// Pairs closer than this many times the magnet's reach are bounded one by one.
@@ -39,6 +43,9 @@ pub struct DipoleBounds {
     extent: f64,
     /// Zero but for dipoles that stand for blocks.
     spread: Spread,
+    /// Of both tiles, where there are so many dipoles that they are worth it; `fixed` and `moving`
+    /// are then those of the trees.
+    groups: Option<[Vec<Group>; 2]>,
 }
 
 /// A dipole of the fixed tile.
@@ -72,22 +79,42 @@ struct Moving {
 impl DipoleBounds {
     /// For the magnets of two tiles, with the best instruction set there is.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
-        Self::with_level(fixed, moving, Level::best())
+        let level = Level::best();
+        if !are_many(fixed.magnets.len(), moving.magnets.len()) {
+            return Self::with_level(fixed, moving, level);
+        }
+        let pairs = fixed.magnets.len() * moving.magnets.len();
+        let (fixed, first) = in_groups(fixed, 1);
+        let (moving, second) = in_groups(moving, level.width());
+        Self {
+            groups: Some([first, second]),
+            // Groups are sums of fewer terms than pairs.
+            rounding: rounding(pairs),
+            ..Self::of_dipoles(&fixed, &moving, level)
+        }
     }
 
-    /// For the given instruction set.
+    /// For the given instruction set, every pair by itself.
     pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
-        let fixed: Vec<_> = dipoles_and_depths(fixed).iter().map(Fixed::new).collect();
-        let moving = Moving::new(&dipoles_and_depths(moving), level.width());
-        let pairs = (fixed.len() * moving.count) as f64;
+        Self::of_dipoles(
+            &dipoles_and_depths(fixed),
+            &dipoles_and_depths(moving),
+            level,
+        )
+    }
+
+    fn of_dipoles(fixed: &[(Dipole, f64)], moving: &[(Dipole, f64)], level: Level) -> Self {
+        let fixed: Vec<_> = fixed.iter().map(Fixed::new).collect();
+        let moving = Moving::new(moving, level.width());
         let norm = |dipole: &Fixed| dipole.position[0].hypot(dipole.position[1]);
         Self {
             level,
-            rounding: (20_000.0 + 8.0 * pairs) * f64::EPSILON,
+            rounding: rounding(fixed.len() * moving.count),
             extent: fixed.iter().map(norm).fold(0.0, f64::max),
             fixed,
             moving,
             spread: Spread::default(),
+            groups: None,
         }
     }
 
@@ -103,6 +130,8 @@ impl DipoleBounds {
         let (form, remainder) = self.level.run(Taylor::<BLOCKS> {
             bounds: self,
             cell,
+            fixed: 0..self.fixed.len(),
+            moving: 0..self.stride(),
             weights: &mut weights,
         });
         (form, remainder, weights)
@@ -126,6 +155,15 @@ impl DipoleBounds {
             .map(move |(k, _)| (k / stride, k % stride))
             .filter(|(_, i)| *i < self.moving.count)
     }
+}
+
+/// Where there are very many pairs, those closer than this many times the reach are bounded by
+/// their distance alone: their directions are hardly known.
+const ANY_ANGLE: f64 = 1.5;
+
+/// E of the module's text, for so many pairs.
+fn rounding(pairs: usize) -> f64 {
+    (20_000.0 + 8.0 * pairs as f64) * f64::EPSILON
 }
 
 fn dipoles_and_depths(tile: &Tile) -> Vec<(Dipole, f64)> {
@@ -168,6 +206,9 @@ impl Moving {
 
 impl CellBounds for DipoleBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
+        if let Some([fixed, moving]) = &self.groups {
+            return self.enclose_groups([fixed, moving], cell);
+        }
         let (form, remainder, weights) = self.far::<false>(cell);
         let mut out = Enclosure::of_order(3.0, form, remainder);
         for (j, i) in self.near(&weights) {
@@ -186,12 +227,30 @@ impl DipoleBounds {
             return;
         }
         let at = cell.centre.transform([moving.x[i], moving.y[i]].into());
+        let way = [at.x - fixed.position[0], at.y - fixed.position[1]];
+        let reach = cell.reach(moving.lever[i]) + self.rounding;
+        let depths = fixed.depth + moving.depth[i];
+        let r = way[0].hypot(way[1]);
+        if self.groups.is_some() && r < ANY_ANGLE * reach {
+            let least = least_distance(r, reach, depths);
+            let [bound, slope] = if least > 0.0 {
+                let scale = strength / least.powi(3) * (1.0 + self.rounding + 1e-9);
+                let turn = 2.0 * cell.half[2];
+                [2.0 * scale, scale * (6.0 * reach / least + turn)]
+            } else {
+                [f64::INFINITY; 2]
+            };
+            out.low -= bound;
+            out.high += bound;
+            out.slope += slope;
+            return;
+        }
         let pair = NearPair::new(
-            [at.x - fixed.position[0], at.y - fixed.position[1]],
+            way,
             strength,
             [fixed.angle, moving.angle[i] + cell.centre.theta],
-            [cell.reach(moving.lever[i]) + self.rounding, cell.half[2]],
-            fixed.depth + moving.depth[i],
+            [reach, cell.half[2]],
+            depths,
         );
         if pair.may_coincide() {
             out.low = f64::NEG_INFINITY;

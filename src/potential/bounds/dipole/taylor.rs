@@ -46,6 +46,8 @@
 //! K s / 4 [720 V_b^2 / rho_b^7 + (720 V_b w + 120 A_b w^2) / rho_b^6 + 216 w^2 / rho_b^5]
 //! ```
 
+use std::ops::Range;
+
 use super::{DipoleBounds, NEAR};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::lanes::{Lanes, Task};
@@ -57,11 +59,14 @@ const HUGE: f64 = 1e60;
 /// to be at least this.
 const TINY: f64 = 1e-10;
 
-/// Sums up the far pairs of a cell: their form, and the bound of its remainder. `weights` gets 1
-/// for each far pair and 0 for each near one, which is left out; fixed dipole by fixed dipole.
+/// Sums up the far pairs, of some fixed and some moving dipoles, of a cell: their form, and the
+/// bound of its remainder. `weights` gets 1 for each far pair and 0 for each near one, which is left
+/// out; fixed dipole by fixed dipole. The moving ones are whole vectors.
 pub(in crate::potential::bounds) struct Taylor<'a, const BLOCKS: bool> {
     pub bounds: &'a DipoleBounds,
     pub cell: &'a Cell,
+    pub fixed: Range<usize>,
+    pub moving: Range<usize>,
     pub weights: &'a mut Vec<f64>,
 }
 
@@ -145,11 +150,11 @@ impl<const BLOCKS: bool> Task for Taylor<'_, BLOCKS> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
-        let stride = self.bounds.moving.x.len();
-        self.weights.resize(stride * self.bounds.fixed.len(), 0.0);
+        let stride = self.moving.len();
+        self.weights.resize(stride * self.fixed.len(), 0.0);
         let mut totals = [0.0; 11];
-        let mut first = 0;
-        while first < stride {
+        let mut first = self.moving.start;
+        while first < self.moving.end {
             let dipoles = self.dipoles(l, first);
             let mut sums = Sums {
                 s1: [l.splat(0.0); 2],
@@ -159,9 +164,10 @@ impl<const BLOCKS: bool> Task for Taylor<'_, BLOCKS> {
                 m3: [l.splat(0.0); 2],
                 remainder: l.splat(0.0),
             };
-            for j in 0..self.bounds.fixed.len() {
+            for (row, j) in self.fixed.clone().enumerate() {
                 let weight = self.add_pair(l, j, &dipoles, &mut sums);
-                l.store(weight, &mut self.weights[j * stride + first..]);
+                let place = row * stride + first - self.moving.start;
+                l.store(weight, &mut self.weights[place..]);
             }
             let shares = shares(l, &dipoles, &sums);
             let magnitude = l.load(&self.bounds.moving.magnitude[first..]);

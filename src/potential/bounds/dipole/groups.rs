@@ -1,0 +1,85 @@
+//! Very many dipoles, enclosed in groups (see [`crate::potential::groups`]): those that stand for a
+//! far group are bounded like any others, and what is lost of it over the cell is added.
+
+use super::taylor::Taylor;
+use super::{DipoleBounds, NEAR};
+use crate::cell::Cell;
+use crate::potential::bounds::{Enclosure, depths};
+use crate::potential::dipole::{Dipole, dipoles};
+use crate::potential::groups::tree::{self, Group, Purpose, Tree};
+use crate::potential::groups::walk::{Leeway, Walk};
+use crate::tile::Tile;
+use crate::units::MU0_OVER_4PI;
+
+impl DipoleBounds {
+    /// Encloses U group by group.
+    pub(super) fn enclose_groups(&self, [fixed, moving]: [&[Group]; 2], cell: &Cell) -> Enclosure {
+        let leeway = Leeway {
+            travel: cell.travel(),
+            turn: cell.half[2],
+            // A little farther than single pairs, so that no stand-in is near.
+            near: NEAR * (1.0 + 1e-6),
+            purpose: Purpose::Energy,
+        };
+        let mut out = Enclosure::default();
+        let mut weights = Vec::new();
+        for meeting in Walk::new([fixed, moving], &cell.centre, leeway) {
+            let (form, mut remainder) = self.level.run(Taylor::<false> {
+                bounds: self,
+                cell,
+                fixed: meeting.fixed.clone(),
+                moving: meeting.moving.clone(),
+                weights: &mut weights,
+            });
+            // By the order of the remainder, see `taylor`.
+            out.slope += 3.0 * remainder;
+            if meeting.replaced > 0.0 {
+                let scale = MU0_OVER_4PI / meeting.distance.powi(3);
+                let lost = LOST_AND_ROUNDED * scale * meeting.replaced;
+                remainder += lost;
+                out.slope += SLOPE_OF_LOST * lost;
+            }
+            out.form = out.form.minus(-1.0, &form);
+            out.low -= remainder;
+            out.high += remainder;
+            let near = weights
+                .iter()
+                .enumerate()
+                .filter(|(_, weight)| **weight == 0.0);
+            for (k, _) in near {
+                let (j, i) = (k / meeting.moving.len(), k % meeting.moving.len());
+                let fixed = &self.fixed[meeting.fixed.start + j];
+                self.add_near(&mut out, cell, fixed, meeting.moving.start + i);
+            }
+        }
+        out
+    }
+}
+
+/// What dipoles that stand for others lose of an energy ([`tree::LOST`]), and what is rounded in
+/// making them.
+const LOST_AND_ROUNDED: f64 = 1.1 * tree::LOST;
+
+/// A motion by half the cell's sizes changes what is lost by no more than this times its bound: by
+/// `(n + 3) / r` times the reach, which is a third of the distance r at most, for n up to 24 nodes,
+/// and twice the turn, which is half a turn at most.
+const SLOPE_OF_LOST: f64 = 20.0;
+
+/// The tree of a tile's dipoles, and the dipoles of its groups with their distances to the outline,
+/// which no stand-in has.
+pub(super) fn in_groups(tile: &Tile, fill: usize) -> (Vec<(Dipole, f64)>, Vec<Group>) {
+    let tree = Tree::new(&dipoles(&tile.magnets), fill);
+    let mut all: Vec<_> = tree.dipoles.iter().map(|dipole| (*dipole, 0.0)).collect();
+    let mut depths = depths(tile).into_iter();
+    for group in &tree.groups {
+        let count = group.count;
+        for (dipole, depth) in all[group.own.clone()]
+            .iter_mut()
+            .take(count)
+            .zip(&mut depths)
+        {
+            dipole.1 = depth;
+        }
+    }
+    (all, tree.groups)
+}

@@ -1,0 +1,256 @@
+//! Groups of dipoles, halved again and again, and the few dipoles that stand for each from afar.
+
+use std::ops::Range;
+
+use nalgebra::Vector2;
+
+use super::interpolation::{least_distance, lebesgue, lost, lost_of_bounds, nodes, shares};
+use crate::potential::dipole::Dipole;
+
+/// What is lost of a pair of groups, at most, as a share of `mu0 M1 M2 / (4 pi r^3)`, with M the
+/// sums of the moments' magnitudes and r the distance of the groups. (Found are errors a hundred
+/// times smaller; and far groups are weak beside those in contact.)
+pub const LOST: f64 = 1e-11;
+
+/// The same of bounds of derivatives, which need not be narrow, as a share of the bound.
+pub const LOST_OF_BOUNDS: f64 = 1e-3;
+
+/// Into so many parts what may be lost is divided. Of either group it is lost along and across; of
+/// the second one times Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
+/// along and 2.33 for 8 across.
+const SHARES: f64 = 2.0 * (1.0 + 3.03 * 2.33);
+
+/// Groups of at most so many dipoles are not halved.
+const FEW: usize = 16;
+
+/// Boxes that reach so many times farther from the reference point than any dipole are no good:
+/// motions would have to be counted as that much longer.
+const WIDER: f64 = 1.05;
+
+/// Nodes along a group that are tried.
+const ORDERS: [usize; 6] = [6, 8, 12, 16, 20, 24];
+
+/// Dipoles of one tile in groups.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    /// The whole tile first.
+    pub groups: Vec<Group>,
+    /// Those of the tile, and those that stand for groups: each stand-in by itself filled up with
+    /// dipoles without moment.
+    pub dipoles: Vec<Dipole>,
+    /// The largest distance (m) of a dipole, or of the box of a group that others stand for, from
+    /// the tile's reference point.
+    pub lever: f64,
+}
+
+/// Consecutive dipoles of a tile, in a box.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Middle of the box (m).
+    pub centre: Vector2<f64>,
+    /// Unit vector along the box.
+    pub axis: Vector2<f64>,
+    /// Half the box's length and width (m).
+    pub half: [f64; 2],
+    /// The two halves, by their numbers; the dipoles of a group without have no parts.
+    pub parts: Option<[usize; 2]>,
+    /// Sum of the moments' magnitudes (A m^2).
+    pub magnitude: f64,
+    /// The largest distance of the box's points from the tile's reference point (m).
+    pub lever: f64,
+    /// How many dipoles it has.
+    pub count: usize,
+    /// The group's own dipoles, for groups without parts.
+    pub own: Range<usize>,
+    /// What stands for the group, the fewest dipoles first.
+    pub stands: Vec<Stand>,
+}
+
+/// What a group is asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Purpose {
+    /// Energies and their derivatives.
+    #[default]
+    Energy = 0,
+    /// Bounds of derivatives.
+    Bound = 1,
+}
+
+/// Dipoles that stand for a group from afar.
+#[derive(Clone, Debug)]
+pub struct Stand {
+    /// From these distances (m) of the box on: for energies, and for bounds of derivatives.
+    pub from: [f64; 2],
+    /// By their numbers in the tree.
+    pub dipoles: Range<usize>,
+}
+
+impl Tree {
+    /// Groups of dipoles that stand in the order in which they lie along a tile's outline. Each
+    /// group's dipoles are filled up to a multiple of `fill`.
+    pub fn new(dipoles: &[Dipole], fill: usize) -> Self {
+        let distances = dipoles.iter().map(|dipole| dipole.position.norm());
+        let lever = distances.fold(0.0, f64::max);
+        let mut tree = Self {
+            lever,
+            ..Self::default()
+        };
+        if !dipoles.is_empty() {
+            tree.add(dipoles, fill, WIDER * lever);
+        }
+        tree
+    }
+
+    /// Adds a group and its parts; returns its number. None stands for a group whose box reaches
+    /// farther than `farthest` (m) from the reference point.
+    fn add(&mut self, dipoles: &[Dipole], fill: usize, farthest: f64) -> usize {
+        let number = self.groups.len();
+        let mut group = Group::around(dipoles);
+        self.groups.push(group.clone());
+        if dipoles.len() <= FEW {
+            group.own = self.append(dipoles.to_vec(), fill);
+        } else {
+            let stands = ORDERS.map(|order| group.stand(dipoles, order));
+            let is_within = group.lever <= farthest;
+            for (stand, from) in stands.into_iter().flatten().filter(|_| is_within) {
+                let dipoles = self.append(stand, fill);
+                group.stands.push(Stand { from, dipoles });
+                self.lever = self.lever.max(group.lever);
+            }
+            let cut = cut(dipoles);
+            let parts = [&dipoles[..cut], &dipoles[cut..]];
+            group.parts = Some(parts.map(|part| self.add(part, fill, farthest)));
+        }
+        self.groups[number] = group;
+        number
+    }
+
+    fn append(&mut self, mut dipoles: Vec<Dipole>, fill: usize) -> Range<usize> {
+        let first = self.dipoles.len();
+        if let Some(last) = dipoles.last().copied() {
+            let moment = Vector2::zeros();
+            dipoles.resize(
+                dipoles.len().next_multiple_of(fill),
+                Dipole { moment, ..last },
+            );
+        }
+        self.dipoles.extend(dipoles);
+        first..self.dipoles.len()
+    }
+
+    /// Whether any group has another group of dipoles standing for it.
+    pub fn has_stands(&self) -> bool {
+        self.groups.iter().any(|group| !group.stands.is_empty())
+    }
+}
+
+/// Where to halve: at the widest gap of the middle half, the sooner the nearer to the middle.
+fn cut(dipoles: &[Dipole]) -> usize {
+    let count = dipoles.len();
+    let worth = |k: usize| {
+        let gap = (dipoles[k].position - dipoles[k - 1].position).norm();
+        gap * (1.0 - 0.1 * (k as f64 / count as f64 - 0.5).abs())
+    };
+    let middle = (count / 4).max(1)..=3 * count / 4;
+    let widest = middle.clone().map(worth).fold(0.0, f64::max);
+    middle
+        .filter(|k| worth(*k) >= widest * (1.0 - 1e-9))
+        .min_by_key(|k| k.abs_diff(count / 2))
+        .unwrap_or(count / 2)
+}
+
+impl Group {
+    fn around(dipoles: &[Dipole]) -> Self {
+        let ends = [&dipoles[0], &dipoles[dipoles.len() - 1]].map(|dipole| dipole.position);
+        let axis = (ends[1] - ends[0]).try_normalize(0.0);
+        let axis = axis.unwrap_or_else(Vector2::x);
+        let across = Vector2::new(-axis.y, axis.x);
+        let range = |direction: Vector2<f64>| {
+            let places = dipoles.iter().map(|dipole| dipole.position.dot(&direction));
+            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| {
+                (a.min(s), b.max(s))
+            });
+            // A little more, for the roundings of what is compared with it.
+            let size = low.abs().max(high.abs());
+            ((low + high) / 2.0, (high - low) / 2.0 + 1e-15 * size)
+        };
+        let ((s, length), (h, width)) = (range(axis), range(across));
+        let centre = axis * s + across * h;
+        let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+            .map(|(i, j)| centre + axis * (i * length) + across * (j * width));
+        Self {
+            centre,
+            axis,
+            half: [length, width],
+            parts: None,
+            magnitude: dipoles.iter().map(|dipole| dipole.moment.norm()).sum(),
+            lever: corners
+                .map(|corner| corner.norm())
+                .into_iter()
+                .fold(0.0, f64::max),
+            count: dipoles.len(),
+            own: 0..0,
+            stands: Vec::new(),
+        }
+    }
+
+    /// Dipoles that stand for the group with so many nodes along it, and from which distance (m);
+    /// `None` where they are not markedly fewer.
+    ///
+    /// With a grid of n by k nodes no more is lost than by n nodes along, and by k nodes across
+    /// times Lebesgue's constant of the n; with both groups of a pair replaced, than by the one and
+    /// by the other times the constants of the one.
+    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, [f64; 2])> {
+        let [length, width] = self.half;
+        let from = least_distance(lost, order, length, LOST / SHARES);
+        let across = LOST / (SHARES * lebesgue(order));
+        let widths = (1..=8).find(|k| lost(*k, width, from) <= across)?;
+        let across = LOST_OF_BOUNDS / (SHARES * lebesgue(order));
+        let roughly = least_distance(lost_of_bounds, order, length, LOST_OF_BOUNDS / SHARES)
+            .max(least_distance(lost_of_bounds, widths, width, across));
+        if 4 * order * widths > 3 * dipoles.len() {
+            return None;
+        }
+        let (along, across) = (nodes(order), nodes(widths));
+        let normal = Vector2::new(-self.axis.y, self.axis.x);
+        let mut stand = Vec::with_capacity(order * widths);
+        for s in &along {
+            let place = self.centre + self.axis * (self.half[0] * s);
+            stand.extend(across.iter().map(|h| Dipole {
+                position: place + normal * (self.half[1] * h),
+                moment: Vector2::zeros(),
+            }));
+        }
+        for dipole in dipoles {
+            let offset = dipole.position - self.centre;
+            let at = |direction: &Vector2<f64>, half: f64| {
+                let place = if half > 0.0 {
+                    offset.dot(direction) / half
+                } else {
+                    0.0
+                };
+                place.clamp(-1.0, 1.0)
+            };
+            let along = shares(&along, at(&self.axis, self.half[0]));
+            let across = shares(&across, at(&normal, self.half[1]));
+            for (i, share) in along.iter().enumerate() {
+                for (j, other) in across.iter().enumerate() {
+                    stand[i * widths + j].moment += dipole.moment * (share * other);
+                }
+            }
+        }
+        Some((stand, [from, roughly]))
+    }
+
+    /// What stands for the group at a distance (m): the fewest dipoles, or its own where it has no
+    /// parts; `None` where its parts are to be asked.
+    pub fn at(&self, distance: f64, purpose: Purpose) -> Option<&Range<usize>> {
+        let from = |stand: &&Stand| stand.from[purpose as usize] <= distance;
+        let stand = self.stands.iter().find(from);
+        match stand {
+            Some(stand) => Some(&stand.dipoles),
+            None if self.parts.is_none() => Some(&self.own),
+            None => None,
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Which groups of two tiles meet as wholes, and which in parts.
+
+use std::ops::Range;
+
+use nalgebra::Vector2;
+
+use super::tree::{Group, Purpose};
+use crate::configuration::Configuration;
+
+/// By how much the dipoles of the moving tile may be elsewhere than in the middle of what is asked
+/// about.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Leeway {
+    /// The farthest the tile goes (m) and turns (rad).
+    pub travel: f64,
+    pub turn: f64,
+    /// Groups closer than so many times a group's own leeway meet in parts.
+    pub near: f64,
+    pub purpose: Purpose,
+}
+
+/// Two groups that meet: the dipoles of either, by their numbers in their trees.
+#[derive(Clone, Debug)]
+pub struct Meeting {
+    pub fixed: Range<usize>,
+    pub moving: Range<usize>,
+    /// Where dipoles stand for others, the bound `M1 M2` (A^2 m^4) of the magnitudes for which
+    /// they do, else 0, and the least distance of the two (m).
+    pub replaced: f64,
+    pub distance: f64,
+}
+
+/// All meetings of the groups of two tiles in a configuration: every pair of dipoles is in one.
+pub struct Walk<'a> {
+    groups: [&'a [Group]; 2],
+    place: Vector2<f64>,
+    turn: Vector2<f64>,
+    leeway: Leeway,
+    open: Vec<[usize; 2]>,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(groups: [&'a [Group]; 2], q: &Configuration, leeway: Leeway) -> Self {
+        let (sin, cos) = q.theta.sin_cos();
+        let mut open = Vec::with_capacity(64);
+        if groups.iter().all(|groups| !groups.is_empty()) {
+            open.push([0, 0]);
+        }
+        Self {
+            groups,
+            place: q.position(),
+            turn: Vector2::new(cos, sin),
+            leeway,
+            open,
+        }
+    }
+
+    fn turned(&self, v: Vector2<f64>) -> Vector2<f64> {
+        let (cos, sin) = (self.turn.x, self.turn.y);
+        Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
+    }
+
+    /// A lower bound of the distance (m) of two groups: in the frame of either box, that of the
+    /// upright boxes around both.
+    fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
+        let way = self.place + self.turned(moving.centre) - fixed.centre;
+        let axis = self.turned(moving.axis);
+        let cos = fixed.axis.dot(&axis).abs();
+        let sin = fixed.axis.perp(&axis).abs();
+        let gap = |axis: Vector2<f64>, own: [f64; 2], other: [f64; 2]| {
+            let along = way.dot(&axis).abs() - own[0] - other[0] * cos - other[1] * sin;
+            let across = way.perp(&axis).abs() - own[1] - other[0] * sin - other[1] * cos;
+            let (along, across) = (along.max(0.0), across.max(0.0));
+            along * along + across * across
+        };
+        let first = gap(fixed.axis, fixed.half, moving.half);
+        let second = gap(axis, moving.half, fixed.half);
+        // Less the roundings of places within some metres.
+        (first.max(second).sqrt() * (1.0 - 1e-12) - 1e-15).max(0.0)
+    }
+}
+
+impl Iterator for Walk<'_> {
+    type Item = Meeting;
+
+    fn next(&mut self) -> Option<Meeting> {
+        while let Some([f, m]) = self.open.pop() {
+            let (fixed, moving) = (&self.groups[0][f], &self.groups[1][m]);
+            let leeway = self.leeway.travel + self.leeway.turn * moving.lever;
+            let distance = self.distance(fixed, moving);
+            let clear = if distance > self.leeway.near * leeway {
+                distance - leeway
+            } else {
+                0.0
+            };
+            let purpose = self.leeway.purpose;
+            let split = match (fixed.at(clear, purpose), moving.at(clear, purpose)) {
+                (Some(first), Some(second)) => {
+                    let own = fixed.own == *first && moving.own == *second;
+                    return Some(Meeting {
+                        fixed: first.clone(),
+                        moving: second.clone(),
+                        replaced: if own {
+                            0.0
+                        } else {
+                            fixed.magnitude * moving.magnitude
+                        },
+                        distance: clear,
+                    });
+                }
+                (None, Some(_)) => 0,
+                (Some(_), None) => 1,
+                (None, None) => usize::from(moving.half[0] > fixed.half[0]),
+            };
+            if split == 0 {
+                self.open
+                    .extend(fixed.parts.iter().flatten().map(|part| [*part, m]));
+            } else {
+                self.open
+                    .extend(moving.parts.iter().flatten().map(|part| [f, *part]));
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,197 @@
+"""How the time of an analysis grows with a design: over magnets a face, corners, and faces with magnets.
+
+    tests/growth/growth.py target/release/tilebind results/growth.csv [--limit SECONDS]
+
+analyses designs of one family a row (`analyse --complete-seconds 0`) and writes the processor
+time of each, with what it found, and the picture of the table beside it. `--draw` draws an existing
+table. Slopes are of log time over log size, by least squares; a design that is not done within the
+limit has an empty time.
+"""
+
+import csv
+import json
+import math
+import random
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MAGNETS = [4, 8, 16, 32, 64, 128, 256]
+CORNERS = [4, 8, 16, 32, 64, 128, 256]
+FACES = [1, 2, 4, 8, 16, 32, 64]
+COLUMNS = ["family", "size", "user_s", "states", "barriers", "energies", "cells"]
+
+
+def code(n, seed):
+    """As many north as south poles in random order; NNNS for four."""
+    if n == 4:
+        return "NNNS"
+    poles = list("NS" * (n // 2) + "N" * (n % 2))
+    random.Random(seed).shuffle(poles)
+    return "".join(poles)
+
+
+def mate(word):
+    return "".join("S" if pole == "N" else "N" for pole in reversed(word))
+
+
+def tile(name, shape, faces):
+    lines = [f"[{name}]", shape, "thickness = 0.013", "mass = 0.1", f"[{name}.faces]", *faces]
+    return "\n".join(lines)
+
+
+def design(name, magnet, fixed, moving, target, inset=0.0):
+    """`magnet`: pitch (m); the magnets are as long and wide as the paper's, or as fit."""
+    size = min(0.01, 0.8 * magnet)
+    return f"""name = "{name}"
+[table]
+size = [2.0, 2.0]
+[magnet]
+size = [{size:.9g}, {size:.9g}, {0.3 * size:.9g}]
+remanence = 1.2
+pitch = {magnet:.9g}
+inset = {inset}
+{fixed}
+{moving}
+[target]
+fixed = "{target[0]}"
+moving = "{target[1]}"
+"""
+
+
+def magnets(n):
+    """The paper's squares with n magnets a face."""
+    word = code(n, 7)
+    pair = (tile("fixed", "side = 0.43", [f'all = {{ code = "{word}" }}']),
+            tile("moving", "side = 0.43", [f'all = {{ code = "{mate(word)}" }}']))
+    return design(f"magnets-{n}", 0.04 if n == 4 else 0.4 / n, *pair, ("east", "west"))
+
+
+def corners(n):
+    """The paper's squares, the meeting faces a wave of n straight pieces."""
+    count = max(n // 16, 1)
+    points = [(k / n - 0.5, round(math.sin(2 * math.pi * count * k / n), 9)) for k in range(n + 1)]
+    points = ", ".join(f"[{0.36 * s:.9g}, {0.008 * h / count:.9g}]" for s, h in points)
+    east = f'east = {{ profile = {{ shape = "points", points = [{points}] }} }}'
+    pair = (tile("fixed", "side = 0.43", ['all = { code = "NNNS" }', east]),
+            tile("moving", "side = 0.43", ['all = { code = "NSSS" }', 'west = { mates = "east" }']))
+    return design(f"corners-{n}", 0.04, *pair, ("east", "west"), inset=0.002)
+
+
+def faces(n):
+    """A polygon as large as the paper's tile, of n sides with four magnets each (below four: a
+    square with so many such faces)."""
+    sides = max(n, 4)
+    side = 0.43 * math.tan(math.pi / sides)
+    shape = f"sides = {sides}\nside = {side:.9g}"
+    pitch = min(0.04, side / 4.5)
+    # Opposite faces meet first.
+    order = [0, sides // 2, *(k for k in range(1, sides) if k != sides // 2)][:n]
+
+    def coded(word, turn):
+        return [f'{(k + turn) % sides} = {{ code = "{word}" }}' for k in sorted(order)]
+
+    pair = (tile("fixed", shape, coded("NNNS", 0)), tile("moving", shape, coded("NSSS", sides // 2)))
+    return design(f"faces-{n}", pitch, *pair, ("0", str(sides // 2)))
+
+
+FAMILIES = {"magnets a face": (MAGNETS, magnets), "corners": (CORNERS, corners), "faces": (FACES, faces)}
+
+
+def measure(program, text, limit):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "design.toml"
+        path.write_text(text)
+        out = Path(folder) / "out"
+        command = [program, "analyse", path, "--complete-seconds", "0", "--out", out]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        try:
+            subprocess.run(command, check=True, capture_output=True, text=True, timeout=limit)
+        except subprocess.TimeoutExpired:
+            return ["", "", "", "", ""]
+        except subprocess.CalledProcessError as error:
+            sys.exit(f"{path.read_text()}\n{error.stderr}")
+        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        report = json.loads((out / "report.json").read_text())
+        counts = report["counts"]
+        found = [len(report["states"]), len(report["barriers"]), counts["energy_evaluations"], counts.get("cells", 0)]
+        return [f"{seconds:.2f}", *found]
+
+
+def slope(points):
+    xs, ys = [math.log(x) for x, _ in points], [math.log(y) for _, y in points]
+    mean = sum(xs) / len(xs), sum(ys) / len(ys)
+    over = sum((x - mean[0]) * (y - mean[1]) for x, y in zip(xs, ys))
+    return over / sum((x - mean[0]) ** 2 for x in xs)
+
+
+def draw(table):
+    """Processor time over size, both logarithmic, a line a family; an SVG without any library."""
+    looks = {"magnets a face": ("#0072B2", ""), "corners": ("#D55E00", "8 4"), "faces": ("#009E73", "2 3")}
+    rows = [row for row in csv.DictReader(table.open()) if row["user_s"]]
+    left, top, width, height = 70, 40, 620, 360
+    most = max(float(row["user_s"]) for row in rows)
+    least = min(float(row["user_s"]) for row in rows)
+    low, high = math.floor(math.log10(least)), math.ceil(math.log10(most))
+    def at(size, seconds):
+        x = left + width * math.log2(size) / 8
+        return x, top + height * (high - math.log10(seconds)) / (high - low)
+
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 20}" height="{top + height + 60}" '
+           'font-family="sans-serif" font-size="14"><rect width="100%" height="100%" fill="white"/>',
+           f'<text x="{left}" y="24" font-size="17">processor time of an analysis (s)</text>']
+    for power in range(low, high + 1):
+        y = at(1, 10.0**power)[1]
+        out.append(f'<path d="M{left} {y:.1f}h{width}" stroke="#dddddd"/>')
+        out.append(f'<text x="{left - 8}" y="{y + 5:.1f}" text-anchor="end">{10.0**power:g}</text>')
+    for power in range(9):
+        x = at(2**power, 10.0**low)[0]
+        out.append(f'<text x="{x:.1f}" y="{top + height + 20}" text-anchor="middle">{2**power}</text>')
+    out.append(f'<text x="{left + width / 2}" y="{top + height + 45}" text-anchor="middle">'
+               "magnets a face, corners of the meeting faces, or faces with four magnets</text>")
+    for line, (family, (colour, dashes)) in enumerate(looks.items()):
+        points = [(int(row["size"]), float(row["user_s"])) for row in rows if row["family"] == family]
+        if not points:
+            continue
+        places = [at(*point) for point in points]
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
+        style = f'stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}" fill="none"'
+        out.append(f'<polyline points="{path}" {style}/>')
+        out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>' for x, y in places]
+        said = f"{family}: slope {slope(points):.2f}" if len(points) > 1 else family
+        y = top + 18 + 22 * line
+        out.append(f'<path d="M{left + 12} {y - 5}h32" {style}/><text x="{left + 52}" y="{y}">{said}</text>')
+    table.with_suffix(".svg").write_text("\n".join([*out, "</svg>\n"]))
+
+
+def main():
+    arguments = sys.argv[1:]
+    limit = 3600.0
+    if "--limit" in arguments:
+        at = arguments.index("--limit")
+        limit = float(arguments[at + 1])
+        del arguments[at : at + 2]
+    if arguments[:1] == ["--draw"] and len(arguments) == 2:
+        return draw(Path(arguments[1]))
+    if arguments[:1] == ["--design"] and len(arguments) == 3:
+        name = next(name for name in FAMILIES if name.startswith(arguments[1]))
+        return print(FAMILIES[name][1](int(arguments[2])), end="")
+    if len(arguments) != 2:
+        sys.exit(__doc__)
+    program, table = Path(arguments[0]).resolve(), Path(arguments[1])
+    with table.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for family, (sizes, make) in FAMILIES.items():
+            for size in sizes:
+                row = [family, size, *measure(program, make(size), limit)]
+                writer.writerow(row)
+                file.flush()
+                print(*row, file=sys.stderr)
+    return draw(table)
+
+
+if __name__ == "__main__":
+    main()
