@@ -71,7 +71,8 @@ mod tests {
                     assert!(off.abs() <= arch.off, "{low} {up} {from} {to}");
                     farthest = farthest.max(off.abs());
                 }
-                assert!(farthest > 0.6 * arch.off, "{low} {up} {farthest} {arch:?}");
+                // Where L is all but straight the farthest way has 0.65 / 1.15 of the bound.
+                assert!(farthest > 0.55 * arch.off, "{low} {up} {farthest} {arch:?}");
             }
         }
     }

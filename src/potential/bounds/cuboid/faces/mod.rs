@@ -2,6 +2,7 @@
 //! are bounded over a whole cell.
 
 mod arch;
+mod lengths;
 mod over;
 mod rule;
 mod touch;
@@ -15,6 +16,7 @@ use nalgebra::Vector2;
 use super::nodes::{Node, Nodes};
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::segment_distance;
+use lengths::hypotenuse;
 use rule::Rule;
 
 /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
@@ -314,6 +316,6 @@ impl Pair {
     /// a distance (m) of it.
     fn upright(&self, p: f64) -> f64 {
         let [high, low] = self.heights();
-        2.0 * (p.hypot(high) - p.hypot(low)) / p
+        2.0 * (hypotenuse(p, high) - hypotenuse(p, low)) / p
     }
 }

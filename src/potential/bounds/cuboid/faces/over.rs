@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::arch::Arch;
+use super::lengths::hypotenuse;
 use super::rule::Rule;
 use super::{ELLIPSE, Left, Motion, Pair, SLACK, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
@@ -36,7 +37,7 @@ impl Pair {
         // What bends along h alone, upwards everywhere: what is along the gap alone by a constant,
         // the rest, from 0 to `edges`, by half of that.
         let [up, aside] = self.moved(panel);
-        let gap = |h: f64| 4.0 * (h.hypot(high) / h.hypot(low).max(0.1 * SLACK)).ln();
+        let gap = |h: f64| 4.0 * (hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * SLACK)).ln();
         let floor = (h - reach_up).max(0.0);
         let mut arch = Arch::of(floor, up, h + reach_up, |h| [gap(h); 2]);
         let off = arch.off + 0.5 * edges * up;
@@ -57,7 +58,7 @@ impl Pair {
         let bent = off * up + arced;
         let gap_alone = |way: f64| {
             let way = way.max(SLACK);
-            4.0 * way * way * (0.5 * (way.hypot(high) / way.hypot(low)).ln() + 0.75)
+            4.0 * way * way * (0.5 * (hypotenuse(way, high) / hypotenuse(way, low)).ln() + 0.75)
         };
         // What is of third order.
         let rest =
@@ -65,7 +66,7 @@ impl Pair {
         // Their slopes.
         let gap_slope = |way: f64| {
             let way = way.max(SLACK);
-            4.0 * way * ((way.hypot(high) / way.hypot(low)).ln() + 1.0)
+            4.0 * way * ((hypotenuse(way, high) / hypotenuse(way, low)).ln() + 1.0)
         };
         let bent_slope = off * fast_up + arced_slope;
         let rest_slope = third
@@ -74,7 +75,7 @@ impl Pair {
             + edges * arc * (2.0 * (up + 2.0 * aside) + fast_up + 2.0 * fast_aside);
         // What the rule is wrong by.
         let short = ELLIPSE * clear;
-        let long = panel.half.hypot(short);
+        let long = hypotenuse(panel.half, short);
         let least = clear - short;
         let steepness = (1.0 + (h.abs() + reach_up + long * tilt) * tilt / least) / least;
         let smooth = 2.0 * thin * thick * long * steepness * rule.error(short / panel.half);

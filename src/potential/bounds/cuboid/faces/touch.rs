@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::arch::Arch;
+use super::lengths::{asinh, hypotenuse, stretch};
 use super::{Left, Pair, SLACK, SheetPanel};
 use crate::potential::bounds::cuboid::STICKING_OUT;
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
@@ -68,7 +69,7 @@ impl Pair {
         let [_, low] = self.heights();
         let least = if inside { h - up } else { h.abs() - up };
         let floor = least.max(0.0);
-        let edge = |beside: f64| self.upright(beside.hypot(floor));
+        let edge = |beside: f64| self.upright(hypotenuse(beside, floor));
         let near = (v - sheet).abs() - aside;
         let far = (v + sheet - aside).max(near);
         let edges = edge(near) + edge(far);
@@ -77,14 +78,14 @@ impl Pair {
             let range = |h: f64| [nearest, v + aside].map(|v| self.level_edges(v, h));
             (Arch::of(floor, up, h + up, range), 1.0)
         } else {
-            let level = |height: f64| (sheet / height.hypot(low)).asinh();
+            let level = |height: f64| asinh(sheet, hypotenuse(height, low));
             let most = 4.0 * (0.5 * level(floor)).min(0.5 * level(up) + 1.75);
             let off = 2.0 * most * up;
             (Arch { bend: 0.0, off }, 0.5)
         };
         let bent = 0.5 * edges * (up * up + aside * aside) + share * levels.off * up;
         let [fast_up, fast_aside] = self.speeds(panel);
-        let speed = fast_up.hypot(fast_aside);
+        let speed = hypotenuse(fast_up, fast_aside);
         // The form is that of the middle: of the other points it lacks the square of how far they
         // are from there along h, and of all what their ways bend.
         let turn = self.motion.turn;
@@ -97,7 +98,7 @@ impl Pair {
         let bent = Bent {
             arch: levels.bend,
             remainder,
-            slope: edges * up.hypot(aside) * speed
+            slope: edges * hypotenuse(up, aside) * speed
                 + levels.off * fast_up
                 + arced_slope
                 + tilted_slope,
@@ -110,11 +111,12 @@ impl Pair {
     fn level_edges(&self, v: f64, h: f64) -> f64 {
         let sheet = self.first[1] / 2.0;
         let [high, low] = self.heights();
+        // What the two ends of a level edge add, as one logarithm.
         let edge = |height: f64| {
-            let away = h.hypot(height).max(0.1 * SLACK);
-            ((sheet + v) / away).asinh() + ((sheet - v) / away).asinh()
+            let away = hypotenuse(h, height).max(0.1 * SLACK);
+            stretch(sheet + v, away) * stretch(sheet - v, away) / (away * away)
         };
-        2.0 * (edge(low) - edge(high))
+        2.0 * (edge(low) / edge(high)).ln()
     }
 
     /// Phi falls with the distance from the face's line and with that from its middle line, so
@@ -140,8 +142,11 @@ impl Pair {
         let [_, thin, _] = self.charge();
         let [high, low] = self.heights();
         let near = panel.half / 2.0;
-        let log = |z: f64| if z > 0.0 { z * (z / near).asinh() } else { 0.0 };
-        let g = 2.0 * (log(high) - log(low) - near.hypot(high) + near.hypot(low));
+        let log = |z: f64| {
+            let root = hypotenuse(z, near);
+            z * ((z + root) / near).ln() - root
+        };
+        let g = 2.0 * (log(high) - log(low));
         let [fast_up, fast_aside] = self.speeds(panel);
         let slope = 2.0 * PI * thin * fast_up + (g + 2.0 * high) * fast_aside;
         Left {
