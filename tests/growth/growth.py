@@ -5,7 +5,7 @@
 analyses designs of one family a row (`analyse --complete-seconds 0`) and writes the processor
 time of each, with what it found, and the picture of the table beside it. `--draw` draws an existing
 table. Slopes are of log time over log size, by least squares; a design that is not done within the
-limit has an empty time.
+limit has an empty time, and so have the larger ones of its family, which are not tried.
 """
 
 import csv
@@ -185,8 +185,11 @@ def main():
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for family, (sizes, make) in FAMILIES.items():
+            done = True
             for size in sizes:
-                row = [family, size, *measure(program, make(size), limit)]
+                found = measure(program, make(size), limit) if done else [""] * 5
+                done = found[0] != ""
+                row = [family, size, *found]
                 writer.writerow(row)
                 file.flush()
                 print(*row, file=sys.stderr)
