@@ -77,9 +77,7 @@ pub(super) fn narrowed<E>(
         let is_narrow = |[lower, upper]: &[f64; 2]| *upper <= (1.0 + certify.distance) * lower;
         let deciding = &found.bounds[..found.deciding];
         let is_done = deciding.iter().all(is_narrow) || found.unknowns > certify.unknowns;
-        if !is_done {
-            field.refine(&found.shares);
-        }
+        let is_done = is_done || !field.refine(&found.shares);
         all.push(found);
         if is_done {
             return Ok(all);

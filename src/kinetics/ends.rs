@@ -1,6 +1,7 @@
 //! The ends of an exit on a mesh, and what the mesh says of it.
 
 use super::bracket::{Asked, Bracket, Step};
+use super::corridor::Way;
 use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
@@ -39,6 +40,7 @@ impl Ends {
         field: &mut Field,
         bond: &Configuration,
         asked: &ExitSettings,
+        way: Way,
     ) -> Result<Self, ExitError> {
         let beside = field.mesh.neighbours();
         let around = |field: &Field, q: &Configuration, limit: f64| {
@@ -58,7 +60,7 @@ impl Ends {
             return Err(ExitError::Bound(asked.basin_energy));
         }
         let level = pass(&field.mesh, &beside, &held, &|id| inside[id] || rim[id]);
-        field.set_level(level.unwrap_or(0.0));
+        field.set_level(level.ok_or(ExitError::Closed(way))?);
         let deep = field.level() - DEEP * field.kt;
         let is_deep = field.energy_at(&asked.start) < deep;
         let top = field.energy_at(&asked.start) + NEAR * field.kt;

@@ -1,6 +1,7 @@
 //! How soon a tile leaves a configuration, and where it comes first.
 
 use super::bracket::{Certify, narrowed};
+use super::corridor::Way;
 use super::ends::Ends;
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, Unsolved};
@@ -74,6 +75,8 @@ pub struct Exit {
     /// the integrals over cells are off by. None where the start lies in no well; from below only,
     /// the upper ones infinite, where the tiles' outlines are not convex.
     pub bounds: Vec<[f64; 2]>,
+    /// Whether a way leads from the start to free tiles.
+    pub way: Way,
 }
 
 impl Exit {
@@ -133,6 +136,11 @@ pub enum ExitError {
          choose a lower --basin-energy", si(*.0, "J", 4)
     )]
     Open(f64),
+    /// The mesh has no way from the start to an end.
+    #[error(
+        "no way leads from the start to the bond or to where tiles are free; {}", .0.told()
+    )]
+    Closed(Way),
     /// The mean exit time is no number any more.
     #[error("at kT = {} no tile ever leaves: choose a larger --kt", si(*.0, "J", 4))]
     Never(f64),
@@ -156,31 +164,37 @@ pub fn exit(
     let seeds = [start, *bond];
     let ground = problem.energy(&start);
     let mut field = Field::new(problem, settings.kt, settings.free_at, ground, &seeds);
+    let way = field.open_way(&start);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
+    let mut grows = true;
     loop {
-        let ends = Ends::new(&mut field, bond, settings)?;
+        let ends = Ends::new(&mut field, bond, settings, way)?;
         let nodes = Nodes::new(&field.mesh);
         let (found, functions) = ends.solve(&field, &nodes, &start, earlier.as_ref())?;
         if !(found.time.is_finite() && found.time > 0.0) {
             return Err(ExitError::Never(settings.kt));
         }
-        let errors = field.errors(&nodes, &ends.rims(&field), &functions);
+        let errors = field.errors(&nodes, &ends.rims(&field), &functions.iter().collect::<Vec<_>>());
         meshes.push(MeshExit {
             error: errors.largest,
             of_rims: errors.of_rims,
             ..found
         });
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
-        if is_fine || found.unknowns > settings.unknowns {
+        if is_fine || found.unknowns > settings.unknowns || !grows {
             let mut bounds = bounds(problem, bond, settings)?;
             if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
                 let lower = ends.lower_bound(&field, &nodes)?;
                 bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
             }
-            return Ok(Exit { meshes, bounds });
+            return Ok(Exit {
+                meshes,
+                bounds,
+                way,
+            });
         }
-        field.refine(&errors.shares);
+        grows = field.refine(&errors.shares);
         earlier = Some((nodes, functions));
     }
 }
@@ -198,7 +212,7 @@ fn bounds(
         return Ok(Vec::new());
     };
     let all = narrowed(&mut field, &certify, |field| {
-        let ends = Ends::new(field, bond, settings)?;
+        let ends = Ends::new(field, bond, settings, Way::Open)?;
         let nodes = Nodes::new(&field.mesh);
         Ok::<_, ExitError>(ends.bounds(field, &nodes)?)
     })?;

@@ -121,7 +121,7 @@ impl<'a> Field<'a> {
     }
 
     /// Integrates over the cells that are new.
-    fn evaluate(&mut self) {
+    pub fn evaluate(&mut self) {
         let is_new = |id: &usize| {
             let leaf = &self.mesh.leaves[*id];
             leaf.live && !leaf.blocked && !leaf.seen
@@ -167,8 +167,21 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Divides the cells with the largest shares of an estimated error.
-    pub fn refine(&mut self, shares: &[f64]) {
+    /// What a cell holds of the load (m^2 rad) below an energy (J).
+    pub fn held_below(&self, id: usize, limit: f64) -> f64 {
+        let leaf = &self.mesh.leaves[id];
+        match &leaf.element {
+            Some(element) if element.highest <= limit => element.load.iter().sum(),
+            Some(element) if element.lowest < limit => {
+                self.integrator.held_below(&self.mesh.chart, leaf, limit)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Divides the cells with the largest shares of an estimated error; whether there were any.
+    pub fn refine(&mut self, shares: &[f64]) -> bool {
+        let count = self.mesh.leaves.len();
         let mut order: Vec<usize> = (0..shares.len()).collect();
         order.sort_by_key(|&id| Reverse(OrderedFloat(shares[id])));
         let mut left = DIVIDED * shares.iter().sum::<f64>();
@@ -182,6 +195,7 @@ impl<'a> Field<'a> {
             self.mesh.divide(id);
         }
         self.evaluate();
+        self.mesh.leaves.len() > count
     }
 
     /// The integral of w grad f . grad f of a function (rad).
@@ -194,12 +208,12 @@ impl<'a> Field<'a> {
     }
 
     /// The estimated errors of functions' energies by cells, each relative to the function's energy
-    /// and added up.
+    /// and added up. Functions without energy have none.
     ///
     /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient against
     /// the continuous one that comes of averaging it at the corners; to it comes what it matters
     /// that basins are made of cells.
-    pub fn errors(&self, nodes: &Nodes, rims: &Rims, functions: &[Vec<f64>]) -> Errors {
+    pub fn errors(&self, nodes: &Nodes, rims: &Rims, functions: &[&Vec<f64>]) -> Errors {
         let mut shares = vec![0.0; self.mesh.leaves.len()];
         let (mut largest, mut of_rims) = (0.0_f64, 0.0_f64);
         for values in functions {

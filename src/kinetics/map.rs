@@ -64,10 +64,12 @@ impl Map {
         }
         let through = field.energy(nodes, values) * turns as f64;
         let square = (2.0 * radius / side as f64).powi(2);
+        // But for rounding and the solver's last step committors lie between 0 and 1.
+        let mean = |sum: &[f64; 4]| (sum[1] / sum[0]).clamp(0.0, 1.0);
         Self {
             radius,
             side,
-            committor: sums.iter().map(|sum| sum[1] / sum[0]).collect(),
+            committor: sums.iter().map(mean).collect(),
             flux: sums
                 .iter()
                 .map(|sum| [sum[2], sum[3]].map(|flow| flow / square / through))

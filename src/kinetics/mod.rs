@@ -33,6 +33,12 @@
 //! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
 //! begins there, and there are bounds from one side only: Dirichlet's.
 //!
+//! # What a mesh may miss
+//! Corridors between contacts that are narrower than cells. Where no way out of a state shows, cells
+//! that contact does not prove blocked are divided down to [`NARROW`], until a way shows or is
+//! excluded; which of the two stands beside the result ([`Way`]). Where a way shows, a second and
+//! narrower one of a lower barrier may still be missed.
+//!
 //! # Lengths
 //! Lengths times s, with magnets of the same remanence: moments grow by s^3, energies by s^3, forces
 //! by s^2, torques by s^3. At kT s^3 a landscape is the same but for its size, wells' integrals and
@@ -45,6 +51,7 @@ pub mod bond;
 mod bracket;
 pub mod chain;
 pub mod corner;
+mod corridor;
 pub mod distance;
 mod ends;
 pub mod exit;
@@ -64,4 +71,5 @@ pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};
 pub use bracket::Certify;
+pub use corridor::{NARROW, Way};
 pub use well::{Estimate, Well};

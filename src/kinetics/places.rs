@@ -17,6 +17,8 @@ pub(super) struct Places {
     limits: Vec<f64>,
     /// For each basin the cells that it reaches into.
     reached: Vec<Vec<usize>>,
+    /// Which basins the mesh has no way out of.
+    pub closed: Vec<bool>,
     /// How many places there are, `free` among them.
     pub count: usize,
     /// Cells that two basins reach into, with the limit (J) of the later one.
@@ -43,19 +45,22 @@ impl Places {
         if wells.iter().any(reaches_rim) {
             return Err(RatesError::NoFree(settings.free_at));
         }
-        let passes: Vec<f64> = (0..wells.len())
+        let passes: Vec<Option<f64>> = (0..wells.len())
             .map(|own| {
                 let others = wells.iter().enumerate().filter(|(k, _)| *k != own);
                 let ends = |id: usize| rim[id] || others.clone().any(|(_, well)| well[id]);
                 let from = field.mesh.holding(&settings.basins[own].at);
-                pass(&field.mesh, &beside, &from, &ends).unwrap_or(0.0)
+                pass(&field.mesh, &beside, &from, &ends)
             })
             .collect();
+        let closed = passes.iter().map(Option::is_none).collect();
+        let passes: Vec<f64> = passes.iter().map(|pass| pass.unwrap_or(0.0)).collect();
         field.set_level(passes.iter().copied().fold(f64::INFINITY, f64::min));
         let mut places = Self {
             of: vec![None; field.mesh.leaves.len()],
             limits: Vec::new(),
             reached: Vec::new(),
+            closed,
             count: wells.len() + 1,
             shared: Vec::new(),
         };
@@ -152,7 +157,9 @@ impl Places {
         }
         let last = self.count - 1;
         // As symmetric as they are without rounding.
+        let is_closed = |place: usize| self.closed.get(place) == Some(&true);
         let flow = |i: usize, j: usize| match (i == last, j == last) {
+            _ if is_closed(i) || is_closed(j) => 0.0,
             (true, true) => 0.0,
             (true, false) => flows[j][i],
             (false, true) => flows[i][j],
@@ -172,6 +179,20 @@ impl Places {
             of_rims: f64::INFINITY,
         };
         Ok((found, committors))
+    }
+
+    /// What each place holds itself (m^2 rad): a basin below its limit, wherever committors are 1.
+    pub fn inside(&self, field: &Field, settings: &RateSettings, beyond: f64) -> Vec<f64> {
+        let beside = field.mesh.neighbours();
+        let copies = field.mesh.chart.copies() as f64;
+        let held = |basin: &Basin| -> f64 {
+            let from = field.mesh.holding(&basin.at);
+            let reached = reaching(&field.mesh, &beside, &from, basin.below);
+            let parts = reached.iter().map(|&id| field.held_below(id, basin.below));
+            copies * parts.sum::<f64>()
+        };
+        let inside = settings.basins.iter().map(held);
+        inside.chain([beyond]).collect()
     }
 
     /// The probability that the first place, the bond, is reached before `free`, where the others are
@@ -209,9 +230,12 @@ impl Places {
                 field.energy(nodes, &(0..nodes.len()).map(rest).collect::<Vec<_>>())
             }
         };
-        // Of a caged tile nothing is left but rounding, of either sign.
+        // Of what nothing leaves nothing is left but rounding, of either sign.
         let capacities: Vec<f64> = (0..self.count)
-            .map(|place| capacity(place).max(0.0))
+            .map(|place| match self.closed.get(place) {
+                Some(true) => 0.0,
+                _ => capacity(place).max(0.0),
+            })
             .collect();
         let held = |place: usize| -> f64 {
             if place == last {

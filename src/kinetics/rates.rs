@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::bracket::{Certify, narrowed};
+use super::corridor::Way;
 use super::field::{Earlier, Field};
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
@@ -88,7 +89,9 @@ impl RateSettings {
 pub struct MeshRates {
     /// From place i (row) to place j, divided by D (1/m^2); 0 on the diagonal.
     pub rates: Vec<Vec<f64>>,
-    /// Each place's share of all time, its copies and, for `free`, the whole table included.
+    /// Each place's share of all time, its copies and, for `free`, the whole table included. What
+    /// lies between places is shared out by their committors. These depend on the metric of motion,
+    /// which is not the same for twins by exchange of the tiles: it is about the moving one's centre.
     pub occupation: Vec<f64>,
     /// Each place's integral (m^2 rad) of its committor times `exp(-(U - U0) / kT)`, U0 the lowest
     /// energy of the basins' configurations; its copies included.
@@ -113,6 +116,12 @@ pub struct Rates {
     pub bounds: Option<RateBounds>,
     /// The map asked for, from the last mesh without bounds.
     pub map: Option<Map>,
+    /// The share of all time that each place is occupied itself: U below the basin's limit, or
+    /// centres farther apart than where tiles are free. Unlike [`MeshRates::occupation`] it leaves
+    /// out what lies between the places; it does not depend on how tiles move.
+    pub inside: Vec<f64>,
+    /// For each basin whether a way leads out of it to free tiles.
+    pub ways: Vec<Way>,
 }
 
 /// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
@@ -185,14 +194,18 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     let energies = seeds.iter().map(|q| problem.energy(q));
     let ground = energies.fold(f64::INFINITY, f64::min);
     let mut field = Field::new(problem, kt, free_at, ground, &seeds);
+    let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let beyond = outside * TAU * (ground / kt).exp();
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
+    let mut grows = true;
     loop {
         let places = Places::new(&mut field, settings)?;
         let nodes = Nodes::new(&field.mesh);
         let (found, functions) = places.solve(&field, &nodes, beyond, earlier.as_ref())?;
-        let errors = field.errors(&nodes, &places.rims(&field), &functions);
+        let left = functions.iter().zip(&places.closed);
+        let left: Vec<_> = left.filter_map(|(h, closed)| (!closed).then_some(h)).collect();
+        let errors = field.errors(&nodes, &places.rims(&field), &left);
         let (mut shares, error) = (errors.shares, errors.largest);
         let unknowns = found.unknowns;
         meshes.push(MeshRates {
@@ -201,7 +214,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             ..found
         });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
-        let is_done = is_fine || unknowns > settings.unknowns;
+        let is_done = is_fine || unknowns > settings.unknowns || !grows;
         if let Some(&(_, limit)) = places.shared.first() {
             if is_done || meshes.len() > MESHES {
                 return Err(RatesError::Joined(limit));
@@ -212,9 +225,14 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
                 Ok::<_, Unsolved>(Map::new(&field, &nodes, &committor, side))
             });
             let map = map.transpose()?;
+            let all: f64 = meshes[meshes.len() - 1].volumes.iter().sum();
+            let inside = places.inside(&field, settings, beyond);
+            let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
             let mut found = with_bounds(problem, settings, [ground, beyond], meshes)?;
             found.map = map;
+            found.ways = ways;
+            found.inside = inside;
             if settings.certify.is_some() {
                 found.bounds.get_or_insert(upper);
             }
@@ -223,7 +241,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();
         }
-        field.refine(&shares);
+        grows = field.refine(&shares);
         earlier = Some((nodes, functions));
     }
 }
@@ -243,6 +261,8 @@ fn with_bounds(
             meshes,
             bounds: None,
             map: None,
+            inside: Vec::new(),
+            ways: Vec::new(),
         });
     };
     let mut all = narrowed(&mut field, &certify, |field| {
@@ -264,5 +284,7 @@ fn with_bounds(
         meshes,
         bounds,
         map: None,
+        inside: Vec::new(),
+        ways: Vec::new(),
     })
 }

@@ -72,7 +72,17 @@ pub(super) struct Sum<'a> {
     pub free: [f64; 2],
 }
 
-impl Sum<'_> {
+impl<'a> Sum<'a> {
+    /// Of a cell of which nothing has been integrated.
+    pub fn new(chart: &'a Chart, leaf: &'a Leaf) -> Self {
+        Self {
+            chart,
+            leaf,
+            element: Element::new(Matrix3::zeros()),
+            free: [0.0; 2],
+        }
+    }
+
     /// (s, phi, theta) of a point given in parts of the cell's size.
     pub fn coordinates(&self, part: [f64; 3]) -> [f64; 3] {
         let size = self.leaf.size() as f64;

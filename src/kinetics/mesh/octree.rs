@@ -152,15 +152,23 @@ impl Octree {
 
     /// For each cell those that share a face with it.
     pub fn neighbours(&self) -> Vec<Vec<u32>> {
+        self.joined(&|leaf| leaf.element.is_some())
+    }
+
+    /// For each of some undivided cells those among them that share a face with it.
+    pub fn joined(&self, is_one: &dyn Fn(&Leaf) -> bool) -> Vec<Vec<u32>> {
         let mut beside = vec![Vec::new(); self.leaves.len()];
-        for (id, leaf, _) in self.live() {
+        for (id, leaf) in self.leaves.iter().enumerate() {
+            if !leaf.live || !is_one(leaf) {
+                continue;
+            }
             let half = leaf.size() / 2;
             for face in 0..6 {
                 let mut place = leaf.low.map(|low| low + half);
                 let (axis, upper) = (face / 2, face % 2 == 1);
                 place[axis] = leaf.low[axis] + if upper { leaf.size() } else { -1 };
                 if let Some(other) = self.find(place)
-                    && self.leaves[other].element.is_some()
+                    && is_one(&self.leaves[other])
                 {
                     beside[id].push(other as u32);
                     beside[other].push(id as u32);

@@ -1,7 +1,7 @@
 //! Integrals over what is free of a cell: line by line along s, where contact is found to a hair and
 //! the steps follow the energy, and between the lines as finely as they differ.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use nalgebra::{Matrix3, Matrix6};
 
@@ -107,12 +107,7 @@ impl<'a> Integrator<'a> {
                 depth,
             }) => !(cuts.is_empty() && corners.is_empty() && depth == 0.0),
         };
-        let mut sum = Sum {
-            chart,
-            leaf,
-            element: Element::new(Matrix3::zeros()),
-            free: [0.0; 2],
-        };
+        let mut sum = Sum::new(chart, leaf);
         let middle = sum.ray([0.5; 2]);
         sum.element.gradients = middle.upright() * sum.gradients(&middle, sum.along(0.5));
         let add = |sum: &mut Sum, point: &Point| {
@@ -134,15 +129,23 @@ impl<'a> Integrator<'a> {
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
 
+    /// The integral of the load (m^2 rad) over where U in a cell is below a limit (J).
+    pub fn held_below(&self, chart: &Chart, leaf: &Leaf, limit: f64) -> f64 {
+        let mut sum = Sum::new(chart, leaf);
+        let held = Cell::new(0.0);
+        let add = |sum: &mut Sum, point: &Point| {
+            if point.energy < limit {
+                let (_, volume) = sum.metric(point.part, point.ray, &point.inverse);
+                held.set(held.get() + point.share * volume * point.weights[1]);
+            }
+        };
+        self.fill(&mut sum, [[0.0, 1.0]; 2], !chart.is_fitted(), 0, &add);
+        held.get()
+    }
+
     /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart.
     pub fn resistance(&self, chart: &Chart, leaf: &Leaf, profile: &Profile) -> Matrix6<f64> {
-        let element = Element::new(Matrix3::zeros());
-        let mut sum = Sum {
-            chart,
-            leaf,
-            element,
-            free: [0.0; 2],
-        };
+        let mut sum = Sum::new(chart, leaf);
         let ends = [0.0, 1.0].map(|part| sum.along(part));
         let cost = RefCell::new(Matrix6::zeros());
         let add = |sum: &mut Sum, point: &Point| {

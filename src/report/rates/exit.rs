@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::{Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, area, finite};
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
+use crate::kinetics::Way;
 use crate::kinetics::exit::{Exit, ExitSettings};
 use crate::report::values;
 use crate::units::si;
@@ -34,6 +35,7 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
         "start": values::pose(&asked.start),
         "basin_energy_J": asked.basin_energy,
         "free_at_m": asked.free_at,
+        "way_out": exit.way.name(),
         "mesh": {
             "unknowns": finest.unknowns,
             "mean_exit_spread": time,
@@ -78,6 +80,9 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         finest.unknowns,
         100.0 * finest.of_rims,
     );
+    if exit.way != Way::Open {
+        let _ = writeln!(text, "  {}", exit.way.told());
+    }
     let _ = match bounds(motion, exit) {
         Some([Some(lower), None]) => writeln!(
             text,

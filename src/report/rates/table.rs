@@ -9,6 +9,7 @@ use super::{
     Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second,
 };
 use crate::design::Design;
+use crate::kinetics::Way;
 use crate::kinetics::chain::Chain;
 use crate::kinetics::rates::{RateSettings, Rates};
 use crate::report::terminal::write_table;
@@ -99,6 +100,8 @@ impl Table<'_> {
                 "free_at_m": own.is_none().then_some(self.asked.free_at),
                 "copies": own.map(|place| place.copies),
                 "occupation": finest.occupation[number],
+                "inside": self.found.inside[number],
+                "way_out": self.found.ways.get(number).map(|way| way.name()),
                 "mean_exit_s": finite(1.0 / self.rate_out(number)),
                 "leaving_per_s": finite(self.rate_out(number)),
                 "leaving_bounds_per_s": self.bounds_out(number),
@@ -162,9 +165,9 @@ impl Table<'_> {
 
     /// occupation.csv: shares of all time on the design's table.
     pub fn occupation_csv(&self) -> String {
-        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m\n".to_owned();
+        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside\n".to_owned();
         for (number, share) in self.found.finest().occupation.iter().enumerate() {
-            let name = self.name(number);
+            let (name, inside) = (self.name(number), self.found.inside[number]);
             let _ = match self.places.get(number) {
                 Some(Place {
                     copies,
@@ -173,9 +176,13 @@ impl Table<'_> {
                     ..
                 }) => writeln!(
                     text,
-                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},"
+                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e}"
                 ),
-                None => writeln!(text, "{name},,{share:.6e},,,{}", self.asked.free_at),
+                None => writeln!(
+                    text,
+                    "{name},,{share:.6e},,,{},{inside:.6e}",
+                    self.asked.free_at
+                ),
             };
         }
         text
@@ -229,6 +236,18 @@ impl Table<'_> {
             self.found.finest().unknowns,
             100.0 * worst,
         );
+        let inside = self.found.inside.iter().enumerate();
+        let inside = inside.map(|(place, share)| format!("{} {share:.3e}", self.name(place)));
+        let _ = writeln!(
+            text,
+            "  occupation shares out by committors what lies between; inside alone: {}",
+            inside.collect::<Vec<_>>().join(", "),
+        );
+        for (place, way) in self.places.iter().zip(&self.found.ways) {
+            if *way != Way::Open {
+                let _ = writeln!(text, "  {}: {}", place.name, way.told());
+            }
+        }
         let Some(bounds) = &self.found.bounds else {
             let _ = writeln!(text, "  {NO_BOUNDS}");
             text.push_str(SCOPE);

@@ -1,0 +1,114 @@
+//! Corridors narrower than the cells of a mesh.
+//!
+//! Where none of the lines through a cell meets anything free the cell is closed, although contact
+//! may not prove it blocked. Where nothing but such cells parts a state from free tiles they are
+//! divided, until a way shows or is excluded.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::field::Field;
+use super::sets::is_at_the_rim;
+use crate::configuration::Configuration;
+
+/// Cells of this size (m) are not divided for it any more.
+pub const NARROW: f64 = 1e-4;
+/// So many divisions are made for one way at most.
+const MOST_DIVIDED: usize = 20_000;
+
+/// Whether the mesh has a way from a state to free tiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// It has one.
+    Open,
+    /// Contact proves that there is none.
+    Blocked,
+    /// None was found, and none that is narrower than 0.1 mm is excluded.
+    Lost,
+}
+
+impl Way {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Blocked => "blocked",
+            Self::Lost => "not found",
+        }
+    }
+
+    /// What is to be said of it.
+    pub fn told(self) -> String {
+        match self {
+            Self::Open => "a way leads to free tiles".to_owned(),
+            Self::Blocked => "contact blocks every way to free tiles".to_owned(),
+            Self::Lost => format!(
+                "no way to free tiles was found; ways narrower than {} mm are not excluded",
+                1e3 * NARROW
+            ),
+        }
+    }
+}
+
+impl Field<'_> {
+    /// Sees to it that the mesh has a way from a configuration to its rim, if there is one.
+    pub fn open_way(&mut self, from: &Configuration) -> Way {
+        let mut divided = 0;
+        let mut is_excluded = true;
+        loop {
+            let Some(closed) = self.closed_on_way(from, &mut is_excluded) else {
+                return if is_excluded { Way::Blocked } else { Way::Lost };
+            };
+            if closed.is_empty() {
+                return Way::Open;
+            }
+            divided += closed.len();
+            if divided > MOST_DIVIDED {
+                return Way::Lost;
+            }
+            for id in closed {
+                self.mesh.divide(id);
+            }
+            self.evaluate();
+        }
+    }
+
+    /// The closed cells on the way to the rim that goes through the fewest of them, by their size,
+    /// if there is a way. Some cells are too small to be asked: then nothing is excluded.
+    fn closed_on_way(&self, from: &Configuration, is_excluded: &mut bool) -> Option<Vec<usize>> {
+        let mesh = &self.mesh;
+        let is_small = |level: u8| mesh.chart.depth(level, from) < NARROW;
+        let beside = mesh.joined(&|leaf| !leaf.blocked);
+        let cost = |id: usize| match mesh.leaves[id].element {
+            Some(_) => 0,
+            None => mesh.leaves[id].size(),
+        };
+        let mut best = vec![i64::MAX; mesh.leaves.len()];
+        let mut before = vec![None; mesh.leaves.len()];
+        let mut open = BinaryHeap::new();
+        for id in mesh.holding(from) {
+            best[id] = 0;
+            open.push(Reverse((0, id)));
+        }
+        while let Some(Reverse((length, id))) = open.pop() {
+            if is_at_the_rim(mesh, &mesh.leaves[id]) {
+                let way = std::iter::successors(Some(id), |&id| before[id]);
+                return Some(way.filter(|&id| cost(id) > 0).collect());
+            }
+            if length > best[id] {
+                continue;
+            }
+            for other in beside[id].iter().map(|&other| other as usize) {
+                let there = length + cost(other);
+                if cost(other) > 0 && is_small(mesh.leaves[other].level) {
+                    *is_excluded = false;
+                } else if there < best[other] {
+                    best[other] = there;
+                    before[other] = Some(id);
+                    open.push(Reverse((there, other)));
+                }
+            }
+        }
+        None
+    }
+}
