@@ -175,7 +175,11 @@ pub fn exit(
         if !(found.time.is_finite() && found.time > 0.0) {
             return Err(ExitError::Never(settings.kt));
         }
-        let errors = field.errors(&nodes, &ends.rims(&field), &functions.iter().collect::<Vec<_>>());
+        let errors = field.errors(
+            &nodes,
+            &ends.rims(&field),
+            &functions.iter().collect::<Vec<_>>(),
+        );
         meshes.push(MeshExit {
             error: errors.largest,
             of_rims: errors.of_rims,

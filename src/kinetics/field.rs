@@ -111,13 +111,19 @@ impl<'a> Field<'a> {
                 large.extend(held.into_iter().filter(|id| size(id, q) > least));
             }
             if large.is_empty() {
-                return field;
+                break;
             }
             for id in large {
                 field.mesh.divide(id);
             }
             field.evaluate();
         }
+        if !field.mesh.chart.is_fitted() {
+            for q in seeds {
+                field.settle(q);
+            }
+        }
+        field
     }
 
     /// Integrates over the cells that are new.

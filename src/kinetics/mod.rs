@@ -61,6 +61,7 @@ mod line;
 pub mod map;
 mod mesh;
 pub mod mixture;
+mod narrow;
 mod places;
 pub mod population;
 pub mod rates;

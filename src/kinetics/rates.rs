@@ -204,7 +204,9 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         let nodes = Nodes::new(&field.mesh);
         let (found, functions) = places.solve(&field, &nodes, beyond, earlier.as_ref())?;
         let left = functions.iter().zip(&places.closed);
-        let left: Vec<_> = left.filter_map(|(h, closed)| (!closed).then_some(h)).collect();
+        let left: Vec<_> = left
+            .filter_map(|(h, closed)| (!closed).then_some(h))
+            .collect();
         let errors = field.errors(&nodes, &places.rims(&field), &left);
         let (mut shares, error) = (errors.shares, errors.largest);
         let unknowns = found.unknowns;

@@ -1,0 +1,58 @@
+//! Wells between contacts, narrower than the cells of a mesh.
+//!
+//! A tab in its slot moves by tenths of a millimetre. What such a well holds is told by few of the
+//! lines through a cell, if any meets it. So the cells that hold most of it are divided until what
+//! they hold changes no more.
+
+use super::field::Field;
+use super::sets::reaching;
+use crate::configuration::Configuration;
+
+/// How far (in kT) above a state its well is looked at.
+const DEEP: f64 = 3.0;
+/// Cells that hold more than this share of it are divided ...
+const SHARE: f64 = 1e-3;
+/// ... until it changes by less than this share, ...
+const CHANGE: f64 = 3e-3;
+/// ... so often at most.
+const ROUNDS: usize = 8;
+
+impl Field<'_> {
+    /// Divides the cells about a state's well until what they hold is settled.
+    pub(super) fn settle(&mut self, state: &Configuration) {
+        let limit = self.energy_at(state) + DEEP * self.kt;
+        for _ in 0..ROUNDS {
+            let beside = self.mesh.joined(&|leaf| !leaf.blocked);
+            let well = reaching(&self.mesh, &beside, &self.mesh.holding(state), limit);
+            let whole: f64 = well.iter().map(|&id| self.held(id)).sum();
+            let mut divided: Vec<usize> = Vec::new();
+            for &id in well.iter().filter(|&&id| self.held(id) > SHARE * whole) {
+                let around = beside[id].iter().map(|&other| other as usize);
+                let is_closed = |id: &usize| self.mesh.leaves[*id].element.is_none();
+                divided.extend(around.filter(is_closed).chain([id]));
+            }
+            divided.sort_unstable();
+            divided.dedup();
+            let before = self.mesh.leaves.len();
+            let known: Vec<f64> = (0..before).map(|id| self.held(id)).collect();
+            for id in divided {
+                self.mesh.divide(id);
+            }
+            self.evaluate();
+            let is_gone = |id: &usize| !self.mesh.leaves[*id].live;
+            let gone: f64 = (0..before).filter(is_gone).map(|id| known[id]).sum();
+            let come: f64 = (before..self.mesh.leaves.len())
+                .map(|id| self.held(id))
+                .sum();
+            if (come - gone).abs() <= CHANGE * whole {
+                return;
+            }
+        }
+    }
+
+    /// What a cell holds (m^2 rad).
+    fn held(&self, id: usize) -> f64 {
+        let element = self.mesh.leaves[id].element.as_ref();
+        element.map_or(0.0, |element| element.load.iter().sum())
+    }
+}
