@@ -66,10 +66,7 @@ impl Field<'_> {
             if divided > MOST_DIVIDED {
                 return Way::Lost;
             }
-            for id in closed {
-                self.mesh.divide(id);
-            }
-            self.evaluate();
+            self.divide(&closed);
         }
     }
 

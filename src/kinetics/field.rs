@@ -113,10 +113,7 @@ impl<'a> Field<'a> {
             if large.is_empty() {
                 break;
             }
-            for id in large {
-                field.mesh.divide(id);
-            }
-            field.evaluate();
+            field.divide(&large);
         }
         if !field.mesh.chart.is_fitted() {
             for q in seeds {
@@ -197,10 +194,7 @@ impl<'a> Field<'a> {
             divided
         };
         let marked: Vec<usize> = order.into_iter().take_while(first).collect();
-        for id in marked {
-            self.mesh.divide(id);
-        }
-        self.evaluate();
+        self.divide(&marked);
         self.mesh.leaves.len() > count
     }
 
@@ -228,6 +222,11 @@ impl<'a> Field<'a> {
             of_rims = of_rims.max(sum);
             for (id, error) in at_rims {
                 shares[id] += error;
+            }
+            for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.doubt > 0.0) {
+                let error = leaf.doubt * element.energy(&nodes.of(id, values)).max(0.0);
+                shares[id] += error / energy;
+                sum += error / energy;
             }
             for (id, error) in self.gradient_errors(nodes, values) {
                 shares[id] += error / energy;

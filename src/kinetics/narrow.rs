@@ -5,6 +5,7 @@
 //! they hold changes no more.
 
 use super::field::Field;
+use super::mesh::Leaf;
 use super::sets::reaching;
 use crate::configuration::Configuration;
 
@@ -16,6 +17,8 @@ const SHARE: f64 = 1e-3;
 const CHANGE: f64 = 3e-3;
 /// ... so often at most.
 const ROUNDS: usize = 8;
+/// What is left of a change of an integral when its cell is divided once more.
+const LEFT: f64 = 0.25;
 
 impl Field<'_> {
     /// Divides the cells about a state's well until what they hold is settled.
@@ -35,10 +38,7 @@ impl Field<'_> {
             divided.dedup();
             let before = self.mesh.leaves.len();
             let known: Vec<f64> = (0..before).map(|id| self.held(id)).collect();
-            for id in divided {
-                self.mesh.divide(id);
-            }
-            self.evaluate();
+            self.divide(&divided);
             let is_gone = |id: &usize| !self.mesh.leaves[*id].live;
             let gone: f64 = (0..before).filter(is_gone).map(|id| known[id]).sum();
             let come: f64 = (before..self.mesh.leaves.len())
@@ -46,6 +46,33 @@ impl Field<'_> {
                 .sum();
             if (come - gone).abs() <= CHANGE * whole {
                 return;
+            }
+        }
+    }
+
+    /// Divides cells, and sees by how much that changes what they hold.
+    pub(super) fn divide(&mut self, cells: &[usize]) {
+        let weight = |leaf: &Leaf| leaf.element.as_ref().map_or(0.0, |it| it.weight);
+        let known: Vec<f64> = self.mesh.leaves.iter().map(weight).collect();
+        for &id in cells {
+            self.mesh.divide(id);
+        }
+        self.evaluate();
+        let mut parts = vec![0.0; self.mesh.leaves.len()];
+        // Parts that are divided themselves come before their own.
+        for id in (known.len()..parts.len()).rev() {
+            let leaf = &self.mesh.leaves[id];
+            if let Some(parent) = leaf.parent {
+                parts[parent as usize] += parts[id] + weight(leaf);
+            }
+        }
+        for id in known.len()..parts.len() {
+            let parent = self.mesh.leaves[id]
+                .parent
+                .map_or(id, |parent| parent as usize);
+            if let Some(before) = known.get(parent) {
+                let most = parts[parent].max(*before).max(f64::MIN_POSITIVE);
+                self.mesh.leaves[id].doubt = LEFT * (parts[parent] - before).abs() / most;
             }
         }
     }

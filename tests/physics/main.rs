@@ -1,6 +1,7 @@
 //! Tiles, their contact, magnets and shields and the way they move, by principle and against
 //! independent numbers; tiles as design files say.
 
+mod basins;
 mod block_limits;
 mod blocks;
 mod bounds;

@@ -8,8 +8,11 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tilebind::Design;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
+use tilebind::kinetics::Way;
 use tilebind::kinetics::exit::{ExitSettings, exit};
+use tilebind::kinetics::rates::{Basin, RateSettings, rates};
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};
 
@@ -131,4 +134,83 @@ fn a_basin_far_smaller_than_first_cells_is_found_as_often_as_it_should_be() {
             "{finest:?}: {mean} +- {error}"
         );
     }
+}
+
+/// A straight tab of 60 mm in a slot with play.
+const CORRIDOR: &str = r#"
+name = "corridor"
+[table]
+size = [2.0, 2.0]
+[magnet]
+size = [0.010, 0.010, 0.003]
+remanence = 1.2
+pitch = 0.04
+inset = 0.0
+[fixed]
+side = 0.43
+thickness = 0.013
+mass = 0.1
+[fixed.faces]
+east = { code = "NNNS", profile = { shape = "tab", width = 0.20, depth = 0.06, draft = 0.0 } }
+[moving]
+side = 0.43
+thickness = 0.013
+mass = 0.1
+[moving.faces]
+west = { mates = "east", fit = 0.0004 }
+[target]
+fixed = "east"
+moving = "west"
+"#;
+const DEPTH: f64 = 0.06;
+const PLAY: f64 = 0.0004;
+
+/// How much is free (m rad) where the tab is drawn out by so much (m): theta by theta the interval
+/// of y about where the tab's middle would be.
+fn cross_section(problem: &Problem, bond: &Configuration, out: f64) -> f64 {
+    const STEPS: i32 = 80;
+    let width = |range: f64| range / f64::from(STEPS);
+    let (tilt, aside) = ((3.0 * PLAY / (DEPTH - out)).min(0.3), 2.0 * PLAY);
+    let lever = 0.185 + out / 2.0;
+    let is_free = |i: i32, j: i32| {
+        let theta = tilt * (f64::from(i) + 0.5) / f64::from(STEPS);
+        let y = lever * theta + aside * (f64::from(j) + 0.5) / f64::from(STEPS);
+        problem.is_clear(&Configuration::new(bond.x + out, y, theta))
+    };
+    let all = (-STEPS..STEPS).flat_map(|i| (-STEPS..STEPS).map(move |j| (i, j)));
+    let free = all.filter(|&(i, j)| is_free(i, j)).count();
+    free as f64 * width(tilt) * width(aside)
+}
+
+/// Through a corridor far narrower than it is long goes what one over the integral of one over its
+/// cross-section says; no cell that a mesh begins with meets it.
+#[test]
+fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says() {
+    let design = Design::parse(CORRIDOR, "corridor.toml").unwrap();
+    let (problem, bond) = (design.problem(), design.pair.bound);
+    let below = 0.5 * problem.energy(&bond);
+    // The magnets are next to nothing against kT.
+    let settings = RateSettings {
+        tolerance: 0.05,
+        certify: None,
+        ..RateSettings::new(10.0, vec![Basin { at: bond, below }], 0.7)
+    };
+    let found = rates(&problem, &settings).unwrap();
+    assert_eq!(found.ways, [Way::Open]);
+    let finest = found.finest();
+    let capacity = finest.volumes[0] * finest.rates[0][1];
+    let energy = |out: f64| problem.energy(&Configuration::new(bond.x + out, 0.0, 0.0));
+    let steps = (0..1000).map(|k| 1e-5 * f64::from(k));
+    let rim = steps.into_iter().find(|&out| energy(out) > below).unwrap();
+    const PARTS: u32 = 16;
+    let part = (DEPTH - rim) / f64::from(PARTS);
+    let middles = (0..PARTS).map(|k| rim + (f64::from(k) + 0.5) * part);
+    let resistance: f64 = middles
+        .map(|out| part / cross_section(&problem, &bond, out))
+        .sum();
+    assert!(
+        (capacity * resistance - 1.0).abs() < 0.1,
+        "{capacity} {}",
+        1.0 / resistance
+    );
 }

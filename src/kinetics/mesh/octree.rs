@@ -23,6 +23,9 @@ pub(in crate::kinetics) struct Leaf {
     pub parent: Option<u32>,
     /// Whether it has been looked at.
     pub seen: bool,
+    /// By how much what is free of the cell that it is a part of may be wrong by now: the share by
+    /// which its integral changed as it was divided.
+    pub doubt: f64,
 }
 
 impl Leaf {
@@ -35,6 +38,7 @@ impl Leaf {
             blocked,
             seen: false,
             parent,
+            doubt: 0.0,
         }
     }
 
