@@ -5,6 +5,7 @@ use super::corridor::Way;
 use super::ends::Ends;
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, Unsolved};
+use super::rates::enough;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -24,7 +25,8 @@ pub struct ExitSettings {
     pub free_at: f64,
     /// Estimated relative error of the solution's energy at which the mesh is fine enough.
     pub tolerance: f64,
-    /// Unknowns at which it is fine enough anyway.
+    /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
+    /// mesh's or more.
     pub unknowns: usize,
     /// Relative distance of the bounds of the mean exit time that is asked for; without it none are found.
     pub certify: Option<Certify>,
@@ -186,7 +188,7 @@ pub fn exit(
             ..found
         });
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
-        if is_fine || found.unknowns > settings.unknowns || !grows {
+        if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
             let mut bounds = bounds(problem, bond, settings)?;
             if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
                 let lower = ends.lower_bound(&field, &nodes)?;

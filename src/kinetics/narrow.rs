@@ -18,7 +18,7 @@ const CHANGE: f64 = 3e-3;
 /// ... so often at most.
 const ROUNDS: usize = 8;
 /// What is left of a change of an integral when its cell is divided once more.
-const LEFT: f64 = 0.25;
+const LEFT: f64 = 0.5;
 
 impl Field<'_> {
     /// Divides the cells about a state's well until what they hold is settled.

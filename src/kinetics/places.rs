@@ -189,7 +189,8 @@ impl Places {
             let from = field.mesh.holding(&basin.at);
             let reached = reaching(&field.mesh, &beside, &from, basin.below);
             let parts = reached.iter().map(|&id| field.held_below(id, basin.below));
-            copies * parts.sum::<f64>()
+            // Of nothing the sum is a negative nothing.
+            copies * parts.sum::<f64>() + 0.0
         };
         let inside = settings.basins.iter().map(held);
         inside.chain([beyond]).collect()

@@ -55,7 +55,8 @@ pub struct RateSettings {
     pub free_at: f64,
     /// Estimated relative error of the committors' energies at which the mesh is fine enough.
     pub tolerance: f64,
-    /// Unknowns at which it is fine enough anyway.
+    /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
+    /// mesh's or more.
     pub unknowns: usize,
     /// Relative distance of the bounds of the rates out of the basins that is asked for; without it none are found.
     pub certify: Option<Certify>,
@@ -148,6 +149,13 @@ impl Rates {
         self.meshes.last().expect("there is a mesh")
     }
 
+    /// Estimated relative error of what flows between places, on the finest mesh without bounds.
+    pub fn error(&self) -> f64 {
+        let of_bounds = self.bounds.as_ref().is_some_and(|it| !it.are_one_sided());
+        let meshes = &self.meshes[..self.meshes.len() - usize::from(of_bounds)];
+        meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
+    }
+
     /// By how much a rate differs on the two finest meshes, relative. An estimate of the error, no
     /// bound.
     pub fn spread(&self, from: usize, to: usize) -> f64 {
@@ -216,7 +224,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             ..found
         });
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
-        let is_done = is_fine || unknowns > settings.unknowns || !grows;
+        let is_done = is_fine || unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows;
         if let Some(&(_, limit)) = places.shared.first() {
             if is_done || meshes.len() > MESHES {
                 return Err(RatesError::Joined(limit));
@@ -246,6 +254,11 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         grows = field.refine(&shares);
         earlier = Some((nodes, functions));
     }
+}
+
+/// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.
+pub(super) fn enough(asked: usize, first: usize) -> usize {
+    asked.max(first + first / 2)
 }
 
 /// Adds what ever finer meshes that begin at contact say, with bounds. Energies are counted from

@@ -182,9 +182,32 @@ fn cross_section(problem: &Problem, bond: &Configuration, out: f64) -> f64 {
     free as f64 * width(tilt) * width(aside)
 }
 
+/// A corridor that no cell of a first mesh meets is found, and nothing that blocks is opened.
+#[test]
+fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
+    for (shape, way) in [("draft = 0.0", Way::Open), ("draft = -0.3", Way::Blocked)] {
+        let text = CORRIDOR
+            .replace("draft = 0.0", shape)
+            .replace("0.06,", "0.02,");
+        let design = Design::parse(&text, "corridor.toml").unwrap();
+        let (problem, bond) = (design.problem(), design.pair.bound);
+        let below = 0.9 * problem.energy(&bond);
+        let settings = RateSettings {
+            tolerance: 10.0,
+            certify: None,
+            ..RateSettings::new(10.0, vec![Basin { at: bond, below }], 0.7)
+        };
+        let found = rates(&problem, &settings).unwrap();
+        assert_eq!(found.ways, [way], "{shape}");
+        let out = found.finest().rates[0][1];
+        assert!((out > 0.0) == (way == Way::Open), "{shape}: {out}");
+    }
+}
+
 /// Through a corridor far narrower than it is long goes what one over the integral of one over its
 /// cross-section says; no cell that a mesh begins with meets it.
 #[test]
+#[ignore = "half a minute"]
 fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says() {
     let design = Design::parse(CORRIDOR, "corridor.toml").unwrap();
     let (problem, bond) = (design.problem(), design.pair.bound);
@@ -197,6 +220,9 @@ fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says(
     };
     let found = rates(&problem, &settings).unwrap();
     assert_eq!(found.ways, [Way::Open]);
+    for mesh in &found.meshes {
+        println!("{mesh:?}");
+    }
     let finest = found.finest();
     let capacity = finest.volumes[0] * finest.rates[0][1];
     let energy = |out: f64| problem.energy(&Configuration::new(bond.x + out, 0.0, 0.0));
@@ -209,8 +235,9 @@ fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says(
         .map(|out| part / cross_section(&problem, &bond, out))
         .sum();
     assert!(
-        (capacity * resistance - 1.0).abs() < 0.1,
-        "{capacity} {}",
-        1.0 / resistance
+        (capacity * resistance - 1.0).abs() < finest.error + 0.03 && finest.error < 0.2,
+        "{capacity} {} {}",
+        1.0 / resistance,
+        finest.error
     );
 }

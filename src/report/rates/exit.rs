@@ -41,6 +41,7 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
             "mean_exit_spread": time,
             "exits_spread": bound,
             "of_basins": finite(finest.of_rims),
+            "error": finite(finest.error),
         },
     })
 }
@@ -76,9 +77,11 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
     let _ = writeln!(
         text,
         "  the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the shares;\n  the basin, made of whole cells, is off by an estimated {:.1} % of its capacity",
+         points in the shares;\n  the basin, made of whole cells, is off by an estimated {:.1} % of its capacity;\n  \
+         estimated error of flows {:.1} %",
         finest.unknowns,
         100.0 * finest.of_rims,
+        100.0 * finest.error,
     );
     if exit.way != Way::Open {
         let _ = writeln!(text, "  {}", exit.way.told());

@@ -129,7 +129,11 @@ impl Table<'_> {
             // Proved are the inequalities, not the integrals over cells.
             "bounds_hold": self.found.bounds.as_ref().map(|_| "on the mesh"),
             "bounds_leave_out": self.found.bounds.as_ref().map(|_| NOT_BOUNDED),
-            "mesh": {"unknowns": finest.unknowns, "of_basins": finite(finest.of_rims)},
+            "mesh": {
+                "unknowns": finest.unknowns,
+                "of_basins": finite(finest.of_rims),
+                "error": finite(self.found.error()),
+            },
         })
     }
 
@@ -232,9 +236,11 @@ impl Table<'_> {
             .fold(0.0, f64::max);
         let _ = writeln!(
             text,
-            "  the two finest meshes ({} unknowns) differ by {:.1} % at most",
+            "  the two finest meshes ({} unknowns) differ by {:.1} % at most; estimated error of flows \
+             {:.1} %",
             self.found.finest().unknowns,
             100.0 * worst,
+            100.0 * self.found.error(),
         );
         let inside = self.found.inside.iter().enumerate();
         let inside = inside.map(|(place, share)| format!("{} {share:.3e}", self.name(place)));
