@@ -204,7 +204,7 @@ fn planted(rng: &mut ChaCha8Rng) -> (Design, [usize; 2], f64) {
 
 #[test]
 fn a_planted_trap_is_found_or_completeness_is_not_claimed() {
-    plant(30);
+    plant(15);
 }
 
 #[test]
