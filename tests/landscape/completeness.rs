@@ -42,7 +42,7 @@ fn survey(problem: &Problem, milestones: usize) -> (Survey, SurveySettings) {
 
 fn conclude(problem: &Problem, survey: &Survey, search: Search) -> Completeness {
     let listed = Inventory::of_survey(problem, survey, 1e-4);
-    search.conclude(problem, survey, &listed)
+    search.conclude(survey, &listed)
 }
 
 #[test]
