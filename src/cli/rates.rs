@@ -124,7 +124,7 @@ impl Rates {
         let half = || half_bond(&problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
         let asked = ExitSettings {
-            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
+            certify: Some(self.certify.map_or_else(Certify::of_exit, Certify::to)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
         let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {

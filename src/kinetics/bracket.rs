@@ -11,10 +11,13 @@
 
 use rayon::prelude::*;
 
-use super::field::Field;
+use super::field::{DIVIDED, Field};
 use super::mesh::{Gap, Nodes, System, Unsolved, loads};
 use super::rates::MeshRates;
 use super::rim::Rims;
+
+/// Near the goal so much more of the error is divided than should do.
+const MARGIN: f64 = 0.1;
 
 /// How near each other bounds are asked to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +39,14 @@ impl Default for Certify {
 }
 
 impl Certify {
+    /// The same for an exit, which asks for fewer functions.
+    pub fn of_exit() -> Self {
+        Self {
+            unknowns: 80_000,
+            ..Self::default()
+        }
+    }
+
     /// So near, if that can be had at all.
     pub fn to(distance: f64) -> Self {
         Self {
@@ -74,10 +85,15 @@ pub(super) fn narrowed<E>(
         let Some(found) = step(field)? else {
             return Ok(Vec::new());
         };
-        let is_narrow = |[lower, upper]: &[f64; 2]| *upper <= (1.0 + certify.distance) * lower;
-        let deciding = &found.bounds[..found.deciding];
-        let is_done = deciding.iter().all(is_narrow) || found.unknowns > certify.unknowns;
-        let is_done = is_done || !field.refine(&found.shares);
+        let deciding = found.bounds[..found.deciding].iter();
+        let distances = deciding.map(|[lower, upper]| upper / lower - 1.0);
+        // What is no number is far, too.
+        let farthest = distances.fold(0.0, |far: f64, one| if one <= far { far } else { one });
+        let is_done = farthest <= certify.distance || found.unknowns > certify.unknowns;
+        // Cells that are divided keep about a third of their share.
+        let missing = 1.5 * (1.0 - certify.distance / farthest) + MARGIN;
+        let part = if missing < DIVIDED { missing } else { DIVIDED };
+        let is_done = is_done || !field.refine(&found.shares, part);
         all.push(found);
         if is_done {
             return Ok(all);

@@ -1,6 +1,6 @@
 //! How far apart a pair in equilibrium is.
 
-use super::field::Field;
+use super::field::{DIVIDED, Field};
 use super::mesh::UNITS;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -55,7 +55,7 @@ impl Distances {
                 let change = ((element.highest - element.lowest) / kt).min(1.0);
                 errors[id] = element.load.iter().sum::<f64>() * change * change;
             }
-            field.refine(&errors);
+            field.refine(&errors, DIVIDED);
             known = Some(shares);
         }
     }

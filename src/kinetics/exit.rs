@@ -3,7 +3,7 @@
 use super::bracket::{Certify, narrowed};
 use super::corridor::Way;
 use super::ends::Ends;
-use super::field::{Earlier, Field};
+use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::{Nodes, Unsolved};
 use super::rates::enough;
 use crate::configuration::Configuration;
@@ -200,7 +200,7 @@ pub fn exit(
                 way,
             });
         }
-        grows = field.refine(&errors.shares);
+        grows = field.refine(&errors.shares, DIVIDED);
         earlier = Some((nodes, functions));
     }
 }

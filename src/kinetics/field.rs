@@ -24,8 +24,8 @@ const SEED: f64 = 4e-3;
 const LEAST_SEED: f64 = 2e-4;
 /// ... which is one that is higher by so many kT at most.
 const NEAR: f64 = 2.0;
-/// Share of the estimated error in the cells that are divided.
-const DIVIDED: f64 = 0.7;
+/// Share of the estimated error in the cells that are divided, if the goal is far.
+pub(super) const DIVIDED: f64 = 0.7;
 /// The level of the barriers is taken anew where it has moved by so many kT.
 const MOVED: f64 = 2.0;
 
@@ -182,12 +182,13 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Divides the cells with the largest shares of an estimated error; whether there were any.
-    pub fn refine(&mut self, shares: &[f64]) -> bool {
+    /// Divides the cells with the largest shares of an estimated error, up to a part of it; whether
+    /// there were any.
+    pub fn refine(&mut self, shares: &[f64], part: f64) -> bool {
         let count = self.mesh.leaves.len();
         let mut order: Vec<usize> = (0..shares.len()).collect();
         order.sort_by_key(|&id| Reverse(OrderedFloat(shares[id])));
-        let mut left = DIVIDED * shares.iter().sum::<f64>();
+        let mut left = part * shares.iter().sum::<f64>();
         let first = |id: &usize| {
             let divided = left > 0.0;
             left -= shares[*id];

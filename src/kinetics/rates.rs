@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::bracket::{Certify, narrowed};
 use super::corridor::Way;
-use super::field::{Earlier, Field};
+use super::field::{DIVIDED, Earlier, Field};
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
@@ -251,7 +251,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();
         }
-        grows = field.refine(&shares);
+        grows = field.refine(&shares, DIVIDED);
         earlier = Some((nodes, functions));
     }
 }
