@@ -96,6 +96,29 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
     assert!((complete.below / problem.depth() + 0.01).abs() < 1e-12);
 }
 
+/// They need a way on to a listed one that rises by no more than is allowed.
+#[test]
+fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
+    let problem = load("tests/designs/good/triangles.toml").problem();
+    let (survey, _) = survey(&problem, 1000);
+    let allowed = CompletenessSettings {
+        escape: 0.03,
+        ..USUAL
+    };
+    let without = |least_depth| {
+        let search = Search::run(&problem, &survey, &allowed, &Silent).unwrap();
+        let listed = Inventory::of_survey(&problem, &survey, least_depth);
+        (listed.states.len(), search.conclude(&survey, &listed))
+    };
+    let (most, complete) = without(0.025);
+    let all = Inventory::of_survey(&problem, &survey, 1e-4).states.len();
+    assert!(most < all, "{most} {all}");
+    assert!(complete.is_complete(), "{:?}", complete.open);
+    let (few, open) = without(0.3);
+    assert!(few < most, "{few} {most}");
+    assert!(open.lowest() < -0.2 * problem.depth(), "{:?}", open.open);
+}
+
 #[test]
 fn tilted_traps_behind_a_tab_are_found() {
     let problem = load("tests/designs/good/square-tab.toml").problem();
