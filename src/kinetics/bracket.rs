@@ -11,95 +11,9 @@
 
 use rayon::prelude::*;
 
-use super::field::{DIVIDED, Field};
+use super::field::Field;
 use super::mesh::{Gap, Nodes, System, Unsolved, loads};
-use super::rates::MeshRates;
 use super::rim::Rims;
-
-/// Near the goal so much more of the error is divided than should do.
-const MARGIN: f64 = 0.1;
-
-/// How near each other bounds are asked to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Certify {
-    /// Their distance as a share of the lower one.
-    pub distance: f64,
-    /// Unknowns up to which meshes are refined for it.
-    pub unknowns: usize,
-}
-
-impl Default for Certify {
-    /// As near as it comes within seconds.
-    fn default() -> Self {
-        Self {
-            distance: 0.1,
-            unknowns: 40_000,
-        }
-    }
-}
-
-impl Certify {
-    /// The same for an exit, which asks for fewer functions.
-    pub fn of_exit() -> Self {
-        Self {
-            unknowns: 80_000,
-            ..Self::default()
-        }
-    }
-
-    /// So near, if that can be had at all.
-    pub fn to(distance: f64) -> Self {
-        Self {
-            distance,
-            unknowns: 400_000,
-        }
-    }
-}
-
-/// What one mesh says.
-pub(super) struct Step {
-    /// From below and above.
-    pub bounds: Vec<[f64; 2]>,
-    /// How many of them, from the first on, should be narrow.
-    pub deciding: usize,
-    /// Corners of the mesh.
-    pub unknowns: usize,
-    /// What refining the cells may bring.
-    pub shares: Vec<f64>,
-    /// Values between the bounds, of rates.
-    pub rates: Option<MeshRates>,
-}
-
-/// Refines a mesh until bounds are as narrow as asked, or it has too many unknowns. Gives the
-/// steps of all meshes, each of whose bounds hold by themselves; none where there are no bounds.
-///
-/// # Errors
-/// Those of a step.
-pub(super) fn narrowed<E>(
-    field: &mut Field,
-    certify: &Certify,
-    step: impl Fn(&mut Field) -> Result<Option<Step>, E>,
-) -> Result<Vec<Step>, E> {
-    let mut all: Vec<Step> = Vec::new();
-    loop {
-        let Some(found) = step(field)? else {
-            return Ok(Vec::new());
-        };
-        let deciding = found.bounds[..found.deciding].iter();
-        let distances = deciding.map(|[lower, upper]| upper / lower - 1.0);
-        // What is no number is far, too.
-        let farthest = distances.fold(0.0, |far: f64, one| if one <= far { far } else { one });
-        let is_done = farthest <= certify.distance || found.unknowns > certify.unknowns;
-        // Cells that are divided keep about a third of their share.
-        let missing = 1.5 * (1.0 - certify.distance / farthest) + MARGIN;
-        let part = if missing < DIVIDED { missing } else { DIVIDED };
-        let is_done = is_done || !field.refine(&found.shares, part);
-        all.push(found);
-        if is_done {
-            return Ok(all);
-        }
-    }
-}
 
 /// Places on a mesh, and what is known of them.
 pub(super) struct Asked<'a> {

@@ -1,6 +1,7 @@
 //! The ends of an exit on a mesh, and what the mesh says of it.
 
-use super::bracket::{Asked, Bracket, Step};
+use super::bracket::{Asked, Bracket};
+use super::certify::Step;
 use super::corridor::Way;
 use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};

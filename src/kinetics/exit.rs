@@ -1,6 +1,6 @@
 //! How soon a tile leaves a configuration, and where it comes first.
 
-use super::bracket::{Certify, narrowed};
+use super::certify::{Certify, narrowed};
 use super::corridor::Way;
 use super::ends::Ends;
 use super::field::{DIVIDED, Earlier, Field};

@@ -49,6 +49,7 @@
 pub mod basin;
 pub mod bond;
 mod bracket;
+mod certify;
 pub mod chain;
 pub mod corner;
 mod corridor;
@@ -71,6 +72,6 @@ mod sets;
 pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};
-pub use bracket::Certify;
+pub use certify::Certify;
 pub use corridor::{NARROW, Way};
 pub use well::{Estimate, Well};

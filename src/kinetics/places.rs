@@ -1,6 +1,7 @@
 //! Basins and `free` on a mesh, and the rates between them that the mesh says.
 
-use super::bracket::{Asked, Bounded, Bracket, Step};
+use super::bracket::{Asked, Bounded, Bracket};
+use super::certify::Step;
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
 use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::bracket::{Certify, narrowed};
+use super::certify::{Certify, narrowed};
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
 use super::map::Map;
