@@ -11,9 +11,9 @@
 //!
 //! **Lower bound.** The configuration space is covered by closed cells. For each cell either no
 //! configuration of it is free, or a number is known that the energy of no free configuration of it
-//! falls below: a Taylor form with a bound of its remainder (of second order, behind shields of
-//! first order), minimised over the part of the cell that contact leaves. A path is covered by a chain of touching cells, so if every
-//! chain of cells from end to end has one with a lower bound above E, the barrier is above E.
+//! falls below: a Taylor form with a bound of its remainder, minimised over the part of the cell
+//! that contact leaves. A path is covered by a chain of touching cells, so if every chain of cells
+//! from end to end has one with a lower bound above E, the barrier is above E.
 //!
 //! **Search.** Two floods rise from the two ends over the cells with lower bounds of at most E, the
 //! target just below the best upper bound. Where they would meet is a divide, and only its cells

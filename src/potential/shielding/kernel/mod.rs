@@ -3,6 +3,7 @@
 mod cell;
 mod curvature;
 mod factor;
+mod jet;
 #[cfg(test)]
 mod tests;
 
