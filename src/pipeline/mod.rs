@@ -57,7 +57,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     clock.start("certificate", 0.75);
     let certified = certify(&problem, &mut inventory, settings, observer);
     inventory.leave_out_shallow(&problem, settings.least_depth);
-    let completeness = search.map(|search| search.conclude(&problem, &survey, &inventory));
+    let completeness = search.map(|search| search.conclude(&survey, &inventory));
     let uncaptured = inventory.count_captures(&problem, &ends);
     let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
     let stages = clock.stop();

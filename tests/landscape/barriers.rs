@@ -107,6 +107,7 @@ fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
 fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
     let design = designs::load("tests/designs/good/vertex-points.toml");
     let settings = Settings {
+        milestones: 2000,
         far_starts: 20,
         completeness: unsought(),
         ..Settings::default()

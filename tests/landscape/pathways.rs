@@ -18,8 +18,8 @@ const STEP: f64 = 1e-3;
 
 fn analysis(file: &str) -> Analysis {
     let settings = Settings {
-        milestones: 2000,
-        far_starts: 300,
+        milestones: 600,
+        far_starts: 60,
         certify_seconds: 1e9,
         certify_cells: 2000,
         completeness: CompletenessSettings {

@@ -1,5 +1,6 @@
 //! What `tilebind words` is asked: places, magnets, constraints.
 
+use tilebind::report::words as report;
 use tilebind::words::word::MOST_PLACES;
 use tilebind::words::{Bar, Constraints, PAPER_FACE};
 
@@ -62,35 +63,20 @@ impl Words {
 
     /// The magnets, the length of the face (m), and the name of the design that they are of.
     pub(super) fn bar(&self) -> Result<(Bar, f64, Option<String>), Failure> {
-        let Some(path) = &self.design else {
-            let paper = Bar::paper();
-            return Ok((
-                Bar {
-                    pitch: self.pitch.unwrap_or(paper.pitch),
-                    model: self.model.unwrap_or(paper.model),
-                    ..paper
-                },
-                PAPER_FACE,
-                None,
-            ));
-        };
-        let design = input::load_as(path, self.model)?;
-        let usage = |message: String| Failure::Usage(format!("{}: {message}", path.display()));
-        let pitch = self
-            .pitch
-            .or(design.pitch)
-            .ok_or_else(|| usage("it gives no pitch; say it: --pitch 0.04".to_owned()))?;
-        let pair = &design.pair;
-        let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch).map_err(
-            |error| {
-                usage(format!(
-                    "{error}; words need equal magnets behind a flat face, as in \
-                     shapes/paper-tile.toml"
-                ))
-            },
-        )?;
-        let face = pair.fixed.faces[pair.target.0].length();
-        Ok((bar, face, Some(design.name)))
+        let design = self.design.as_ref();
+        let design = design
+            .map(|path| input::load_as(path, self.model))
+            .transpose()?;
+        let (bar, face) =
+            report::bar(design.as_ref(), self.pitch, self.model).map_err(|message| {
+                let path = self
+                    .design
+                    .iter()
+                    .map(|path| format!("{}: ", path.display()));
+                Failure::Usage(path.chain([message]).collect())
+            })?;
+        let name = design.map(|design| design.name);
+        Ok((bar, face.unwrap_or(PAPER_FACE), name))
     }
 
     pub(super) fn constraints(

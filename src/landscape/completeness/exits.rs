@@ -20,7 +20,7 @@ const TRIED: usize = 3;
 /// Descents made at once, before the other places are tried again from where they started.
 const TOGETHER: usize = 16;
 /// A pathway's bound exceeds its highest energy by no more than this share of the allowed rise.
-const SHARP: f64 = 0.1;
+pub(super) const SHARP: f64 = 0.1;
 
 /// A wholly free box about `at`: where a step leads from all of a cell.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,9 @@ pub(super) struct Opened {
 #[derive(Clone, Debug)]
 pub(super) struct Ending {
     pub minimum: Stationary,
-    /// The least energy (J) of the cells from which pathways end here; infinite where none does.
-    pub lowest: f64,
+    /// Highest energy (J) on the proved way on to a listed state, where it is known not to be one
+    /// itself; minus infinity otherwise.
+    pub beyond: f64,
     /// Whether the survey had not found it.
     pub is_new: bool,
 }
@@ -43,7 +44,7 @@ pub(super) struct Ending {
 /// Where a pathway to a minimum starts.
 struct Exit {
     at: Configuration,
-    /// Proved highest energy (J) on the way.
+    /// Proved highest energy (J) on the way, to a listed state where that is known not to be one.
     highest: f64,
     ending: usize,
 }
@@ -66,7 +67,7 @@ impl<'a> Exits<'a> {
     ) -> Self {
         let ending = |minimum| Ending {
             minimum,
-            lowest: f64::INFINITY,
+            beyond: f64::NEG_INFINITY,
             is_new: false,
         };
         Self {
@@ -78,9 +79,9 @@ impl<'a> Exits<'a> {
         }
     }
 
-    /// For each place whether a way out of it is proved.
-    pub fn find(&mut self, places: &[Opened]) -> Vec<bool> {
-        let mut found = vec![false; places.len()];
+    /// For each place the ending to which a way out of it is proved.
+    pub fn find(&mut self, places: &[Opened]) -> Vec<Option<usize>> {
+        let mut found = vec![None; places.len()];
         let mut left: Vec<usize> = (0..places.len()).collect();
         let mut first = 0;
         while !left.is_empty() {
@@ -88,26 +89,26 @@ impl<'a> Exits<'a> {
                 .par_iter()
                 .map(|&k| self.join(&places[k], first))
                 .collect();
-            for (&k, ending) in left.iter().zip(&joined) {
-                if let Some(ending) = *ending {
-                    self.reached(ending, &places[k]);
-                    found[k] = true;
-                }
+            for (&k, ending) in left.iter().zip(joined) {
+                found[k] = ending;
             }
-            left.retain(|&k| !found[k]);
+            left.retain(|&k| found[k].is_none());
             first = self.exits.len();
             let rest = left.split_off(left.len().min(TOGETHER));
             let ways: Vec<_> = left.par_iter().map(|&k| self.descent(&places[k])).collect();
             for (&k, way) in left.iter().zip(ways) {
-                if let Some((minimum, highest)) = way {
-                    let ending = self.ending(minimum);
-                    self.reached(ending, &places[k]);
+                let Some((minimum, highest)) = way else {
+                    continue;
+                };
+                let ending = self.ending(minimum);
+                let highest = highest.max(self.endings[ending].beyond);
+                if highest <= places[k].lowest + self.rise {
                     self.exits.push(Exit {
                         at: places[k].at,
                         highest,
                         ending,
                     });
-                    found[k] = true;
+                    found[k] = Some(ending);
                 }
             }
             left = rest;
@@ -115,9 +116,12 @@ impl<'a> Exits<'a> {
         found
     }
 
-    fn reached(&mut self, ending: usize, from: &Opened) {
-        let lowest = &mut self.endings[ending].lowest;
-        *lowest = lowest.min(from.lowest);
+    /// Makes all exits to an ending lead on over this energy (J).
+    pub fn lead_on(&mut self, ending: usize, beyond: f64) {
+        self.endings[ending].beyond = beyond;
+        for exit in self.exits.iter_mut().filter(|exit| exit.ending == ending) {
+            exit.highest = exit.highest.max(beyond);
+        }
     }
 
     /// The minimum that a straight motion to one of the exits from number `first` on leads to.
@@ -175,7 +179,7 @@ impl<'a> Exits<'a> {
         self.near(&minimum.point.q, SAME).unwrap_or_else(|| {
             self.endings.push(Ending {
                 minimum,
-                lowest: f64::INFINITY,
+                beyond: f64::NEG_INFINITY,
                 is_new: true,
             });
             self.endings.len() - 1

@@ -22,8 +22,9 @@
 //! below. The end is not in an empty cell, so it is in an explained one, or in an open one. Where
 //! no cell is open, every configuration below `-E` is therefore joined to a known minimum by a way
 //! that rises by no more than `e`: no trap is missing. Each minimum found on the way that the
-//! survey had missed is added to its states, and those that are left out of the list as too shallow
-//! have a proved way to a listed one of their own.
+//! survey had missed is added to its states. Those that are left out of the list as too shallow need
+//! a proved way on to a listed one; cells explained by them that lie more than `e` below the highest
+//! point of that way are looked at again.
 //!
 //! Stronger than a proof of basins by flows (outer approximations, Morse decompositions), no cell's
 //! neighbours need be known, and cells of any size stand beside each other.
@@ -34,37 +35,14 @@
 //! certificates ([`super::certificate`]).
 
 mod cell;
+mod conclusion;
 mod domain;
 mod exits;
 mod regions;
-
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashSet};
-use std::time::{Duration, Instant};
-
-use nalgebra::{Matrix3, Vector3};
-use ordered_float::OrderedFloat;
-use rayon::prelude::*;
-
-use self::cell::{CellProof, Verdict};
-use self::domain::Domain;
-use self::exits::{Ending, Exits, Opened};
-use super::certificate::upper::PathProof;
-use super::certification::Uncertified;
-use super::inventory::Inventory;
-use super::pathway;
-use super::stationary::Stationary;
-use super::survey::Survey;
-use crate::cell::Cell;
-use crate::contact::cells::ContactCells;
-use crate::interruption;
-use crate::observer::Observer;
-use crate::problem::Problem;
+mod search;
 
 pub use regions::OpenRegion;
-
-/// Cells smaller than this (m, half a side) are not subdivided: below it rounding rules.
-const SMALLEST: f64 = 1e-9;
+pub use search::Search;
 
 /// What is to be proved, and how much time it is worth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -106,245 +84,4 @@ impl Completeness {
         let open = self.open.iter().map(|region| region.lowest);
         open.fold(self.below, f64::min)
     }
-}
-
-/// Cells assessed between two looks at the clock.
-const BATCH: usize = 4096;
-
-/// A search for states that may be missing.
-pub struct Search<'a> {
-    exits: Exits<'a>,
-    below: f64,
-    open: Vec<(Cell, f64)>,
-    /// Of the part of the space that is searched (m^2 rad).
-    volume: f64,
-    cells: usize,
-}
-
-/// Cells to be looked at: those halved least before the others, as there is no end of small ones
-/// where a tile has no play; of each size the lowest first.
-type Queue = BinaryHeap<Reverse<(i32, OrderedFloat<f64>, usize)>>;
-
-/// The cells that wait, each with the least energy (J) that it may hold.
-#[derive(Default)]
-struct Waiting {
-    queue: Queue,
-    cells: Vec<(Cell, f64)>,
-}
-
-impl Waiting {
-    fn push(&mut self, cell: Cell, lowest: f64) {
-        let halvings = -cell.half[0].max(cell.half[1]).log2().floor() as i32;
-        let number = self.cells.len();
-        self.queue
-            .push(Reverse((halvings, OrderedFloat(lowest), number)));
-        self.cells.push((cell, lowest));
-    }
-
-    fn next(&mut self, most: usize) -> Vec<(Cell, f64)> {
-        let next = std::iter::from_fn(|| self.queue.pop()).take(most);
-        next.map(|Reverse((.., number))| self.cells[number])
-            .collect()
-    }
-}
-
-impl<'a> Search<'a> {
-    /// Searches the whole space, besides the minima of a survey.
-    ///
-    /// Only a search within its time is the same on every machine.
-    ///
-    /// # Errors
-    /// Where the energy has no bounds over cells, or no time is given.
-    pub fn run(
-        problem: &'a Problem,
-        survey: &Survey,
-        settings: &CompletenessSettings,
-        observer: &dyn Observer,
-    ) -> Result<Self, Uncertified> {
-        let bounds = problem.bounds()?;
-        let limit = Duration::from_secs_f64(settings.seconds.clamp(0.0, 1e9));
-        if limit.is_zero() {
-            return Err(Uncertified::NoTime);
-        }
-        let since = Instant::now();
-        let depth = problem.depth();
-        let (below, rise) = (-settings.below * depth, settings.escape * depth);
-        let contact = problem.contact.as_ref().map(ContactCells::new);
-        let rho = problem.space.rho;
-        let proof = CellProof {
-            bounds,
-            contact: contact.as_ref(),
-            metric: Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, rho * rho)),
-            level: below,
-            rise,
-        };
-        let paths = PathProof {
-            bounds,
-            contact: problem.contact.as_ref(),
-            space: &problem.space,
-        };
-        let known = survey.states.iter().map(|state| state.minimum.clone());
-        let mut search = Self {
-            exits: Exits::new(problem, paths, rise, known),
-            below,
-            open: Vec::new(),
-            volume: 0.0,
-            cells: 0,
-        };
-        let domain = Domain::new(problem);
-        let mut waiting = Waiting::default();
-        for cell in domain.first_cells() {
-            search.volume += cell.volume();
-            waiting.push(cell, f64::NEG_INFINITY);
-        }
-        loop {
-            let batch = waiting.next(BATCH);
-            if batch.is_empty() {
-                break;
-            }
-            if since.elapsed() >= limit || search.cells >= settings.cells {
-                search.open.extend(batch);
-                search.open.extend(waiting.next(usize::MAX));
-                break;
-            }
-            search.look_at(&batch, &proof, rho, |cell, lowest| {
-                if domain.meets(&cell) {
-                    waiting.push(cell, lowest);
-                }
-            });
-            let left = waiting.queue.len();
-            observer.part("completeness", search.cells, search.cells + left);
-        }
-        Ok(search)
-    }
-
-    /// Proves cells, or hands on their halves.
-    fn look_at(
-        &mut self,
-        batch: &[(Cell, f64)],
-        proof: &CellProof,
-        rho: f64,
-        mut hand_on: impl FnMut(Cell, f64),
-    ) {
-        let verdicts: Vec<Verdict> = batch
-            .par_iter()
-            .map(|(cell, _)| {
-                interruption::check();
-                proof.verdict(cell)
-            })
-            .collect();
-        self.cells += batch.len();
-        let mut opened = Vec::new();
-        let mut left = Vec::new();
-        for ((cell, before), verdict) in batch.iter().zip(verdicts) {
-            match verdict {
-                Verdict::Nothing | Verdict::Falls => {}
-                Verdict::Opens { into, lowest } => {
-                    opened.push((*cell, Opened { at: into, lowest }))
-                }
-                Verdict::Open { lowest } => left.push((*cell, lowest.max(*before))),
-            }
-        }
-        let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();
-        let found = self.exits.find(&places);
-        let stays = opened.iter().zip(found).filter(|(_, found)| !found);
-        left.extend(stays.map(|((cell, place), _)| (*cell, place.lowest)));
-        for (cell, lowest) in left {
-            match halves(&cell, rho) {
-                Some(halves) => halves.into_iter().for_each(|half| hand_on(half, lowest)),
-                None => self.open.push((cell, lowest)),
-            }
-        }
-    }
-
-    /// Whether all that lies below the level is led to a minimum, listed or not.
-    pub fn is_everything_explained(&self) -> bool {
-        self.open.is_empty()
-    }
-
-    /// Minima that the survey had missed.
-    pub fn missed(&self) -> Vec<Stationary> {
-        let endings = self.exits.endings.iter().filter(|ending| ending.is_new);
-        endings.map(|ending| ending.minimum.clone()).collect()
-    }
-
-    /// What is proved of the listed states: minima that are not listed must have a way to a listed
-    /// one, or to `free`, that rises no more than is allowed.
-    pub fn conclude(self, problem: &Problem, survey: &Survey, listed: &Inventory) -> Completeness {
-        let mut open = regions::of_cells(&problem.space, &self.open);
-        for ending in &self.exits.endings {
-            let at = ending.minimum.point;
-            let is_explained = ending.lowest == f64::INFINITY
-                || listed.holds(problem, &at.q)
-                || self.has_way_out(problem, survey, listed, ending);
-            if !is_explained {
-                open.push(OpenRegion {
-                    pose: at.q,
-                    volume: 0.0,
-                    lowest: at.energy,
-                });
-            }
-        }
-        let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
-        Completeness {
-            // A sum of nothing is minus zero.
-            share: volume / self.volume + 0.0,
-            below: self.below,
-            escape: self.exits.rise,
-            open,
-            cells: self.cells,
-        }
-    }
-}
-
-impl Search<'_> {
-    /// Whether a known way from a minimum that is not listed to a listed one, or to `free`, is
-    /// proved to stay low enough for all that ends there.
-    fn has_way_out(
-        &self,
-        problem: &Problem,
-        survey: &Survey,
-        listed: &Inventory,
-        ending: &Ending,
-    ) -> bool {
-        let from = survey.state_at(problem, &ending.minimum.point.q, exits::SAME);
-        let Some(from) = from.map(|state| survey.states[state].node) else {
-            return false;
-        };
-        let is_listed = survey
-            .states
-            .iter()
-            .filter(|state| listed.holds(problem, &state.minimum.point.q));
-        let mut goals: HashSet<usize> = is_listed.map(|state| state.node).collect();
-        goals.insert(survey.free);
-        let depth = problem.depth();
-        let scale = [depth, 2e-3 * depth];
-        let way = pathway::lowest(problem, &survey.network, from, [&goals, &goals], scale);
-        way.is_some_and(|way| {
-            let points: Vec<_> = way
-                .pathway
-                .iter()
-                .map(|point| point.configuration)
-                .collect();
-            let allowed = ending.lowest + self.exits.rise;
-            self.exits.prove(&points, allowed).is_some()
-        })
-    }
-}
-
-/// The halves of a cell along its longest side (theta times `rho`, m); `None` where it is too small.
-fn halves(cell: &Cell, rho: f64) -> Option<[Cell; 2]> {
-    let sizes = [cell.half[0], cell.half[1], rho * cell.half[2]];
-    let axis = (0..3).max_by_key(|&i| OrderedFloat(sizes[i]))?;
-    (sizes[axis] > SMALLEST).then(|| {
-        [-0.5, 0.5].map(|side| {
-            let mut part = *cell;
-            let mut step = Vector3::zeros();
-            step[axis] = side * cell.half[axis];
-            part.centre = cell.centre.moved(step);
-            // Rounding of the centre must leave no gap between the halves.
-            part.half[axis] = cell.half[axis] / 2.0 + 4.0 * f64::EPSILON * (1.0 + cell.half[axis]);
-            part
-        })
-    })
 }

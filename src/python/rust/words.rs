@@ -197,25 +197,9 @@ pub fn word_shape(name: &str) -> PyResult<Shape> {
 /// The magnets of words, and the length of the face (m).
 fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> {
     fault::positive("pitch", pitch)?;
-    let Some(design) = design else {
-        let paper = Bar::paper();
-        let bar = Bar {
-            pitch: pitch.unwrap_or(paper.pitch),
-            ..paper
-        };
-        return Ok((bar, PAPER_FACE));
-    };
-    let design = &design.get().content.design;
-    let pitch = pitch
-        .or(design.pitch)
-        .ok_or_else(|| fault::value("the design gives no pitch: pitch=0.04"))?;
-    let (pair, interaction) = (&design.pair, &design.interaction);
-    let bar = Bar::of_face(&pair.fixed, pair.target.0, interaction, pitch).map_err(|error| {
-        fault::value(format!(
-            "{error}; words need equal magnets behind a flat face, as in shapes/paper-tile.toml"
-        ))
-    })?;
-    Ok((bar, pair.fixed.faces[pair.target.0].length()))
+    let design = design.map(|design| &design.get().content.design);
+    let (bar, face) = report::bar(design, pitch, None).map_err(fault::value)?;
+    Ok((bar, face.unwrap_or(PAPER_FACE)))
 }
 
 /// The strongest attraction of every two words of a set over all poses, with their mates.

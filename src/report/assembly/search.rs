@@ -1,6 +1,6 @@
 //! The words of an assembly, searched.
 
-use super::super::words::set_toml;
+use super::super::words::{self, set_toml};
 use crate::assembly::Wiring;
 use crate::assembly::choice::{self, Asked, Choice, Class, Verdict};
 use crate::design::{Design, MagnetModel};
@@ -41,8 +41,7 @@ impl WordSearch {
         wiring: &Wiring,
         design: Option<&Design>,
     ) -> Result<(String, Vec<Choice>), String> {
-        let bar = self.bar(design)?;
-        let face = design.map(|design| design.pair.fixed.faces[design.pair.target.0].length());
+        let (bar, face) = words::bar(design, self.pitch, self.model)?;
         let most = self.most_places(&bar, face)?;
         let asked = Asked {
             bar,
@@ -64,28 +63,6 @@ impl WordSearch {
             Some(last) => Err(missing(last)),
             None => Err("the face holds no magnet".to_owned()),
         }
-    }
-
-    /// The magnets: the paper's, or those of a design.
-    fn bar(&self, design: Option<&Design>) -> Result<Bar, String> {
-        let paper = Bar::paper();
-        let bar = match design {
-            None => paper,
-            Some(design) => {
-                let pair = &design.pair;
-                let pitch = self.pitch.or(design.pitch).unwrap_or(paper.pitch);
-                let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch);
-                bar.map_err(|error| {
-                    let name = &design.name;
-                    format!("{name}: {error}; words need equal magnets behind a flat face")
-                })?
-            }
-        };
-        Ok(Bar {
-            pitch: self.pitch.unwrap_or(bar.pitch),
-            model: self.model.unwrap_or(bar.model),
-            ..bar
-        })
     }
 
     /// The longest face to look at, of which the design's may be this long (m).

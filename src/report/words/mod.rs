@@ -1,5 +1,6 @@
 //! Sets of words: the answer in words, tables, `words.toml`.
 
+mod bar;
 mod continuous;
 mod files;
 mod spaced;
@@ -7,6 +8,7 @@ mod text;
 
 use serde_json::{Value, json};
 
+pub use bar::bar;
 pub use continuous::Spaced;
 use continuous::{rounded, toml as spaced_toml};
 pub use files::{files, set_toml};

@@ -1,11 +1,13 @@
 //! Barriers checked by moving tiles: true ones stand, and false ones do not.
 
+use std::sync::OnceLock;
+
 use tilebind::dynamics::Body;
 use tilebind::dynamics::check::{BarrierCheck, CheckSettings, SideVerdict, check};
 use tilebind::landscape::{Barrier, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline;
-use tilebind::{Design, Settings};
+use tilebind::{Analysis, Design, Settings};
 
 use super::paper_tile;
 use crate::designs;
@@ -18,22 +20,35 @@ fn few() -> CheckSettings {
     }
 }
 
+/// An analysis whose list of states nobody has to prove.
+fn analysis(design: Design, milestones: usize) -> (Design, Analysis) {
+    let mut settings = Settings {
+        milestones,
+        ..Settings::default()
+    };
+    settings.completeness.seconds = 0.0;
+    let analysis = pipeline::analyse(&design, &settings, &Silent);
+    (design, analysis)
+}
+
+/// The paper's tile and its analysis, made once for all tests.
+fn paper() -> &'static (Design, Analysis) {
+    static ONCE: OnceLock<(Design, Analysis)> = OnceLock::new();
+    ONCE.get_or_init(|| analysis(paper_tile(), Settings::default().milestones))
+}
+
 /// What moving tiles say of an analysed design's barriers, or of those that `change` makes of them.
 fn checked(
-    design: &Design,
-    settings: &Settings,
+    (design, analysis): &(Design, Analysis),
     change: impl Fn(&mut Vec<Barrier>),
 ) -> Vec<BarrierCheck> {
-    let problem = design.problem();
-    let mut analysis = pipeline::analyse(design, settings, &Silent);
-    change(&mut analysis.inventory.barriers);
-    let body = Body::of_tile(&design.pair.moving);
-    let barriers: Vec<&Barrier> = analysis.inventory.barriers.iter().collect();
+    let mut barriers = analysis.inventory.barriers.clone();
+    change(&mut barriers);
     check(
-        &problem,
-        body,
+        &analysis.problem,
+        Body::of_tile(&design.pair.moving),
         &analysis.inventory.states,
-        &barriers,
+        &barriers.iter().collect::<Vec<_>>(),
         &few(),
         &|_, _| (),
     )
@@ -45,7 +60,7 @@ fn is_out_of_the_slid_bond(barrier: &Barrier) -> bool {
 
 #[test]
 fn no_barrier_of_the_papers_tile_is_contradicted() {
-    let checks = checked(&paper_tile(), &Settings::default(), |_| ());
+    let checks = checked(paper(), |_| ());
     assert!(checks.len() > 20);
     let mut crossed = 0;
     for check in &checks {
@@ -72,7 +87,7 @@ fn no_barrier_of_the_papers_tile_is_contradicted() {
 #[test]
 fn a_barrier_said_to_be_higher_than_it_is_does_not_stand() {
     for certified in [true, false] {
-        let checks = checked(&paper_tile(), &Settings::default(), |barriers| {
+        let checks = checked(paper(), |barriers| {
             barriers.retain(|b| is_out_of_the_slid_bond(b) && matches!(b.to, Place::State(_)));
             barriers.truncate(1);
             barriers[0].saddle_energy += 10e-3;
@@ -90,7 +105,7 @@ fn a_barrier_said_to_be_higher_than_it_is_does_not_stand() {
 
 #[test]
 fn a_pathway_between_other_states_does_not_stand() {
-    let checks = checked(&paper_tile(), &Settings::default(), |barriers| {
+    let checks = checked(paper(), |barriers| {
         barriers.retain(|b| is_out_of_the_slid_bond(b) && matches!(b.to, Place::State(_)));
         barriers.truncate(1);
         let Barrier { from, to, .. } = &mut barriers[0];
@@ -101,12 +116,8 @@ fn a_pathway_between_other_states_does_not_stand() {
 
 #[test]
 fn a_caged_tile_stays_whatever_its_energy() {
-    let design = designs::load("shapes/dovetail.toml");
-    let settings = Settings {
-        milestones: 2000,
-        ..Settings::default()
-    };
-    let checks = checked(&design, &settings, |barriers| {
+    let dovetail = analysis(designs::load("shapes/dovetail.toml"), 2000);
+    let checks = checked(&dovetail, |barriers| {
         barriers.retain(|b| b.bounds.caged);
     });
     assert_eq!(checks.len(), 1);
@@ -122,7 +133,7 @@ fn the_check_is_the_same_on_any_number_of_threads() {
             .build()
             .unwrap();
         pool.install(|| {
-            checked(&paper_tile(), &Settings::default(), |barriers| {
+            checked(paper(), |barriers| {
                 barriers.truncate(3);
             })
         })

@@ -86,7 +86,7 @@ fn a_yield_with_its_three_views() {
             "--kt",
             "3e-3,6e-3",
             "--runs",
-            "60",
+            "24",
             "--duration",
             "3",
             "--simulations",

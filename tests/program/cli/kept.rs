@@ -13,7 +13,7 @@ use super::tilebind;
 use crate::folder::contents;
 use crate::program::stderr;
 
-const DESIGN: &str = "shapes/paper-tile.toml";
+const DESIGN: &str = "shapes/one-face.toml";
 const SHORT: [&str; 5] = [
     "--milestones",
     "200",

@@ -10,8 +10,8 @@ fn a_clock_that_jumps_changes_neither_status_nor_files() {
     if Command::new("faketime").arg("--version").output().is_err() {
         return;
     }
-    // Long ago; and three seconds on, or back, with every look at the clock.
-    for clock in ["1990-01-01 00:00:00", "+0 i3.0", "+0 i-3.0"] {
+    // Three seconds on, or back, with every look at the clock.
+    for clock in ["+0 i3.0", "@1990-01-01 00:00:00 i-3.0"] {
         for (name, more) in COMMANDS {
             let expected = undisturbed(name, more);
             let folder = tempfile::tempdir().unwrap();

@@ -179,21 +179,6 @@ fn an_svg_is_well_formed() {
     }
 }
 
-#[test]
-fn pictures_do_not_depend_on_the_number_of_threads() {
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1);
-    let alone = one
-        .build()
-        .unwrap()
-        .install(|| draw(pair(), &pair().inventory, &print()));
-    let three = rayon::ThreadPoolBuilder::new().num_threads(3);
-    let together = three
-        .build()
-        .unwrap()
-        .install(|| draw(pair(), &pair().inventory, &print()));
-    assert!(alone == together);
-}
-
 fn print() -> Sheet {
     Sheet::for_print(85.0, 7.0).unwrap()
 }

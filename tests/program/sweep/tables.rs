@@ -64,7 +64,7 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
     ];
     let few = [
         "--milestones",
-        "100",
+        "20",
         "--far-starts",
         "0",
         "--certify-cells",

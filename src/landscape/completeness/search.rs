@@ -1,0 +1,227 @@
+//! The search, cell by cell.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::time::{Duration, Instant};
+
+use nalgebra::{Matrix3, Vector3};
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::CompletenessSettings;
+use super::cell::{CellProof, Verdict};
+use super::domain::Domain;
+use super::exits::{Exits, Opened};
+use crate::cell::Cell;
+use crate::contact::cells::ContactCells;
+use crate::interruption;
+use crate::landscape::certificate::upper::PathProof;
+use crate::landscape::certification::Uncertified;
+use crate::landscape::stationary::Stationary;
+use crate::landscape::survey::Survey;
+use crate::observer::Observer;
+use crate::problem::Problem;
+
+/// Cells smaller than this (m, half a side) are not subdivided: below it rounding rules.
+const SMALLEST: f64 = 1e-9;
+/// Cells assessed between two looks at the clock.
+const BATCH: usize = 4096;
+
+/// A search for states that may be missing.
+pub struct Search<'a> {
+    pub(super) problem: &'a Problem,
+    settings: CompletenessSettings,
+    pub(super) exits: Exits<'a>,
+    pub(super) below: f64,
+    /// Cells of which nothing is proved, with the least energy (J) that each may hold.
+    pub(super) open: Vec<(Cell, f64)>,
+    /// Cells explained by a way to a minimum: the number of that ending.
+    pub(super) explained: Vec<(Cell, f64, usize)>,
+    /// Of the part of the space that is searched (m^2 rad).
+    pub(super) volume: f64,
+    pub(super) cells: usize,
+}
+
+/// Cells to be looked at: those halved least before the others, as there is no end of small ones
+/// where a tile has no play; of each size the lowest first.
+type Queue = BinaryHeap<Reverse<(i32, OrderedFloat<f64>, usize)>>;
+
+/// The cells that wait, each with the least energy (J) that it may hold.
+#[derive(Default)]
+pub(super) struct Waiting {
+    queue: Queue,
+    cells: Vec<(Cell, f64)>,
+}
+
+impl Waiting {
+    pub fn push(&mut self, cell: Cell, lowest: f64) {
+        let halvings = -cell.half[0].max(cell.half[1]).log2().floor() as i32;
+        let number = self.cells.len();
+        self.queue
+            .push(Reverse((halvings, OrderedFloat(lowest), number)));
+        self.cells.push((cell, lowest));
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.queue.is_empty()
+    }
+
+    fn next(&mut self, most: usize) -> Vec<(Cell, f64)> {
+        let next = std::iter::from_fn(|| self.queue.pop()).take(most);
+        next.map(|Reverse((.., number))| self.cells[number])
+            .collect()
+    }
+}
+
+impl<'a> Search<'a> {
+    /// Searches the whole space, besides the minima of a survey.
+    ///
+    /// Only a search within its time is the same on every machine.
+    ///
+    /// # Errors
+    /// Where the energy has no bounds over cells, or no time is given.
+    pub fn run(
+        problem: &'a Problem,
+        survey: &Survey,
+        settings: &CompletenessSettings,
+        observer: &dyn Observer,
+    ) -> Result<Self, Uncertified> {
+        let bounds = problem.bounds()?;
+        if settings.seconds <= 0.0 {
+            return Err(Uncertified::NoTime);
+        }
+        let depth = problem.depth();
+        let paths = PathProof {
+            bounds,
+            contact: problem.contact.as_ref(),
+            space: &problem.space,
+        };
+        let known = survey.states.iter().map(|state| state.minimum.clone());
+        let mut search = Self {
+            problem,
+            settings: *settings,
+            exits: Exits::new(problem, paths, settings.escape * depth, known),
+            below: -settings.below * depth,
+            open: Vec::new(),
+            explained: Vec::new(),
+            volume: 0.0,
+            cells: 0,
+        };
+        let mut waiting = Waiting::default();
+        for cell in Domain::new(problem).first_cells() {
+            search.volume += cell.volume();
+            waiting.push(cell, f64::NEG_INFINITY);
+        }
+        search.look_through(waiting, observer)?;
+        Ok(search)
+    }
+
+    /// Proves cells and their parts, until there are none left or the work is done that was allowed.
+    pub(super) fn look_through(
+        &mut self,
+        mut waiting: Waiting,
+        observer: &dyn Observer,
+    ) -> Result<(), Uncertified> {
+        let limit = Duration::from_secs_f64(self.settings.seconds.clamp(0.0, 1e9));
+        let since = Instant::now();
+        let problem = self.problem;
+        let contact = problem.contact.as_ref().map(ContactCells::new);
+        let rho = problem.space.rho;
+        let proof = CellProof {
+            bounds: problem.bounds()?,
+            contact: contact.as_ref(),
+            metric: Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, rho * rho)),
+            level: self.below,
+            rise: self.exits.rise,
+        };
+        let domain = Domain::new(problem);
+        loop {
+            let batch = waiting.next(BATCH);
+            if batch.is_empty() {
+                return Ok(());
+            }
+            if since.elapsed() >= limit || self.cells >= self.settings.cells {
+                self.open.extend(batch);
+                self.open.extend(waiting.next(usize::MAX));
+                return Ok(());
+            }
+            self.look_at(&batch, &proof, rho, |cell, lowest| {
+                if domain.meets(&cell) {
+                    waiting.push(cell, lowest);
+                }
+            });
+            let left = waiting.queue.len();
+            observer.part("completeness", self.cells, self.cells + left);
+        }
+    }
+
+    /// Proves cells, or hands on their halves.
+    fn look_at(
+        &mut self,
+        batch: &[(Cell, f64)],
+        proof: &CellProof,
+        rho: f64,
+        mut hand_on: impl FnMut(Cell, f64),
+    ) {
+        let verdicts: Vec<Verdict> = batch
+            .par_iter()
+            .map(|(cell, _)| {
+                interruption::check();
+                proof.verdict(cell)
+            })
+            .collect();
+        self.cells += batch.len();
+        let mut opened = Vec::new();
+        let mut left = Vec::new();
+        for ((cell, before), verdict) in batch.iter().zip(verdicts) {
+            match verdict {
+                Verdict::Nothing | Verdict::Falls => {}
+                Verdict::Opens { into, lowest } => {
+                    opened.push((*cell, Opened { at: into, lowest }))
+                }
+                Verdict::Open { lowest } => left.push((*cell, lowest.max(*before))),
+            }
+        }
+        let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();
+        for ((cell, place), ending) in opened.into_iter().zip(self.exits.find(&places)) {
+            match ending {
+                Some(ending) => self.explained.push((cell, place.lowest, ending)),
+                None => left.push((cell, place.lowest)),
+            }
+        }
+        for (cell, lowest) in left {
+            match halves(&cell, rho) {
+                Some(halves) => halves.into_iter().for_each(|half| hand_on(half, lowest)),
+                None => self.open.push((cell, lowest)),
+            }
+        }
+    }
+
+    /// Whether all that lies below the level is led to a minimum, listed or not.
+    pub fn is_everything_explained(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    /// Minima that the survey had missed.
+    pub fn missed(&self) -> Vec<Stationary> {
+        let endings = self.exits.endings.iter().filter(|ending| ending.is_new);
+        endings.map(|ending| ending.minimum.clone()).collect()
+    }
+}
+
+/// The halves of a cell along its longest side (theta times `rho`, m); `None` where it is too small.
+fn halves(cell: &Cell, rho: f64) -> Option<[Cell; 2]> {
+    let sizes = [cell.half[0], cell.half[1], rho * cell.half[2]];
+    let axis = (0..3).max_by_key(|&i| OrderedFloat(sizes[i]))?;
+    (sizes[axis] > SMALLEST).then(|| {
+        [-0.5, 0.5].map(|side| {
+            let mut part = *cell;
+            let mut step = Vector3::zeros();
+            step[axis] = side * cell.half[axis];
+            part.centre = cell.centre.moved(step);
+            // Rounding of the centre must leave no gap between the halves.
+            part.half[axis] = cell.half[axis] / 2.0 + 4.0 * f64::EPSILON * (1.0 + cell.half[axis]);
+            part
+        })
+    })
+}

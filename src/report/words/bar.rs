@@ -1,0 +1,35 @@
+//! The magnets that words are made of.
+
+use crate::design::{Design, MagnetModel};
+use crate::words::Bar;
+
+/// The magnets of a design's target face and the face's length (m), or the paper's magnets without
+/// one, which are on a face as long as it takes. A pitch (m) or a model that is given goes before
+/// the design's.
+///
+/// # Errors
+/// Where the design gives no pitch, or its magnets are none that words can be made of.
+pub fn bar(
+    design: Option<&Design>,
+    pitch: Option<f64>,
+    model: Option<MagnetModel>,
+) -> Result<(Bar, Option<f64>), String> {
+    let (bar, face) = match design {
+        None => (Bar::paper(), None),
+        Some(design) => {
+            let (pair, why) = (&design.pair, "words need equal magnets behind a flat face");
+            let pitch = pitch
+                .or(design.pitch)
+                .ok_or("the design gives no pitch; say it, such as 0.04 (m)")?;
+            let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch)
+                .map_err(|error| format!("{error}; {why}, as in shapes/paper-tile.toml"))?;
+            (bar, Some(pair.fixed.faces[pair.target.0].length()))
+        }
+    };
+    let bar = Bar {
+        pitch: pitch.unwrap_or(bar.pitch),
+        model: model.unwrap_or(bar.model),
+        ..bar
+    };
+    Ok((bar, face))
+}
