@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::level::{ordered, unordered};
+use super::level::ordered;
 use super::store::Store;
 
 /// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
@@ -13,254 +13,301 @@ pub(super) struct Seeds {
     pub to: Vec<(u32, f64)>,
 }
 
-/// What two floods that rise from the ends of a query find.
+/// What a flood from one end of a query finds on its way to the other.
 pub(super) struct Watershed {
-    /// Leaves that keep the two floods apart: without them no chain of passable leaves joins the
-    /// ends. Empty if none does anyway.
+    /// Leaves that keep the two ends apart: without them no chain of passable leaves joins them.
+    /// Empty if none does anyway.
     pub divide: Vec<u32>,
     /// The chain of leaves over the lowest pass, from end to end, and its highest estimate (J).
     pub pass: Option<(f64, Vec<u32>)>,
 }
 
-/// What a flood knows of a leaf: which flood it belongs to, if any,
-pub(super) const FROM: u8 = 1;
-pub(super) const TO: u8 = 2;
-/// whether it keeps the two apart,
-pub(super) const DIVIDE: u8 = 4;
-/// whether no path below the level may pass it,
-pub(super) const BARRED: u8 = 8;
-/// and, shifted by this, the floods that touch it: they have it in the queue as one to spread to.
-pub(super) const TOUCHED: u8 = 4;
-/// In place of a leaf, or of the time of a leaf that is dry.
-pub(super) const NONE: u32 = u32::MAX >> 1;
+/// What a flood knows of a leaf: whether it is flooded,
+const FLOODED: u8 = 1;
+/// joined to the other end below the divide,
+const BEYOND: u8 = 2;
+/// in the divide,
+const DIVIDE: u8 = 4;
+/// holds the other end,
+const GOAL: u8 = 8;
+/// or cannot be passed below the level.
+const BARRED: u8 = 16;
 
-/// A leaf to spread to: its rank, its number, the side, and the leaf before it. In this order they
-/// decide which comes first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Entry(u128);
+/// In place of the leaf before one in which the flood starts, and before one that it has not touched.
+const NONE: u32 = u32::MAX;
+const DRY: u32 = u32::MAX - 1;
 
-impl Entry {
-    pub fn new(rank: f64, id: u32, side: u8, before: u32) -> Self {
-        let from = u32::from(side == TO) << 31 | before;
-        Self(u128::from(ordered(rank)) << 64 | u128::from(id) << 32 | u128::from(from))
-    }
+/// A leaf to spread to: its rank, its number, and the leaf before it. In this order they decide
+/// which comes first.
+type Entry = Reverse<(u64, u32, u32)>;
 
-    pub fn rank(self) -> u64 {
-        (self.0 >> 64) as u64
-    }
-
-    pub fn id(self) -> u32 {
-        (self.0 >> 32) as u32
-    }
-
-    pub fn side(self) -> u8 {
-        if self.0 as u32 >> 31 == 0 { FROM } else { TO }
-    }
-
-    pub fn before(self) -> u32 {
-        self.0 as u32 & NONE
-    }
-}
-
-/// What was done with an entry.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deed {
-    Nothing,
-    Flooded,
-    Divided,
-}
-
-/// An entry that was taken from the queue.
-pub(super) struct Step {
-    pub entry: Entry,
-    pub deed: Deed,
-    /// The highest rank so far.
-    pub top: u64,
-    /// The highest estimate (J) so far, or up to the first pass.
-    pub highest: f64,
-}
-
-/// Two floods that rise from the ends over the passable leaves, those with a lower bound of at
-/// most `level`, in the order of their rank. A leaf at which one flood would meet the other stays
-/// dry and becomes part of the divide: it lies at the top of the lowest pass that is left between
-/// them (Meyer's flooding; Beucher and Meyer 1993).
+/// A flood that rises from one end over the passable leaves, those with a lower bound of at most
+/// `level`, in the order of their rank.
 ///
-/// All steps are kept, so that the floods can fall again to where a subdivision of leaves makes a
-/// difference (see `reflood`).
-pub(super) struct Flood {
-    pub level: f64,
-    pub state: Vec<u8>,
-    parent: Vec<u32>,
-    /// The number of the step in which a leaf was flooded.
-    pub time: Vec<u32>,
-    pub queue: BinaryHeap<Reverse<Entry>>,
-    pub steps: Vec<Step>,
-    /// The steps in which a leaf was found to be in the divide.
-    pub divided: Vec<u32>,
-    pub pass: Option<(f64, Vec<u32>)>,
-    /// Entries of each flood in the queue. When one has none left the floods cannot meet any more.
-    pub waiting: [usize; 3],
+/// Where it has spilt over the lowest pass that is left it runs down the other side. When it comes to
+/// the other end there, or to where an earlier spill has been, the highest leaf on its way, the last
+/// at which it rose, becomes part of the divide, and all that it flooded since is taken back: it lies
+/// beyond. The divide is the one at which two floods from both ends would meet (Meyer's flooding;
+/// Beucher and Meyer 1993), while of the land beyond it no more is looked at than the ways down to
+/// the end: states that are left over low passes are many, and their basins small.
+struct Flood<'a> {
+    store: &'a Store,
+    ranks: &'a [f64],
+    /// Leaves that hold the other end, and the energy (J) known of it there, by their numbers.
+    goals: Vec<(u32, f64)>,
+    state: Vec<u8>,
+    /// The leaf from which the flood touched each first.
+    before: Vec<u32>,
+    queue: BinaryHeap<Entry>,
+    /// The leaves flooded, one after the other.
+    steps: Vec<u32>,
+    /// The highest rank so far, and the step in which it was reached.
+    top: u64,
+    summit: usize,
+    found: Watershed,
 }
 
-impl Flood {
-    /// Floods that have not risen yet.
-    pub fn new(store: &Store, seeds: &Seeds, level: f64) -> Self {
+/// What keeps the ends of a query apart. Of a divide of more than `most` leaves (at least one) those
+/// of the lowest passes are found.
+pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64, most: usize) -> Watershed {
+    let mut flood = Flood::new(store, seeds, level);
+    while flood.found.divide.len() < most {
+        let Some(Reverse((rank, id, before))) = flood.queue.pop() else {
+            break;
+        };
+        // Of what was taken back nothing is to be done.
+        if flood.before[id as usize] == before {
+            flood.step(rank, id);
+        }
+    }
+    flood.found
+}
+
+impl<'a> Flood<'a> {
+    fn new(store: &'a Store, seeds: &Seeds, level: f64) -> Self {
+        let barred = |lower: &f64| if *lower <= level { 0 } else { BARRED };
         let mut flood = Self {
-            level,
-            state: Vec::new(),
-            parent: Vec::new(),
-            time: Vec::new(),
+            store,
+            ranks: if level < f64::INFINITY {
+                store.by_energy()
+            } else {
+                store.by_overlap()
+            },
+            goals: seeds.to.clone(),
+            state: store.lowers().iter().map(barred).collect(),
+            before: vec![DRY; store.len()],
             queue: BinaryHeap::new(),
             steps: Vec::new(),
-            divided: Vec::new(),
-            pass: None,
-            waiting: [0; 3],
+            top: 0,
+            summit: 0,
+            found: Watershed {
+                divide: Vec::new(),
+                pass: None,
+            },
         };
-        flood.extend(store);
-        for (ids, side) in [(&seeds.from, FROM), (&seeds.to, TO)] {
-            for &(id, energy) in ids.iter().filter(|seed| store.lower(seed.0) <= level) {
-                flood.push(Entry::new(energy, id, side, NONE));
+        flood
+            .goals
+            .sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for &(id, _) in &seeds.to {
+            flood.state[id as usize] |= GOAL;
+        }
+        for &(id, energy) in &seeds.from {
+            if flood.state[id as usize] & BARRED == 0 && flood.before[id as usize] == DRY {
+                flood.before[id as usize] = NONE;
+                flood.queue.push(Reverse((ordered(energy), id, NONE)));
             }
         }
         flood
     }
 
-    /// Takes note of the leaves that were added to the store.
-    pub fn extend(&mut self, store: &Store) {
-        let fresh = &store.lowers()[self.state.len()..];
-        let barred = |lower: &f64| if *lower <= self.level { 0 } else { BARRED };
-        self.state.extend(fresh.iter().map(barred));
-        self.parent.resize(store.len(), NONE);
-        self.time.resize(store.len(), NONE);
-    }
-
-    pub fn push(&mut self, entry: Entry) {
-        self.queue.push(Reverse(entry));
-        self.waiting[usize::from(entry.side())] += 1;
-    }
-
-    /// The rank of each leaf.
-    pub fn ranks<'s>(&self, store: &'s Store) -> &'s [f64] {
-        if self.level < f64::INFINITY {
-            store.by_energy()
+    fn step(&mut self, rank: u64, id: u32) {
+        if rank >= self.top {
+            (self.top, self.summit) = (rank, self.steps.len());
+        }
+        self.steps.push(id);
+        self.state[id as usize] |= FLOODED;
+        if self.state[id as usize] & GOAL != 0 {
+            self.divide(id, None);
+        } else if let Some(beyond) = self.beyond(id) {
+            self.divide(id, Some(beyond));
         } else {
-            store.by_overlap()
+            self.spread(id);
         }
     }
 
-    /// Lets the floods rise. Of a divide of more than `most` leaves (at least one) those of the
-    /// lowest passes are found.
-    pub fn rise(&mut self, store: &Store, most: usize) -> Watershed {
-        while self.waiting[usize::from(FROM)] > 0
-            && self.waiting[usize::from(TO)] > 0
-            && self.divided.len() < most
-        {
-            let Some(Reverse(entry)) = self.queue.pop() else {
-                break;
-            };
-            self.waiting[usize::from(entry.side())] -= 1;
-            self.step(store, entry);
-        }
-        let divide = self.divided.iter();
-        Watershed {
-            divide: divide
-                .map(|&step| self.steps[step as usize].entry.id())
-                .collect(),
-            pass: self.pass.clone(),
-        }
+    /// The energy (J) known of the other end in a leaf that holds it.
+    fn goal(&self, id: u32) -> f64 {
+        self.goals[self.goals.partition_point(|goal| goal.0 < id)].1
     }
 
-    fn step(&mut self, store: &Store, entry: Entry) {
-        let (id, side) = (entry.id(), entry.side());
-        let number = self.steps.len() as u32;
-        let mut step = match self.steps.last() {
-            Some(last) => Step { ..*last },
-            None => Step {
-                entry,
-                deed: Deed::Nothing,
-                top: 0,
-                highest: f64::NEG_INFINITY,
-            },
-        };
-        step.entry = entry;
-        step.deed = Deed::Nothing;
-        step.top = step.top.max(entry.rank());
-        if self.state[id as usize] & (side | DIVIDE) == 0 {
-            if self.pass.is_none() {
-                step.highest = step.highest.max(if entry.before() == NONE {
-                    unordered(entry.rank())
-                } else {
-                    store.leaf(id).known.estimate
-                });
-            }
-            if let Some(meeting) = self.meeting(store, id, side) {
-                step.deed = Deed::Divided;
-                self.state[id as usize] |= DIVIDE;
-                self.divided.push(number);
-                if self.pass.is_none() {
-                    self.pass = Some((step.highest, self.chain(entry, meeting)));
-                }
-            } else {
-                step.deed = Deed::Flooded;
-                self.state[id as usize] |= side;
-                self.parent[id as usize] = entry.before();
-                self.time[id as usize] = number;
-                self.spread(store, id, side);
-            }
-        }
-        self.steps.push(step);
+    /// A leaf beside this one that is joined to the other end no higher than the flood is.
+    fn beyond(&self, id: u32) -> Option<u32> {
+        let around = self.store.leaf(id).neighbours.iter().copied();
+        around
+            .filter(|&n| self.state[n as usize] & (BEYOND | GOAL) != 0)
+            .find(
+                |&n| match self.state[n as usize] & (BEYOND | DIVIDE | BARRED) {
+                    0 => ordered(self.goal(n)) <= self.top,
+                    joined => joined == BEYOND,
+                },
+            )
     }
 
-    /// A leaf of the other flood that this one touches, or itself, if it belongs to both.
-    fn meeting(&self, store: &Store, id: u32, side: u8) -> Option<u32> {
-        let other = FROM + TO - side;
-        let belongs = |n: u32| self.state[n as usize] & (other | DIVIDE) == other;
-        if belongs(id) {
-            return Some(id);
-        }
-        if self.state[id as usize] & other << TOUCHED == 0 {
-            return None;
-        }
-        let around = &store.leaf(id).neighbours;
-        around.iter().copied().find(|&n| belongs(n))
-    }
-
-    fn spread(&mut self, store: &Store, id: u32, side: u8) {
-        let ranks = self.ranks(store);
-        let not = FROM | TO | DIVIDE | BARRED | side << TOUCHED;
+    fn spread(&mut self, id: u32) {
+        let store = self.store;
         for &n in &store.leaf(id).neighbours {
-            if self.state[n as usize] & not == 0 {
-                self.state[n as usize] |= side << TOUCHED;
-                self.push(Entry::new(ranks[n as usize], n, side, id));
+            let state = self.state[n as usize];
+            if self.before[n as usize] != DRY || state & (DIVIDE | BARRED) != 0 {
+                continue;
             }
+            self.before[n as usize] = id;
+            let rank = if state & GOAL != 0 {
+                self.goal(n)
+            } else {
+                self.ranks[n as usize]
+            };
+            self.queue.push(Reverse((ordered(rank), n, id)));
         }
     }
 
-    /// The chain of leaves from end to end over the leaf of an entry, which the other flood reaches
-    /// from `meeting`.
-    fn chain(&self, entry: Entry, meeting: u32) -> Vec<u32> {
-        let id = entry.id();
-        let mut chain = trace(&self.parent, entry.before());
-        chain.reverse();
-        chain.push(id);
-        let rest = if meeting == id {
-            self.parent[id as usize]
-        } else {
-            meeting
-        };
-        chain.extend(trace(&self.parent, rest));
-        if entry.side() == TO {
-            chain.reverse();
+    /// Takes back all since the summit, from which the flood has come to this leaf, which holds the
+    /// other end or touches the leaf `beyond`.
+    fn divide(&mut self, id: u32, beyond: Option<u32>) {
+        if self.found.pass.is_none() {
+            self.found.pass = Some(self.chain(id, beyond));
         }
-        chain
+        let store = self.store;
+        let summit = self.steps[self.summit];
+        for &gone in &self.steps[self.summit..] {
+            self.state[gone as usize] &= !FLOODED;
+            self.state[gone as usize] |= BEYOND;
+            for &n in &store.leaf(gone).neighbours {
+                if self.before[n as usize] == gone {
+                    self.before[n as usize] = DRY;
+                }
+            }
+        }
+        self.state[summit as usize] &= !BEYOND;
+        self.state[summit as usize] |= DIVIDE;
+        self.steps.truncate(self.summit);
+        self.found.divide.push(summit);
+    }
+
+    /// The chain of leaves from end to end, and its highest estimate (J). Only before anything else
+    /// is beyond does it end where the other end is.
+    fn chain(&self, id: u32, beyond: Option<u32>) -> (f64, Vec<u32>) {
+        let parents = std::iter::successors(Some(id), |&id| {
+            Some(self.before[id as usize]).filter(|before| *before != NONE)
+        });
+        let mut chain: Vec<u32> = parents.collect();
+        chain.reverse();
+        chain.extend(beyond);
+        let end = chain[chain.len() - 1];
+        let inner = chain.iter().skip(1).filter(|id| **id != end);
+        let highest = inner
+            .map(|&id| self.store.leaf(id).known.estimate)
+            .fold(self.goal(end), f64::max);
+        (highest, chain)
     }
 }
 
-fn trace(parent: &[u32], mut id: u32) -> Vec<u32> {
-    let mut chain = Vec::new();
-    while id != NONE {
-        chain.push(id);
-        id = parent[id as usize];
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::ConfigurationSpace;
+    use crate::landscape::certificate::lower::Assessment;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// The least of the highest ranks on chains of passable leaves from end to end that keep off
+    /// some leaves, by Dijkstra's way; of the ends their energies count.
+    fn minimax(store: &Store, seeds: &Seeds, level: f64, off: &[u32]) -> Option<f64> {
+        let passable = |id: u32| store.lower(id) <= level && !off.contains(&id);
+        let goal = |id: u32| seeds.to.iter().find(|seed| seed.0 == id).map(|seed| seed.1);
+        let rank = |id: u32| goal(id).unwrap_or(store.by_energy()[id as usize]);
+        let mut best = vec![f64::INFINITY; store.len()];
+        let mut queue = BinaryHeap::new();
+        for &(id, energy) in seeds.from.iter().filter(|seed| passable(seed.0)) {
+            best[id as usize] = energy;
+            queue.push((Reverse(ordered(energy)), id));
+        }
+        while let Some((_, id)) = queue.pop() {
+            if goal(id).is_some() {
+                return Some(best[id as usize]);
+            }
+            for &n in store.leaf(id).neighbours.iter().filter(|n| passable(**n)) {
+                let over = best[id as usize].max(rank(n));
+                if over < best[n as usize] {
+                    best[n as usize] = over;
+                    queue.push((Reverse(ordered(over)), n));
+                }
+            }
+        }
+        None
     }
-    chain
+
+    #[test]
+    fn the_divide_keeps_the_ends_apart_and_the_pass_is_the_lowest() {
+        let space = ConfigurationSpace {
+            half_size: [1.0, 1.0],
+            rho: 0.2,
+            free_distance: 0.9,
+        };
+        let (mut joined, mut single) = (0, 0);
+        for seed in 0..6 {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let mut known = |least: f64| {
+                let lower = rng.random_range(least..1.0);
+                Assessment {
+                    lower,
+                    estimate: rng.random_range(lower..1.5),
+                    overlap: 0.0,
+                    axis: rng.random_range(0..3),
+                }
+            };
+            let mut store = Store::new(&space);
+            let keys = Store::first_keys().into_iter();
+            store.fill(&keys.map(|key| (key, known(0.0))).collect::<Vec<_>>());
+            let seeds = Seeds {
+                from: vec![(3, f64::NEG_INFINITY)],
+                to: vec![(900, 0.1), (500, 0.2)],
+            };
+            let mut level = 0.8;
+            for round in 0..40 {
+                let all = watershed(&store, &seeds, level, usize::MAX);
+                let lowest = minimax(&store, &seeds, level, &[]);
+                assert_eq!(all.pass.is_some(), lowest.is_some());
+                assert_eq!(minimax(&store, &seeds, level, &all.divide), None);
+                let few = watershed(&store, &seeds, level, 12);
+                assert_eq!(few.divide, all.divide[..few.divide.len()]);
+                let Some((_, chain)) = all.pass else {
+                    continue;
+                };
+                joined += 1;
+                let (end, inner) = (chain[chain.len() - 1], &chain[1..chain.len() - 1]);
+                assert!(chain[0] == 3 && [500, 900].contains(&end));
+                for pair in chain.windows(2) {
+                    assert!(store.leaf(pair[0]).neighbours.contains(&pair[1]));
+                }
+                let rank = |id: &u32| store.by_energy()[*id as usize];
+                let energy = if end == 900 { 0.1 } else { 0.2 };
+                let over = inner.iter().map(rank).fold(energy, f64::max);
+                assert_eq!(Some(over), lowest);
+                single += usize::from(few.divide.len() < 12);
+                for id in few
+                    .divide
+                    .into_iter()
+                    .filter(|id| ![3, 500, 900].contains(id))
+                {
+                    let whole = store.leaf(id).clone();
+                    if let Some(halves) = whole.key.halves(whole.known.axis) {
+                        let parts = halves.map(|key| (key, known(whole.known.lower)));
+                        store.replace(id, &parts);
+                    }
+                }
+                level -= if round % 5 == 0 { 0.01 } else { 0.0 };
+            }
+        }
+        assert!(joined > 60 && single > 0, "{joined} {single}");
+    }
 }

@@ -11,14 +11,14 @@
 //!
 //! **Lower bound.** The configuration space is covered by closed cells. For each cell either no
 //! configuration of it is free, or a number is known that the energy of no free configuration of it
-//! falls below: a Taylor form with a bound of its remainder (of second order, behind shields of
-//! first order), minimised over the part of the cell that contact leaves. A path is covered by a chain of touching cells, so if every
-//! chain of cells from end to end has one with a lower bound above E, the barrier is above E.
+//! falls below: a Taylor form with a bound of its remainder, minimised over the part of the cell
+//! that contact leaves. A path is covered by a chain of touching cells, so if every chain of cells
+//! from end to end has one with a lower bound above E, the barrier is above E.
 //!
-//! **Search.** Two floods rise from the two ends over the cells with lower bounds of at most E, the
-//! target just below the best upper bound. Where they would meet is a divide, and only its cells
-//! are subdivided (see `flood`): wrong guesses cost time, never the proof. The lowest pass
-//! between the floods suggests a pathway; where one along it can be proved, the upper bound falls.
+//! **Search.** A flood rises from one end over the cells with lower bounds of at most E, the target
+//! just below the best upper bound. Where it would spill over to the other end is a divide, and
+//! only its cells are subdivided (see `flood`): wrong guesses cost time, never the proof. The lowest
+//! pass suggests a pathway; where one along it can be proved, the upper bound falls.
 //! Where no chain is left at E = infinity the start is caged.
 //!
 //! # What is proved, and what is assumed
@@ -43,7 +43,6 @@ mod landscape;
 mod level;
 pub(crate) mod lower;
 mod query;
-mod reflood;
 mod store;
 pub(super) mod upper;
 

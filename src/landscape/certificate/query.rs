@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::certifier::Certifier;
-use super::flood::{Flood, Seeds};
+use super::flood::{Seeds, watershed};
 use super::level::least_level;
 use super::upper::ProvedPath;
 use super::{Bracket, Effort, End, Progress};
@@ -55,6 +55,8 @@ pub(super) struct Query<'q, 'a> {
     improved: bool,
     caged: bool,
     rounds: usize,
+    /// Whether floods rise from the end, which lies higher: its basin is the smaller one.
+    from_behind: bool,
 }
 
 impl<'q, 'a> Query<'q, 'a> {
@@ -67,8 +69,11 @@ impl<'q, 'a> Query<'q, 'a> {
     ) -> Self {
         let proof = certifier.landscape.proof();
         let mut floor = proof.value(&from).0;
+        let mut from_behind = false;
         if let Goal::At(to) = &to {
-            floor = floor.max(proof.value(to).0);
+            let end = proof.value(to).0;
+            from_behind = end > floor;
+            floor = floor.max(end);
         }
         let mut query = Self {
             from,
@@ -81,6 +86,7 @@ impl<'q, 'a> Query<'q, 'a> {
             improved: false,
             caged: false,
             rounds: 0,
+            from_behind,
             certifier,
         };
         query.best = query
@@ -91,35 +97,29 @@ impl<'q, 'a> Query<'q, 'a> {
 
     /// Searches until the bracket is narrow enough or the effort is spent.
     pub fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bracket {
-        // The floods of the last round, and what was subdivided since.
-        let mut last: Option<(Flood, Vec<u32>)> = None;
         while self.level() > self.floor {
             let level = self.level();
             let seeds = self.seeds();
             let store = &self.certifier.store;
             let most = SPLITS.max(store.len() / SPLIT_SHARE);
-            let mut flood = match last.take() {
-                Some((flood, divided)) => flood.after(store, &divided, &seeds, level),
-                None => Flood::new(store, &seeds, level),
-            };
-            let found = flood.rise(store, most);
+            let found = watershed(store, &seeds, level, most);
             let going_on = watch(&Progress {
                 cells: self.cells(),
                 rounds: self.rounds,
                 divide: found.divide.len(),
                 upper: self.best.as_ref().map(|path| path.upper),
             });
-            let Some((pass, chain)) = found.pass else {
+            let Some((pass, mut chain)) = found.pass else {
                 self.caged = self.best.is_none();
                 break;
             };
+            if self.from_behind {
+                chain.reverse();
+            }
             let mut to_divide = found.divide;
             if pass < level + (1.0 - WORTHWHILE) * self.effort.tolerance {
                 match self.improve(&chain) {
-                    Ok(()) => {
-                        last = Some((flood, Vec::new()));
-                        continue;
-                    }
+                    Ok(()) => continue,
                     Err(blamed) => {
                         to_divide.extend(blamed);
                         to_divide.sort_unstable();
@@ -131,7 +131,6 @@ impl<'q, 'a> Query<'q, 'a> {
                 break;
             }
             self.rounds += 1;
-            last = Some((flood, to_divide));
         }
         self.conclude()
     }
@@ -244,7 +243,7 @@ impl<'q, 'a> Query<'q, 'a> {
         }
     }
 
-    /// The leaves that hold either end.
+    /// The leaves that hold either end, first that from which floods rise.
     fn seeds(&mut self) -> Seeds {
         let Certifier {
             store,
@@ -252,7 +251,12 @@ impl<'q, 'a> Query<'q, 'a> {
             ends,
             ..
         } = &mut *self.certifier;
-        ends.seeds(store, landscape, &self.from, &self.to)
+        let Seeds { from, to } = ends.seeds(store, landscape, &self.from, &self.to);
+        if self.from_behind {
+            Seeds { from: to, to: from }
+        } else {
+            Seeds { from, to }
+        }
     }
 
     fn conclude(mut self) -> Bracket {

@@ -1,6 +1,6 @@
 //! Bounds of the energy of shielded dipoles over a cell.
 //!
-//! Most pairs have a first-order form with a bound of what it leaves out (see
+//! Most pairs have a second-order form with a bound of what it leaves out (see
 //! [`Forms`](kernel::Forms)). The others, near each other or where the factor changes too fast,
 //! have an interval each, the product of those of the energy and of the two factors:
 //!
@@ -16,7 +16,7 @@
 use super::kernel::{self, Columns, Forms};
 use super::potential::shielded;
 use super::{Shield, Shields};
-use crate::cell::{Cell, Quadratic};
+use crate::cell::Cell;
 use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths};
 use crate::tile::Tile;
@@ -113,7 +113,7 @@ fn factor_range(shield: &Shield, distances: Interval, cosines: Interval) -> Inte
 impl CellBounds for ShieldedBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         let mut rest = Vec::new();
-        let (value, gradient, left_out) = self.level.run(Forms {
+        let (form, left_out) = self.level.run(Forms {
             fixed: &self.columns,
             moving: &self.moving,
             cell,
@@ -121,12 +121,7 @@ impl CellBounds for ShieldedBounds {
             extent: self.extent,
             rest: &mut rest,
         });
-        let form = Quadratic {
-            value,
-            gradient: gradient.into(),
-            ..Quadratic::default()
-        };
-        let mut out = Enclosure::of_order(2.0, form, left_out);
+        let mut out = Enclosure::of_order(3.0, form, left_out);
         if !rest.is_empty() {
             out.slope = f64::INFINITY;
         }

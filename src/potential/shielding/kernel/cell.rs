@@ -1,11 +1,11 @@
 //! The pairs of a cell that Taylor's theorem bounds.
 
-use nalgebra::Vector3;
+use nalgebra::Vector2;
 
-use super::curvature::{dipole_limits, pair_limits};
-use super::factor::pair_factor;
-use super::{Columns, Magnet, Vectors, Way, dipoles, product_gradient};
-use crate::cell::Cell;
+use super::curvature::{Around, dipole_limits, factor_limits, product, size};
+use super::jet::{Place, dipoles, factors};
+use super::{Columns, Magnet, Vectors, Way};
+use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
 
 /// Pairs closer than this many times the magnet's reach have no form.
@@ -25,16 +25,17 @@ const PLACING: f64 = 1e-14;
 /// for a magnet there does not move but turns.
 const LEAST_LEVER: f64 = 1e-3;
 
-/// Sums up the energies, and their gradients, of the pairs of shielded dipoles that have a
-/// first-order form about the cell's centre, and bounds what the forms leave out.
+/// Sums up the energies of the pairs of shielded dipoles as forms of second order about the cell's
+/// centre, and bounds what the forms leave out.
 ///
 /// On the straight way from the centre to a configuration of the cell a magnet is at most as fast
 /// as its reach V and turns at half the cell's angle W. In units in which it is no faster than 1 it
-/// turns at the rate W / V, so that [`dipole_limits`] and [`pair_limits`], taken at the distance
-/// `r - V`, bound the second derivative along the way, and the form is wrong by at most
+/// turns at the rate W / V, so that [`dipole_limits`] and [`factor_limits`], taken at the distance
+/// `r - V`, bound the third derivative of the energy u times the factor w along the way, and the
+/// form is wrong by at most
 ///
 /// ```text
-/// V^2 / 2 [|w| |u''| + 2 |w'| |u'| + |w''| |u|]
+/// V^3 / 6 [|w| |u'''| + 3 |w'| |u''| + 3 |w''| |u'| + |w'''| |u|]
 /// ```
 ///
 /// Pairs for which this is more than the energy itself can be, `2 |w| |u|`, get no form: their
@@ -49,8 +50,8 @@ pub(in crate::potential::shielding) struct Forms<'a> {
     pub rest: &'a mut Vec<(usize, usize)>,
 }
 
-/// Value (J), gradient, and the bound of what they leave out (J).
-pub(in crate::potential::shielding) type Form = (f64, Vector3<f64>, f64);
+/// The form, and the bound of what it leaves out (J).
+pub(in crate::potential::shielding) type Form = (Quadratic, f64);
 
 impl Task for Forms<'_> {
     type Output = Form;
@@ -61,8 +62,9 @@ impl Task for Forms<'_> {
         let rotation = q.rotation();
         let pairs = (self.count * self.moving.len()) as f64;
         let rounding = ROUNDING + 16.0 * pairs * f64::EPSILON;
-        let zero = l.splat(0.0);
-        let mut sums = [zero; 5];
+        let (zero, one) = (l.splat(0.0), l.splat(1.0));
+        let mut form = Quadratic::default();
+        let mut all_left_out = zero;
         for (j, magnet) in self.moving.iter().enumerate() {
             let lever = magnet.position.norm() + LEAST_LEVER;
             let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
@@ -70,49 +72,72 @@ impl Task for Forms<'_> {
             let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
             let moved = magnet.moved(q, &rotation);
             let second = Vectors::splat(l, &moved);
-            let arm = moved.position - q.position();
+            let mut sums = [zero; 10];
             for from in (0..self.fixed.len()).step_by(L::WIDTH) {
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
                 let room = l.sub(way.distance, l.splat(NEAR * speed + TINY));
-                let one = l.splat(1.0);
                 let r = l.select(room, l.sub(way.distance, l.splat(speed)), one);
-                let inverse = l.reciprocal(r);
-                let [u0, u1, u2] = dipole_limits(l, &first, &second, turn, inverse);
-                let [w0, w1, w2] = pair_limits(l, &first, &second, turn, r, inverse);
-                let two = l.splat(2.0);
-                let w = pair_factor::<L, true>(l, &first, &second, &way);
-                let u = dipoles::<L, true>(l, &first, &second, &way);
-                // Behind a shield the factor is smaller than anywhere: as much as at the centre,
-                // and what the way adds.
-                let here = l.select(w[0], w[0], l.sub(zero, w[0]));
                 let v = l.splat(speed);
-                let w0 = l.min(w0, l.mul_add(w1, v, here));
-                let size = l.mul(w0, u0);
-                let slope = l.mul_add(w0, u1, l.mul(w1, u0));
-                let bend = l.mul_add(w2, u0, l.mul(l.mul(two, w1), u1));
-                let bend = l.mul_add(w0, u2, bend);
-                let left_out = l.mul(l.splat(speed * speed / 2.0), bend);
+                let around = Around {
+                    reach: v,
+                    turn,
+                    r,
+                    inverse: l.reciprocal(r),
+                };
+                let ([a, b], [steep_a, steep_b]) = factors(l, &first, &second, &way);
+                let (here_a, here_b) = (size(l, a.0[0]), size(l, b.0[0]));
+                let of_a = factor_limits(l, first.shield, &around, steep_a, here_a);
+                let of_b = factor_limits(l, second.shield, &around, steep_b, here_b);
+                let u = dipoles(l, &first, &second, &way);
+                let mut of_u = dipole_limits(l, &first, &second, turn, around.inverse);
+                of_u[0] = l.min(of_u[0], l.mul_add(of_u[1], v, size(l, u.0[0])));
+                let [whole, slope, bend, twist] = product(l, product(l, of_a, of_b), of_u);
+                let left_out = l.mul(l.splat(speed * speed * speed / 6.0), twist);
                 // Negative where there is no form.
-                let worth = l.min(room, l.sub(l.mul(two, size), left_out));
-                let mask = l.select(worth, one, zero);
+                let worth = l.sub(l.mul(l.splat(2.0), whole), left_out);
+                let mask = l.select(l.min(room, worth), one, zero);
                 self.note_rest(l, mask, j, from);
 
-                let (w0, u0) = (l.mul(mask, w[0]), l.mul(mask, u[0]));
-                let [gx, gy, by_angle] = product_gradient(l, [w0, w[1], w[2], w[3]], u0, &u, arm);
-                let relative = l.mul_add(slope, v, size);
-                let placed = l.mul_add(bend, v, slope);
+                let pair = a.times(l, &b).times(l, &u).by_place(l, &way);
+                for (sum, entry) in sums.iter_mut().zip(pair) {
+                    *sum = l.mul_add(mask, entry, *sum);
+                }
+                let first_order = l.mul_add(slope, v, whole);
+                let relative = l.mul_add(l.mul(bend, v), v, first_order);
+                let placed = l.mul_add(l.mul(twist, v), v, l.mul_add(bend, v, slope));
                 let error = l.mul(l.splat(rounding), relative);
                 let error = l.mul_add(l.splat(placing), placed, error);
-                sums[0] = l.mul_add(w0, u[0], sums[0]);
-                sums[1] = l.add(sums[1], gx);
-                sums[2] = l.add(sums[2], gy);
-                sums[3] = l.add(sums[3], by_angle);
-                sums[4] = l.mul_add(mask, l.add(left_out, error), sums[4]);
+                all_left_out = l.mul_add(mask, l.add(left_out, error), all_left_out);
             }
+            let mut place = [0.0; 10];
+            for (entry, sum) in place.iter_mut().zip(sums) {
+                *entry = l.sum(sum);
+            }
+            form = form.minus(-1.0, &turned(place, moved.position - q.position()));
         }
-        let gradient = Vector3::new(l.sum(sums[1]), l.sum(sums[2]), l.sum(sums[3]));
-        (l.sum(sums[0]), gradient, l.sum(sums[4]))
+        (form, l.sum(all_left_out))
+    }
+}
+
+/// The form by the tile's x, y and theta of a magnet at the end of `arm` whose energy has these
+/// derivatives by its place and its turn.
+fn turned(place: Place<f64>, arm: Vector2<f64>) -> Quadratic {
+    let [value, x, y, t, xx, yy, tt, xy, xt, yt] = place;
+    // A turn moves the magnet along this, and accelerates it along minus the arm.
+    let (dx, dy) = (-arm.y, arm.x);
+    let bend = xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy;
+    Quadratic {
+        value,
+        gradient: [x, y, t + x * dx + y * dy],
+        hessian: [
+            xx,
+            yy,
+            tt + 2.0 * (xt * dx + yt * dy) + bend - x * arm.x - y * arm.y,
+            xy,
+            xt + xx * dx + xy * dy,
+            yt + xy * dx + yy * dy,
+        ],
     }
 }
 

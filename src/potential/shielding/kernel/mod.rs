@@ -3,6 +3,7 @@
 mod cell;
 mod curvature;
 mod factor;
+mod jet;
 #[cfg(test)]
 mod tests;
 
@@ -152,7 +153,7 @@ pub(super) struct Sum<'a, const SLOPE: bool> {
     pub q: &'a Configuration,
     /// Energies of pairs of blocks; point dipoles without.
     pub pairs: Option<&'a PairColumns>,
-    /// The only faces whose magnets act, if not all do.
+    /// The only faces whose magnets act, if not all do; they act in full.
     pub faces: Option<(usize, usize)>,
 }
 
@@ -184,7 +185,11 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
                 closest = closest.min(l.least(way.square));
-                let w = pair_factor::<L, SLOPE>(l, &first, &second, &way);
+                let w = if self.faces.is_some() {
+                    [l.splat(1.0), l.splat(0.0), l.splat(0.0), l.splat(0.0)]
+                } else {
+                    pair_factor::<L, SLOPE>(l, &first, &second, &way)
+                };
                 let u = match self.pairs {
                     None => dipoles::<L, SLOPE>(l, &first, &second, &way),
                     Some(pairs) => {

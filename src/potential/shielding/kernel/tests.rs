@@ -1,9 +1,11 @@
 //! The vectors against the plain formulas.
 
 use super::super::{Shield, logistic as scalar_logistic, pair_factor as scalar_factor};
-use super::curvature::factor_limits;
+use super::curvature::{Around, factor_limits};
 use super::factor::logistic;
+use super::jet::factors;
 use super::*;
+use crate::cell::Cell;
 use crate::potential::batch::Level;
 use crate::potential::batch::lanes::MAX_WIDTH;
 use crate::potential::dipole;
@@ -113,45 +115,175 @@ fn the_logistic_function_is_that_of_the_standard_library() {
     }
 }
 
-/// Bounds of a factor and of its derivatives.
-struct Bounds(Magnet, f64, f64);
+/// Bounds of a factor and of its derivatives on a way near the place of the other magnet.
+struct Bounds {
+    magnet: Magnet,
+    place: Vector2<f64>,
+    reach: f64,
+    turn: f64,
+}
 
 impl Task for Bounds {
-    type Output = [f64; 3];
+    type Output = [f64; 4];
 
     #[inline(always)]
-    fn run<L: Lanes>(self, l: L) -> [f64; 3] {
-        let Self(magnet, turn, r) = self;
-        let shield = Vectors::splat(l, &magnet).shield;
-        let (turn, r, inverse) = (l.splat(turn), l.splat(r), l.splat(1.0 / r));
-        let [value, slope, bend] = factor_limits(l, shield, turn, r, inverse);
-        [l.first(value), l.first(slope), l.first(bend)]
+    fn run<L: Lanes>(self, l: L) -> [f64; 4] {
+        let first = Vectors::splat(l, &self.magnet);
+        let bare = Magnet {
+            position: self.place,
+            front: (None, self.place),
+            ..self.magnet
+        };
+        let second = Vectors::splat(l, &bare);
+        let way = Way::new(l, &first, &second);
+        let r = l.sub(way.distance, l.splat(self.reach));
+        let around = Around {
+            reach: l.splat(self.reach),
+            turn: l.splat(self.turn),
+            r,
+            inverse: l.reciprocal(r),
+        };
+        let ([jet, _], [steep, _]) = factors(l, &first, &second, &way);
+        let limits = factor_limits(l, first.shield, &around, steep, jet.0[0]);
+        let mut out = [0.0; 4];
+        for (bound, limit) in out.iter_mut().zip(limits) {
+            *bound = l.first(limit);
+        }
+        out
     }
 }
 
+/// All along ways of several lengths, by differences.
 #[test]
 fn factors_stay_within_their_bounds() {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
-    for magnet in random_magnets(&mut rng, 400) {
+    let (mut count, mut tightest) = (0, [f64::INFINITY; 4]);
+    for magnet in random_magnets(&mut rng, 4000) {
         let Some(shield) = magnet.front.0.filter(|shield| shield.width > 0.03) else {
             continue;
         };
-        let (r, turn, step) = (turned(rng.random_range(-3.1..3.1)) * 0.05, 5.0, 1e-4);
+        let magnet = Magnet {
+            position: Vector2::zeros(),
+            ..magnet
+        };
+        let start = turned(rng.random_range(-3.1..3.1)) * 0.05;
+        let (turn, reach) = (5.0, 10f64.powf(rng.random_range(-3.0..-1.7)));
         // The other magnet moves one way and this one's face turns.
         let way = turned(rng.random_range(-3.1..3.1));
-        let angle = rng.random_range(-3.1..3.1);
+        let normal = magnet.front.1;
         let at = |s: f64| {
-            let place = r + way * s;
-            let cosine = turned(angle + turn * s).dot(&place) / place.norm();
-            shield.factor(place.norm(), cosine).value
+            let place = start + way * s;
+            let (sin, cos) = (turn * s).sin_cos();
+            let turned = Vector2::new(
+                normal.x * cos - normal.y * sin,
+                normal.x * sin + normal.y * cos,
+            );
+            shield
+                .factor(place.norm(), turned.dot(&place) / place.norm())
+                .value
         };
-        let first = (at(step) - at(-step)) / (2.0 * step);
-        let second = (at(step) - 2.0 * at(0.0) + at(-step)) / (step * step);
-        let [g0, g1, g2] = Level::best().run(Bounds(magnet, turn, 0.05 - 2.0 * step));
-        assert!(at(0.0) <= g0 && first.abs() <= g1, "{shield:?}");
-        assert!(
-            second.abs() <= g2 * (1.0 + 1e-3),
-            "{shield:?} {second} {g2}"
-        );
+        let bounds = Level::best().run(Bounds {
+            magnet,
+            place: start,
+            reach,
+            turn,
+        });
+        for _ in 0..4 {
+            let (s, h) = (reach * rng.random_range(-0.8..0.8), 1e-4);
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(s + k * h));
+            let here = at(s);
+            let found = [
+                here.abs(),
+                (c - b).abs() / (2.0 * h),
+                (b - 2.0 * here + c).abs() / (h * h),
+                (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
+            ];
+            for k in 0..4 {
+                // A hundredth for what differences are off by, and their rounding.
+                let off = 1e-2 * bounds[k] + 1e-15 / h.powi(k as i32);
+                assert!(
+                    found[k] <= bounds[k] + off,
+                    "{shield:?} {k}: {found:?} {bounds:?}"
+                );
+                tightest[k] = tightest[k].min(bounds[k] / found[k]);
+            }
+            count += 1;
+        }
+    }
+    // Of all, the closest are close: a bound that lost its sense would not be.
+    assert!(
+        count > 4000 && tightest.iter().all(|ratio| *ratio < 3.0),
+        "{count} {tightest:?}"
+    );
+}
+
+/// Derivatives of products of factors and energies, as the cells' forms have them, against
+/// differences of the plain formulas.
+#[test]
+fn forms_have_the_energy_s_derivatives() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    for level in Level::available() {
+        for _ in 0..50 {
+            let (mut fixed, mut moving) =
+                (random_magnets(&mut rng, 5), random_magnets(&mut rng, 3));
+            for magnet in fixed.iter_mut().chain(&mut moving) {
+                if let Some(shield) = &mut magnet.front.0 {
+                    shield.width = shield.width.max(0.2);
+                }
+            }
+            let place = turned(rng.random_range(-3.1..3.1)) * rng.random_range(0.15..0.3);
+            let q = Configuration::new(place.x, place.y, rng.random_range(-3.1..3.1));
+            let columns = Columns::new(&fixed, level.width());
+            let mut rest = Vec::new();
+            let (form, left_out) = level.run(Forms {
+                fixed: &columns,
+                moving: &moving,
+                cell: &Cell {
+                    centre: q,
+                    half: [0.0; 3],
+                },
+                count: fixed.len(),
+                extent: 0.1,
+                rest: &mut rest,
+            });
+            assert!(rest.is_empty() && left_out < 1e-8);
+            let at = |q: &Configuration| {
+                level.run(Sum::<true> {
+                    fixed: &columns,
+                    moving: &moving,
+                    q,
+                    pairs: None,
+                    faces: None,
+                })
+            };
+            let (energy, gradient) = at(&q);
+            let close = |a: f64, b: f64, of: f64| (a - b).abs() < 1e-6 * (of + b.abs());
+            assert!(close(form.value, energy, 0.0), "{level}");
+            let [xx, yy, tt, xy, xt, yt] = form.hessian;
+            let rows = [[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]];
+            let size = rows
+                .as_flattened()
+                .iter()
+                .fold(0.0, |a: f64, b| a.max(b.abs()));
+            for i in 0..3 {
+                assert!(
+                    close(form.gradient[i], gradient[i], gradient.norm()),
+                    "{level}"
+                );
+                let step = [1e-5, 1e-5, 1e-4][i];
+                let moved = |by: f64| {
+                    let mut d = Vector3::zeros();
+                    d[i] = by;
+                    at(&q.moved(d)).1
+                };
+                let slope = (moved(step) - moved(-step)) / (2.0 * step);
+                for k in 0..3 {
+                    assert!(
+                        close(rows[i][k], slope[k], size),
+                        "{level} {i} {k} {rows:?} {slope}"
+                    );
+                }
+            }
+        }
     }
 }
