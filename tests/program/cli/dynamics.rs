@@ -25,14 +25,14 @@ fn barriers_are_checked_by_moving_tiles_and_the_check_is_reported() {
     let out = folder("check");
     let mut arguments = vec!["analyse", "shapes/tab-20mm.toml", "--out", &out];
     arguments.extend(QUICK);
-    arguments.push("--dynamics=40");
+    arguments.push("--dynamics=20");
     let output = tilebind(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).contains("moving tiles: 0 of "));
     let report = std::fs::read_to_string(format!("{out}/report.json")).unwrap();
     let report: Value = serde_json::from_str(&report).unwrap();
     let dynamics = &report["dynamics"];
-    assert_eq!(dynamics["runs"], 40);
+    assert_eq!(dynamics["runs"], 20);
     assert_eq!(dynamics["contradicted"], 0);
     let barriers = dynamics["barriers"].as_array().unwrap();
     assert_eq!(barriers.len(), report["barriers"].as_array().unwrap().len());
@@ -40,7 +40,7 @@ fn barriers_are_checked_by_moving_tiles_and_the_check_is_reported() {
         assert_eq!(check["from"], barrier["from"]);
         assert_eq!(check["to"], barrier["to"]);
         assert_eq!(check["ceiling_J"], barrier["lower_J"]);
-        assert_eq!(check["below"]["runs"], 40);
+        assert_eq!(check["below"]["runs"], 20);
         assert_eq!(check["below"]["crossed"], 0);
     }
     let table = std::fs::read_to_string(format!("{out}/dynamics.csv")).unwrap();

@@ -97,7 +97,7 @@ fn energies_are_those_of_the_shields_in_the_file() {
 
 #[test]
 fn a_barrier_of_shielded_blocks_has_no_bounds_and_says_why() {
-    let quick = ["--milestones", "200", "--model", "cuboid"];
+    let quick = ["--milestones", "60", "--model", "cuboid"];
     let ends = ["--from", "0.08,0,0", "--to", "free"];
     let entry = json(&[&["barrier", DESIGN], &ends[..], &quick].concat());
     assert!(entry["lower_J"].is_null() && entry["upper_J"].is_null());
