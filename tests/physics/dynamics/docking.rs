@@ -45,7 +45,7 @@ fn chances_agree_with_the_open_dynamics_engine() {
 #[test]
 fn knocks_that_give_back_more_bind_fewer() {
     let share = |restitution| {
-        let mut settings = few(250);
+        let mut settings = few(500);
         settings.motion.restitution = restitution;
         dock(&paper_tile().problem(), &settings, &|| ())
             .unwrap()
