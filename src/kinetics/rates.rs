@@ -239,14 +239,15 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = places.inside(&field, settings, beyond);
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
-            let mut found = with_bounds(problem, settings, [ground, beyond], meshes)?;
-            found.map = map;
-            found.ways = ways;
-            found.inside = inside;
-            if settings.certify.is_some() {
-                found.bounds.get_or_insert(upper);
-            }
-            return Ok(found);
+            let (finest, bounds) = bounded(problem, settings, [ground, beyond])?.unzip();
+            meshes.extend(finest.flatten());
+            return Ok(Rates {
+                meshes,
+                bounds: bounds.or(settings.certify.map(|_| upper)),
+                map,
+                inside,
+                ways,
+            });
         }
         for &(cell, _) in &places.shared {
             shares[cell] = f64::MAX.sqrt();
@@ -261,24 +262,17 @@ pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
 }
 
-/// Adds what ever finer meshes that begin at contact say, with bounds. Energies are counted from
-/// `ground` (J), and `beyond` is the occupation of the table outside the mesh.
-fn with_bounds(
+/// What the finest of meshes that begin at contact says, and its bounds, if there are any. Energies
+/// are counted from `ground` (J), and `beyond` is the occupation of the table outside the mesh.
+fn bounded(
     problem: &Problem,
     settings: &RateSettings,
     [ground, beyond]: [f64; 2],
-    mut meshes: Vec<MeshRates>,
-) -> Result<Rates, RatesError> {
+) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok(Rates {
-            meshes,
-            bounds: None,
-            map: None,
-            inside: Vec::new(),
-            ways: Vec::new(),
-        });
+        return Ok(None);
     };
     let mut all = narrowed(&mut field, &certify, |field| {
         let places = Places::new(field, settings)?;
@@ -286,20 +280,12 @@ fn with_bounds(
         Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
     })?;
     let count = settings.basins.len() + 1;
-    let finest = all.pop();
-    meshes.extend(finest.as_ref().and_then(|step| step.rates.clone()));
-    let bounds = finest.map(|step| RateBounds {
-        leaving: step.bounds[..count].to_vec(),
-        rates: step.bounds[count..]
-            .chunks(count)
-            .map(<[_]>::to_vec)
-            .collect(),
-    });
-    Ok(Rates {
-        meshes,
-        bounds,
-        map: None,
-        inside: Vec::new(),
-        ways: Vec::new(),
-    })
+    Ok(all.pop().map(|step| {
+        let rates = step.bounds[count..].chunks(count);
+        let bounds = RateBounds {
+            leaving: step.bounds[..count].to_vec(),
+            rates: rates.map(<[_]>::to_vec).collect(),
+        };
+        (step.rates, bounds)
+    }))
 }

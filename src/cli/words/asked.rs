@@ -63,18 +63,14 @@ impl Words {
 
     /// The magnets, the length of the face (m), and the name of the design that they are of.
     pub(super) fn bar(&self) -> Result<(Bar, f64, Option<String>), Failure> {
-        let design = self.design.as_ref();
-        let design = design
-            .map(|path| input::load_as(path, self.model))
-            .transpose()?;
-        let (bar, face) =
-            report::bar(design.as_ref(), self.pitch, self.model).map_err(|message| {
-                let path = self
-                    .design
-                    .iter()
-                    .map(|path| format!("{}: ", path.display()));
-                Failure::Usage(path.chain([message]).collect())
-            })?;
+        let path = self.design.as_ref();
+        let design = path.map(|path| input::load_as(path, self.model));
+        let design = design.transpose()?;
+        let usage = |message| match path {
+            Some(path) => Failure::Usage(format!("{}: {message}", path.display())),
+            None => Failure::Usage(message),
+        };
+        let (bar, face) = report::bar(design.as_ref(), self.pitch, self.model).map_err(usage)?;
         let name = design.map(|design| design.name);
         Ok((bar, face.unwrap_or(PAPER_FACE), name))
     }
