@@ -18,6 +18,8 @@ const FALL: f64 = 1.0;
 const SHORT_FALL: f64 = 1.0 / 16.0;
 /// The same of steps off contact, which have to clear the whole cell; a peg in a hole turns far.
 const WAYS_OUT: [f64; 2] = [6.0, 60.0];
+/// Sides this much shorter than the longest are not halved.
+const NARROW: f64 = 8.0;
 /// A projected force shorter than this share of the whole one is taken for none.
 const HELD: f64 = 1e-6;
 /// Tries to make a step open all contacts throughout a cell.
@@ -33,16 +35,16 @@ pub(super) enum Verdict {
     /// A step leads from each of them into a wholly free box about this configuration, on which the
     /// energy exceeds the cell's least, `lowest` (J), by at most the allowed rise.
     Opens { into: Configuration, lowest: f64 },
-    /// None of this.
-    Open { lowest: f64 },
+    /// None of this; what each coordinate's size costs, by which it should be halved.
+    Open { lowest: f64, losses: [f64; 3] },
 }
 
 /// Proves cells.
 pub(super) struct CellProof<'a> {
     pub bounds: &'a dyn CellBounds,
     pub contact: Option<&'a ContactCells>,
-    /// Weights of a step's squared components.
-    pub metric: Matrix3<f64>,
+    /// How far (m) a turn by one radian counts as moving the tile.
+    pub lever: f64,
     /// Configurations above this energy (J) are of no concern.
     pub level: f64,
     /// Highest rise (J) on the way out of what is no trap.
@@ -62,14 +64,13 @@ impl CellProof<'_> {
         if lowest > self.level {
             return Verdict::Nothing;
         }
-        let open = Verdict::Open { lowest };
         let unknown = enclosure.high - enclosure.low;
-        if !unknown.is_finite() {
-            return open;
-        }
-        if self.falls(cell, &enclosure, &cuts, &corners) == Some(true) {
-            return Verdict::Falls;
-        }
+        let losses = match self.falls(cell, &enclosure, &cuts, &corners) {
+            Some(Ok(())) => return Verdict::Falls,
+            Some(Err(losses)) => losses,
+            None => self.sizes(cell),
+        };
+        let open = Verdict::Open { lowest, losses };
         let is_narrow = unknown < self.rise;
         let ways_out = WAYS_OUT.into_iter().filter(|_| is_narrow);
         let mut opens = ways_out.filter_map(|longest| self.opens(cell, lowest, longest));
@@ -88,50 +89,82 @@ impl CellProof<'_> {
         })
     }
 
-    /// Whether one step leads downhill from every free configuration of the cell. Short ones show
-    /// the most, where the energy's slope is bounded; `room` is known of all that they sweep.
+    /// Weights of a step's squared components.
+    fn metric(&self) -> Matrix3<f64> {
+        Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.lever * self.lever))
+    }
+
+    /// A cell's half sizes (m).
+    pub fn sizes(&self, cell: &Cell) -> [f64; 3] {
+        let [x, y, theta] = cell.half;
+        [x, y, self.lever * theta]
+    }
+
+    /// What each coordinate's size costs of the fall (J) along a step: by how much it changes there,
+    /// and of what `room` leaves open; nothing where the cell is much longer elsewhere.
+    fn losses(&self, cell: &Cell, room: &Enclosure, step: &Vector3<f64>) -> [f64; 3] {
+        let sizes = self.sizes(cell);
+        let total: f64 = sizes.iter().sum();
+        let longest = sizes.iter().copied().fold(0.0, f64::max);
+        let bent = product(&room.form, step);
+        let unknown = room.change(step, &cell.half);
+        std::array::from_fn(|i| {
+            let is_narrow = sizes[i] * NARROW < longest;
+            let loss = bent[i].abs() * cell.half[i] + unknown * sizes[i] / total;
+            if is_narrow { 0.0 } else { loss }
+        })
+    }
+
+    /// Whether one step leads downhill from every free configuration of the cell; if the one that is
+    /// tried does not, what each coordinate's size costs. Short ones show the most, where the
+    /// energy's slope is bounded; `room` is known of all that they sweep.
     fn falls(
         &self,
         cell: &Cell,
         room: &Enclosure,
         cuts: &[Cut],
         corners: &[[Cut; 2]],
-    ) -> Option<bool> {
+    ) -> Option<Result<(), [f64; 3]>> {
         let is_smooth = room.slope.is_finite();
         let longest = if is_smooth { SHORT_FALL } else { FALL };
-        let unknown = room.change(longest);
         let out = self.pushed_out(cell, cuts, corners);
         let gradient = slope(&room.form, &out);
-        let most: f64 = (0..3)
-            .map(|i| gradient[i].abs() * longest * cell.half[i])
-            .sum();
-        if most <= unknown {
+        // A step costs at least a third of what its components cost one by one.
+        let gains = |i: usize| {
+            let mut step = Vector3::zeros();
+            step[i] = longest * cell.half[i];
+            3.0 * (gradient[i] * step[i]).abs() > room.change(&step, &cell.half)
+        };
+        if !(0..3).any(gains) {
             return None;
         }
         let contacts = self.within_steps(cell, longest)?;
-        let force = -(self.metric.try_inverse()? * gradient);
+        let metric = self.metric();
+        let force = -(metric.try_inverse()? * gradient);
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
-        let (direction, _) = closest_admissible(force, &self.metric, &held)?;
-        let length = |v: &Vector3<f64>| v.dot(&(self.metric * v)).sqrt();
+        let (direction, _) = closest_admissible(force, &metric, &held)?;
+        let length = |v: &Vector3<f64>| v.dot(&(metric * v)).sqrt();
         if length(&direction) <= HELD * length(&force) {
             return None;
         }
         let wanted = fitted(&direction, &cell.half, longest);
         let step = self.opening_step(cell, &contacts, (wanted, longest), |_| 0.0)?;
-        if gradient.dot(&step) + room.change(share(&step, cell)) >= 0.0 {
-            return Some(false);
+        let losses = Err(self.losses(cell, room, &step));
+        if gradient.dot(&step) + room.change(&step, &cell.half) >= 0.0 {
+            return Some(losses);
         }
         let lowers = |known: &Enclosure, from: &Vector3<f64>, swept: &Cell| {
             self.is_lowered(cell, &step, (known, from, swept), cuts, corners)
         };
         // What is within a short step is known already, and so is that the step closes nothing.
-        Some(if is_smooth {
+        let falls = if is_smooth {
             lowers(room, &Vector3::zeros(), &widened(cell, longest))
         } else {
             let swept = swept(cell, &step);
             self.closes_nothing(&swept, &step)
                 && lowers(&self.bounds.enclose(&swept), &(-step / 2.0), &swept)
-        })
+        };
+        Some(if falls { Ok(()) } else { losses })
     }
 
     /// The offset from the centre, within the cell, of about the nearest free configuration.
@@ -145,7 +178,7 @@ impl CellProof<'_> {
                 gradient: cut.form.gradient.into(),
             })
             .collect();
-        let push = closest_admissible(Vector3::zeros(), &self.metric, &rows);
+        let push = closest_admissible(Vector3::zeros(), &self.metric(), &rows);
         let push = push.map_or_else(Vector3::zeros, |(push, _)| push);
         Vector3::from_fn(|i, _| push[i].clamp(-cell.half[i], cell.half[i]))
     }
@@ -173,7 +206,7 @@ impl CellProof<'_> {
                 .iter()
                 .map(|c| row(c, -(least(c).max(0.0) + 1.1 * lost(c))))
                 .collect();
-            step = closest_admissible(wanted, &self.metric, &rows)?.0;
+            step = closest_admissible(wanted, &self.metric(), &rows)?.0;
             if (0..3).any(|i| step[i].abs() > longest * cell.half[i]) {
                 step = fitted(&step, &cell.half, longest);
             }
@@ -205,7 +238,7 @@ impl CellProof<'_> {
             ..Enclosure::default()
         };
         let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts, corners).lower;
-        let slack = known.change(share(step, swept)) + 2.0 * known.form.rounding(&swept.half);
+        let slack = known.change(step, &swept.half) + 2.0 * known.form.rounding(&swept.half);
         let bend = quadratic(&known.form, step);
         // A part t of the step changes the form by t times its change, less t (1 - t) / 2 times
         // the bend.
@@ -293,12 +326,6 @@ fn change(form: &Quadratic, from: &Vector3<f64>, step: &Vector3<f64>) -> Quadrat
         gradient: bent.into(),
         hessian: [0.0; 6],
     }
-}
-
-/// The largest share of a cell's half sizes that a step's components have.
-fn share(step: &Vector3<f64>, cell: &Cell) -> f64 {
-    let shares = (0..3).map(|i| step[i].abs() / cell.half[i]);
-    shares.fold(0.0, f64::max)
 }
 
 /// A cell with the share `more` of its half sizes added on all sides.

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::time::{Duration, Instant};
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
@@ -13,6 +13,7 @@ use super::cell::{CellProof, Verdict};
 use super::domain::Domain;
 use super::exits::{Exits, Opened};
 use crate::cell::Cell;
+use crate::contact::Contact;
 use crate::contact::cells::ContactCells;
 use crate::interruption;
 use crate::landscape::certificate::upper::PathProof;
@@ -21,8 +22,9 @@ use crate::landscape::stationary::Stationary;
 use crate::landscape::survey::Survey;
 use crate::observer::Observer;
 use crate::problem::Problem;
+use crate::tile::Outline;
 
-/// Cells smaller than this (m, half a side) are not subdivided: below it rounding rules.
+/// Sides smaller than this (m or rad, half a side) are not halved: below it rounding rules.
 const SMALLEST: f64 = 1e-9;
 /// Cells assessed between two looks at the clock.
 const BATCH: usize = 4096;
@@ -126,13 +128,14 @@ impl<'a> Search<'a> {
         let since = Instant::now();
         let problem = self.problem;
         let contact = problem.contact.as_ref().map(ContactCells::new);
-        let rho = problem.space.rho;
+        let moving = problem.contact.as_ref().map(Contact::moving);
+        let lever = moving.map_or(problem.space.rho, Outline::circumradius);
         let proof = CellProof {
             bounds: problem.bounds()?,
             contact: contact.as_ref(),
-            metric: Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, rho * rho)),
             level: self.below,
             rise: self.exits.rise,
+            lever,
         };
         let domain = Domain::new(problem);
         loop {
@@ -145,7 +148,7 @@ impl<'a> Search<'a> {
                 self.open.extend(waiting.next(usize::MAX));
                 return Ok(());
             }
-            self.look_at(&batch, &proof, rho, |cell, lowest| {
+            self.look_at(&batch, &proof, |cell, lowest| {
                 if domain.meets(&cell) {
                     waiting.push(cell, lowest);
                 }
@@ -160,7 +163,6 @@ impl<'a> Search<'a> {
         &mut self,
         batch: &[(Cell, f64)],
         proof: &CellProof,
-        rho: f64,
         mut hand_on: impl FnMut(Cell, f64),
     ) {
         let verdicts: Vec<Verdict> = batch
@@ -179,18 +181,18 @@ impl<'a> Search<'a> {
                 Verdict::Opens { into, lowest } => {
                     opened.push((*cell, Opened { at: into, lowest }))
                 }
-                Verdict::Open { lowest } => left.push((*cell, lowest.max(*before))),
+                Verdict::Open { lowest, losses } => left.push((*cell, lowest.max(*before), losses)),
             }
         }
         let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();
         for ((cell, place), ending) in opened.into_iter().zip(self.exits.find(&places)) {
             match ending {
                 Some(ending) => self.explained.push((cell, place.lowest, ending)),
-                None => left.push((cell, place.lowest)),
+                None => left.push((cell, place.lowest, proof.sizes(&cell))),
             }
         }
-        for (cell, lowest) in left {
-            match halves(&cell, rho) {
+        for (cell, lowest, losses) in left {
+            match halves(&cell, &losses) {
                 Some(halves) => halves.into_iter().for_each(|half| hand_on(half, lowest)),
                 None => self.open.push((cell, lowest)),
             }
@@ -209,11 +211,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The halves of a cell along its longest side (theta times `rho`, m); `None` where it is too small.
-fn halves(cell: &Cell, rho: f64) -> Option<[Cell; 2]> {
-    let sizes = [cell.half[0], cell.half[1], rho * cell.half[2]];
-    let axis = (0..3).max_by_key(|&i| OrderedFloat(sizes[i]))?;
-    (sizes[axis] > SMALLEST).then(|| {
+/// The halves of a cell along the coordinate whose size costs most; `None` where it is too small.
+fn halves(cell: &Cell, losses: &[f64; 3]) -> Option<[Cell; 2]> {
+    let axis = (0..3).max_by_key(|&i| OrderedFloat(losses[i]))?;
+    (cell.half[axis] > SMALLEST).then(|| {
         [-0.5, 0.5].map(|side| {
             let mut part = *cell;
             let mut step = Vector3::zeros();

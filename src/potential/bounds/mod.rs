@@ -10,6 +10,8 @@ pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
 pub(super) use near::{Interval, NearPair, depths};
 
+use nalgebra::Vector3;
+
 use crate::cell::{Cell, Quadratic};
 
 /// What is known of the energy over a cell: for every *free* configuration of the cell at the
@@ -28,6 +30,10 @@ pub struct Enclosure {
     pub slope: f64,
     /// What tiles that touch add to that (J).
     pub jump: f64,
+    /// The least and the greatest distance (m) of a magnet from the moving tile's reference point,
+    /// where the same holds of motions that move no magnet, and turn, by more than the share s of
+    /// how far the cell does.
+    pub levers: Option<[f64; 2]>,
 }
 
 impl Enclosure {
@@ -50,19 +56,33 @@ impl Enclosure {
             low: -remainder,
             high: remainder,
             slope: order * remainder,
-            jump: 0.0,
+            ..Self::default()
         }
     }
 
-    /// The most that `U - form` changes (J) on a straight way with components of at most this share
-    /// of the cell's half sizes.
-    pub fn change(&self, share: f64) -> f64 {
+    /// The most that `U - form` changes (J) on the straight way `step` within the cell, whose half
+    /// sizes are `half`.
+    pub fn change(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
         let known = self.high - self.low;
         if self.slope.is_finite() {
-            known.min(share * self.slope + self.jump)
+            known.min(self.share(step, half) * self.slope + self.jump)
         } else {
             known
         }
+    }
+
+    /// The share of the cell's half sizes that a motion counts as.
+    fn share(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
+        let shares = (0..3).map(|i| step[i].abs() / half[i]);
+        let largest = shares.fold(0.0, f64::max);
+        let Some(levers) = self.levers else {
+            return largest;
+        };
+        let (moved, turned) = (step.xy().norm(), step.z.abs());
+        // Monotone in the lever, so that the least and the greatest bound all others.
+        let of = |lever: f64| (moved + lever * turned) / (half[0].hypot(half[1]) + lever * half[2]);
+        let shares = levers.map(of).into_iter().chain([turned / half[2]]);
+        largest.min(shares.fold(0.0, f64::max))
     }
 }
 

@@ -41,6 +41,8 @@ pub struct DipoleBounds {
     rounding: f64,
     /// Largest distance of a fixed dipole from the origin (m).
     extent: f64,
+    /// Least and greatest distance of a moving dipole from the reference point (m).
+    levers: Option<[f64; 2]>,
     /// Zero but for dipoles that stand for blocks.
     spread: Spread,
     /// Of both tiles, where there are so many dipoles that they are worth it; `fixed` and `moving`
@@ -111,6 +113,7 @@ impl DipoleBounds {
             level,
             rounding: rounding(fixed.len() * moving.count),
             extent: fixed.iter().map(norm).fold(0.0, f64::max),
+            levers: moving.levers(),
             fixed,
             moving,
             spread: Spread::default(),
@@ -204,6 +207,15 @@ impl Moving {
     }
 }
 
+impl Moving {
+    /// The least and the greatest lever (m), if there are dipoles.
+    fn levers(&self) -> Option<[f64; 2]> {
+        let levers = self.lever.iter().take(self.count);
+        let both = levers.map(|&lever| [lever; 2]);
+        both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+}
+
 impl CellBounds for DipoleBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         if let Some([fixed, moving]) = &self.groups {
@@ -211,6 +223,7 @@ impl CellBounds for DipoleBounds {
         }
         let (form, remainder, weights) = self.far::<false>(cell);
         let mut out = Enclosure::of_order(3.0, form, remainder);
+        out.levers = self.levers;
         for (j, i) in self.near(&weights) {
             self.add_near(&mut out, cell, &self.fixed[j], i);
         }
