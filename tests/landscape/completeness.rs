@@ -64,6 +64,22 @@ fn minima_where_the_outlines_fit_need_no_milestones() {
     assert!(found > 5, "{found}");
 }
 
+/// Shallow ones that few milestones lead into.
+#[test]
+fn tilted_traps_of_faces_that_slide_are_found_with_any_milestones() {
+    let problem = load("tests/designs/good/bars.toml").problem();
+    let (survey, _) = survey(&problem, 10);
+    for [x, y, theta, energy] in [
+        [0.065791671, -0.048002759, -0.028603450, -0.38688e-3],
+        [0.054928775, 0.439586631, 0.026799278, -0.37194e-3],
+        [0.067551874, -0.437652637, 0.030267079, -0.25002e-3],
+    ] {
+        let found = survey.state_at(&problem, &Configuration::new(x, y, theta), 1e-6);
+        let found = &survey.states[found.unwrap()].minimum.point;
+        assert!((found.energy - energy).abs() < 1e-8, "{found:?}");
+    }
+}
+
 #[test]
 fn forgotten_traps_are_found_again_and_the_list_is_proved() {
     let problem = load("shapes/paper-tile.toml").problem();

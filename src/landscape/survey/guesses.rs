@@ -1,9 +1,9 @@
-//! Where minima may be expected besides where the roadmap has them: siblings of those known, and
-//! where the outlines fit.
+//! Where minima may be expected besides where the roadmap has them: siblings of those known, where
+//! magnets come to lie opposite each other as faces slide, and where the outlines fit.
 
 use rayon::prelude::*;
 
-use super::{Survey, SurveySettings, siblings};
+use super::{Survey, SurveySettings, siblings, slides};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Descent, descend_among};
@@ -11,10 +11,10 @@ use crate::problem::Problem;
 
 /// No minimum is looked for closer than this (m) to a known one.
 const KNOWN: f64 = 1e-4;
-/// So many of the outlines' longest contacts are looked at, where the energy is below this share of
-/// the bond's depth.
+/// So many of the outlines' longest contacts are looked at.
 const MOST_MATCHES: usize = 100;
-const MATCH_HELD: f64 = 1e-3;
+/// Meetings are looked at where the energy is below this share of the bond's depth.
+const HELD: f64 = 1e-3;
 
 impl Survey {
     /// Looks for minima where those known so far, but for the first few, would be on other pairs of
@@ -36,14 +36,15 @@ impl Survey {
         }
     }
 
-    /// Looks for minima where the outlines lie on each other along much of their length, on faces
-    /// or elsewhere.
-    pub(super) fn find_matches(&mut self, problem: &Problem, settings: &SurveySettings) {
+    /// Looks for minima where faces slide along each other, and where the outlines lie on each other
+    /// along much of their length, on faces or elsewhere.
+    pub(super) fn find_meetings(&mut self, problem: &Problem, settings: &SurveySettings) {
         let known = self.states.len();
-        let held = -MATCH_HELD * problem.depth();
-        let places = problem.matches(MOST_MATCHES).into_iter();
-        let places = places.filter(|q| problem.energy(q) < held).collect();
-        self.look_near(problem, places, settings);
+        let held = -HELD * problem.depth();
+        let slid = slides::slid_meetings(problem);
+        let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
+        let places = places.filter(|q| problem.energy(q) < held && problem.is_free(q));
+        self.look_near(problem, places.collect(), settings);
         self.find_siblings(problem, known, settings);
     }
 

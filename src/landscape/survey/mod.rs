@@ -17,6 +17,7 @@ mod arrivals;
 mod densify;
 mod guesses;
 mod siblings;
+mod slides;
 mod withdraw;
 
 use std::collections::{HashMap, HashSet};
@@ -100,7 +101,7 @@ impl Survey {
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
         survey.find_siblings(problem, 0, settings);
-        survey.find_matches(problem, settings);
+        survey.find_meetings(problem, settings);
         survey.settle(problem, 0, settings);
         survey
     }

@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::tile::{Face, face_to_face};
 
 /// Meetings that differ by less than this (m; rad times a tile's size) are the same.
-const SAME: f64 = 1e-3;
+pub(super) const SAME: f64 = 1e-3;
 /// Faces turned away from each other by more than this (rad) do not meet.
 const TURNED: f64 = 0.8;
 /// A place where the energy is less than this share of the minimum's is none: faces without the
@@ -19,12 +19,12 @@ const HELD: f64 = 0.1;
 /// How the moving tile's face stands to the fixed one's: its middle's place along that face and
 /// out of it (m), and by how much it is turned against lying flush (rad).
 #[derive(Clone, Copy, Debug)]
-struct Meeting {
-    slide: f64,
-    gap: f64,
-    tilt: f64,
+pub(super) struct Meeting {
+    pub slide: f64,
+    pub gap: f64,
+    pub tilt: f64,
     /// Of the minimum (J).
-    energy: f64,
+    pub energy: f64,
 }
 
 impl Meeting {
@@ -48,7 +48,7 @@ impl Meeting {
 
     /// The configuration in which two faces meet in this way, drawn apart until the tiles do not
     /// overlap.
-    fn place(&self, problem: &Problem, fixed: &Face, moving: &Face) -> Configuration {
+    pub fn place(&self, problem: &Problem, fixed: &Face, moving: &Face) -> Configuration {
         let theta = wrap_angle(face_to_face(fixed, moving, 0.0, 0.0).theta + self.tilt);
         let arm = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
         let position = fixed.point(self.slide, self.gap) - arm;
