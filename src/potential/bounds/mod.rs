@@ -86,6 +86,12 @@ impl Enclosure {
     }
 }
 
+/// The least and the greatest of some levers, if there are any.
+pub(super) fn ends(levers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let both = levers.map(|lever| [lever; 2]);
+    both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+}
+
 /// An energy that can be bounded over cells.
 pub trait CellBounds: Sync {
     /// Encloses U over the free configurations of a cell. Where nothing is known `low` is minus

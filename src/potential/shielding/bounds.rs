@@ -18,7 +18,7 @@ use super::potential::shielded;
 use super::{Shield, Shields};
 use crate::cell::Cell;
 use crate::potential::batch::Level;
-use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths};
+use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths, ends};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
 use nalgebra::Vector2;
@@ -38,6 +38,8 @@ pub struct ShieldedBounds {
     columns: Columns,
     /// Largest distance of a fixed magnet from the origin (m).
     extent: f64,
+    /// Least and greatest lever of the moving magnets (m).
+    levers: Option<[f64; 2]>,
 }
 
 impl ShieldedBounds {
@@ -50,6 +52,7 @@ impl ShieldedBounds {
     /// The same for the given instruction set.
     pub fn with_level(fixed: &Tile, moving: &Tile, shields: &Shields, level: Level) -> Self {
         let first = shielded(fixed, &shields.fixed);
+        let second = shielded(moving, &shields.moving);
         Self {
             level,
             fixed_depths: depths(fixed),
@@ -57,7 +60,8 @@ impl ShieldedBounds {
             columns: Columns::new(&first, level.width()),
             extent: first.iter().map(|m| m.position.norm()).fold(0.0, f64::max),
             fixed: first,
-            moving: shielded(moving, &shields.moving),
+            levers: ends(second.iter().map(kernel::Magnet::lever)),
+            moving: second,
         }
     }
 
@@ -122,6 +126,7 @@ impl CellBounds for ShieldedBounds {
             rest: &mut rest,
         });
         let mut out = Enclosure::of_order(3.0, form, left_out);
+        out.levers = self.levers;
         if !rest.is_empty() {
             out.slope = f64::INFINITY;
         }

@@ -18,7 +18,7 @@ mod groups;
 mod taylor;
 
 use super::near::{Interval, NearPair, depths, least_distance};
-use super::{CellBounds, Enclosure};
+use super::{CellBounds, Enclosure, ends};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
 use crate::potential::dipole::Dipole;
@@ -113,7 +113,7 @@ impl DipoleBounds {
             level,
             rounding: rounding(fixed.len() * moving.count),
             extent: fixed.iter().map(norm).fold(0.0, f64::max),
-            levers: moving.levers(),
+            levers: ends(moving.lever.iter().take(moving.count).copied()),
             fixed,
             moving,
             spread: Spread::default(),
@@ -204,15 +204,6 @@ impl Moving {
             angle: column(&|(dipole, _)| dipole.moment.y.atan2(dipole.moment.x)),
             depth: column(&|(_, depth)| *depth),
         }
-    }
-}
-
-impl Moving {
-    /// The least and the greatest lever (m), if there are dipoles.
-    fn levers(&self) -> Option<[f64; 2]> {
-        let levers = self.lever.iter().take(self.count);
-        let both = levers.map(|&lever| [lever; 2]);
-        both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
     }
 }
 

@@ -25,6 +25,13 @@ const PLACING: f64 = 1e-14;
 /// for a magnet there does not move but turns.
 const LEAST_LEVER: f64 = 1e-3;
 
+impl Magnet {
+    /// How far (m) a turn by one radian counts as moving it.
+    pub fn lever(&self) -> f64 {
+        self.position.norm() + LEAST_LEVER
+    }
+}
+
 /// Sums up the energies of the pairs of shielded dipoles as forms of second order about the cell's
 /// centre, and bounds what the forms leave out.
 ///
@@ -66,7 +73,7 @@ impl Task for Forms<'_> {
         let mut form = Quadratic::default();
         let mut all_left_out = zero;
         for (j, magnet) in self.moving.iter().enumerate() {
-            let lever = magnet.position.norm() + LEAST_LEVER;
+            let lever = magnet.lever();
             let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
             let turn = l.splat(self.cell.half[2] / speed);
             let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
