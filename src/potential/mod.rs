@@ -40,6 +40,7 @@ pub(crate) mod groups;
 pub mod interaction;
 mod lever;
 pub mod motion;
+pub mod parts;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -48,6 +49,7 @@ use nalgebra::Vector3;
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
+pub use parts::Parts;
 pub use interaction::{Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
 pub use shielding::ShieldedPotential;
 
@@ -98,6 +100,12 @@ pub trait Potential: Sync {
     /// right in its middle may be taken to be right all along; 0 where only bounds count.
     fn feature_length(&self) -> f64 {
         0.0
+    }
+
+    /// The energy as a sum of very many parts, where following those along motions one by one is
+    /// worth it.
+    fn parts(&self) -> Option<&dyn Parts> {
+        None
     }
 
     /// How much lower, as a fraction of |U|, an energy must be than that of a configuration close
