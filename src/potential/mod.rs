@@ -49,8 +49,8 @@ use nalgebra::Vector3;
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
-pub use parts::Parts;
 pub use interaction::{Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
+pub use parts::Parts;
 pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.

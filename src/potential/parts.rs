@@ -16,25 +16,32 @@ pub trait Parts: Sync {
     /// The part that is the whole energy.
     fn whole(&self) -> Part;
 
-    /// U (J) of some parts together, and its gradient.
-    fn energy_and_gradient_of(&self, parts: &[Part], q: &Configuration) -> (f64, Vector3<f64>);
+    /// U (J) of some parts together, and its gradient; `roughly` of slow parts.
+    fn energy_and_gradient_of(
+        &self,
+        parts: &[Part],
+        q: &Configuration,
+        roughly: bool,
+    ) -> (f64, Vector3<f64>);
 
     /// What [`fourth_derivative_bound`](super::Potential::fourth_derivative_bound) is of the whole,
     /// of some parts together.
     fn fourth_derivative_bound_of(&self, parts: &[Part], q: &Configuration, reach: f64) -> f64;
 
     /// Takes some parts to pieces, and tells those that motions through `q` of at most `reach` (m)
-    /// change slowly from those that they may change fast: the fourth derivatives (J/m^4) of all
-    /// the slow ones that ever come of the whole add up to `limit` at most, however often what is
-    /// fast is sifted again.
-    fn sift(&self, parts: &[Part], q: &Configuration, reach: f64, limit: f64) -> Sifted;
+    /// to either side change slowly from those that they may change fast. Cubics through the rough
+    /// values and slopes of the slow ones at both ends of such a motion are off by `allowed` (J) at
+    /// most, all together.
+    fn sift(&self, parts: &[Part], q: &Configuration, reach: f64, allowed: f64) -> Sifted;
 }
 
 /// Parts that together are what was sifted.
 #[derive(Clone, Debug, Default)]
 pub struct Sifted {
-    /// With proved small derivatives.
+    /// Those that change slowly.
     pub slow: Vec<Part>,
     /// All others.
     pub fast: Vec<Part>,
+    /// What the slow ones' cubics are off by, at most (J).
+    pub off: f64,
 }

@@ -211,9 +211,10 @@ impl Problem {
         energy: &dyn Parts,
         parts: &[Part],
         q: &Configuration,
+        roughly: bool,
     ) -> (f64, Vector3<f64>) {
         self.count(1);
-        energy.energy_and_gradient_of(parts, q)
+        energy.energy_and_gradient_of(parts, q, roughly)
     }
 
     /// How many energies have been computed so far.

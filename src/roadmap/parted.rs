@@ -6,14 +6,16 @@
 //! of Hermite's interpolation, `h^4 / 384` times the bound of the fourth derivative, h the
 //! displacement on that stretch. It stays so on all that the stretch is halved into, on which the
 //! same cubic is as right. All slow parts together are off by at most half the absolute tolerance,
-//! so that the others may be off by what the tolerance has left beside that.
+//! and the others may be off by what the tolerance has left beside that.
 
 use super::profile::{DEEPEST, Knot, cubic, cubic_slope};
 use super::stretch::Motion;
 use crate::potential::parts::{Part, Parts};
 
-/// The share of the absolute tolerance that slow parts may be off by.
+/// The share of the absolute tolerance that slow parts may be off by, and the share of what is left
+/// of that which those may that become slow on one stretch.
 const SLOW: f64 = 0.5;
+const AT_ONCE: f64 = 0.5;
 
 pub(super) struct Parted<'a> {
     motion: &'a Motion<'a>,
@@ -27,6 +29,8 @@ struct Stretch {
     ends: [Knot; 2],
     /// Of its slow parts.
     slow: [Knot; 2],
+    /// What those are off by, at most (J).
+    off: f64,
     /// A bound of the fourth derivative of its other parts that holds on a stretch around this one.
     fourth: f64,
     depth: u32,
@@ -52,6 +56,7 @@ impl<'a> Parted<'a> {
         let whole = Stretch {
             ends,
             slow: ends.map(none),
+            off: 0.0,
             fourth: f64::INFINITY,
             depth: 0,
         };
@@ -65,10 +70,8 @@ impl<'a> Parted<'a> {
         let motion = self.motion;
         let [a, b] = stretch.ends;
         let length = motion.displacement * (b.t - a.t);
-        let slow = SLOW * motion.tolerance.absolute;
-        // Bounds of the fourth derivative with which a cubic is off by so much.
-        let limit = |error: f64| 384.0 * error / length.powi(4);
-        let enough = limit(motion.allowed(&a, &b) - slow);
+        let left = motion.allowed(&a, &b) - stretch.off;
+        let enough = 384.0 * left / length.powi(4);
         let t = (a.t + b.t) / 2.0;
         let (q, reach) = (motion.at(t), length / 2.0);
         if stretch.fourth > enough {
@@ -79,15 +82,17 @@ impl<'a> Parted<'a> {
             self.settled.push(stretch.ends);
             return;
         }
-        let sifted = self.energy.sift(parts, &q, reach, limit(slow));
+        let slow = AT_ONCE * (SLOW * motion.tolerance.absolute - stretch.off);
+        let sifted = self.energy.sift(parts, &q, reach, slow);
+        let off = stretch.off + sifted.off;
         if !sifted.slow.is_empty() {
             for known in &mut stretch.slow {
-                let more = self.ask(&sifted.slow, known.t);
+                let more = self.ask(&sifted.slow, known.t, true);
                 known.energy += more.energy;
                 known.slope += more.slope;
             }
         }
-        let fast = self.ask(&sifted.fast, t);
+        let fast = self.ask(&sifted.fast, t, false);
         let [first, last] = &stretch.slow;
         let slow = Knot {
             t,
@@ -99,14 +104,12 @@ impl<'a> Parted<'a> {
             energy: slow.energy + fast.energy,
             slope: slow.slope + fast.slope,
         };
-        let halves = [
-            ([a, middle], [*first, slow]),
-            ([middle, b], [slow, *last]),
-        ];
+        let halves = [([a, middle], [*first, slow]), ([middle, b], [slow, *last])];
         for (ends, slow) in halves {
             let half = Stretch {
                 ends,
                 slow,
+                off,
                 fourth: stretch.fourth,
                 depth: stretch.depth + 1,
             };
@@ -115,10 +118,13 @@ impl<'a> Parted<'a> {
     }
 
     /// Energy and slope of some parts somewhere on the motion.
-    fn ask(&self, parts: &[Part], t: f64) -> Knot {
+    fn ask(&self, parts: &[Part], t: f64, roughly: bool) -> Knot {
         let motion = self.motion;
         let q = motion.at(t);
-        let (energy, gradient) = motion.problem.energy_and_gradient_of(self.energy, parts, &q);
+        let (energy, gradient) =
+            motion
+                .problem
+                .energy_and_gradient_of(self.energy, parts, &q, roughly);
         Knot {
             t,
             energy,

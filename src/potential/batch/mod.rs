@@ -32,7 +32,7 @@ pub use level::Level;
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::groups::are_many;
-use super::groups::tree::{Group, Tree};
+use super::groups::tree::{Group, Purpose, Tree};
 use super::lever::Lever;
 use super::motion;
 use super::parts::{Part, Parts};
@@ -125,7 +125,7 @@ impl DipolePotential {
     fn one<const SLOPE: bool>(
         &self,
         q: &Configuration,
-        parts: Option<&[Part]>,
+        parts: Option<(&[Part], Purpose)>,
     ) -> (f64, Vector3<f64>) {
         self.level.run(One::<SLOPE> {
             potential: self,

@@ -9,7 +9,7 @@ use super::field::{Frame, Shares, Source, field, pair_of};
 use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
 use crate::configuration::Configuration;
 use crate::potential::finite;
-use crate::potential::groups::tree::Group;
+use crate::potential::groups::tree::{Group, Purpose};
 use crate::potential::groups::walk::{Leeway, Walk};
 use crate::potential::parts::Part;
 
@@ -62,8 +62,8 @@ fn frame_of_many<L: Lanes>(l: L, qs: &[Configuration]) -> Frame<L::F> {
 pub struct One<'a, const SLOPE: bool> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
-    /// Of a potential with groups some pairs of them only.
-    pub parts: Option<&'a [Part]>,
+    /// Of a potential with groups some pairs of them only, for a purpose.
+    pub parts: Option<(&'a [Part], Purpose)>,
 }
 
 impl<const SLOPE: bool> One<'_, SLOPE> {
@@ -124,7 +124,12 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
         match &self.potential.groups {
             None => self.meet(l, &frame, sources, all, &mut shares),
             Some([fixed, moving]) => {
-                for meeting in walk(self.parts, [fixed, moving], self.q, Leeway::default()) {
+                let leeway = Leeway {
+                    purpose: self.parts.map_or(Purpose::Energy, |(_, purpose)| purpose),
+                    ..Leeway::default()
+                };
+                let parts = self.parts.map(|(parts, _)| parts);
+                for meeting in walk(parts, [fixed, moving], self.q, leeway) {
                     let sources = &sources[meeting.fixed];
                     self.meet(l, &frame, sources, meeting.moving, &mut shares);
                 }
