@@ -22,7 +22,8 @@
 //!
 //! Of two tiles with very many magnets (128 each) far groups of point dipoles are replaced by fewer dipoles at
 //! the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4 pi
-//! r^3)`, r the distance of the groups; energies, gradients and bounds alike.
+//! r^3)`, r the distance of the groups; energies, gradients and bounds alike. Along the motions of a
+//! roadmap groups far apart are asked at fewer places than close ones ([`parts`]).
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields

@@ -58,7 +58,7 @@ impl Profile {
     /// of barriers come from the certificate.
     ///
     /// Of very many magnets those far apart are asked at fewer places than those close to each
-    /// other ([`super::parted`]), within the same tolerance.
+    /// other ([`crate::potential::parts`]), within the same tolerance.
     pub fn new(
         problem: &Problem,
         a: &Milestone,

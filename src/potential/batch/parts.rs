@@ -15,7 +15,8 @@ const FEW: usize = 256;
 
 /// What is lost of a pair of groups at a distance r changes with each metre of a dipole's motion by
 /// no more than this over r times its bound (`n + 3`, for n = 24 nodes at most), and with each radian
-/// of a turn by no more than its bound.
+/// of a turn, which moves dipoles by what is linear in their places and turns their moments, by no
+/// more than this times its bound (`n + 1`).
 const SLOPE_OF_LOST: f64 = 27.0;
 
 impl DipolePotential {
@@ -68,7 +69,7 @@ impl Parts for DipolePotential {
             let (first, second) = (&fixed[f], &moving[m]);
             let k = MU0_OVER_4PI * first.magnitude * second.magnitude;
             let clear = sight.distance(first, second) - reach;
-            let slope = SLOPE_OF_LOST / clear + self.lever.turn();
+            let slope = SLOPE_OF_LOST * (1.0 / clear + self.lever.turn());
             let lost = LOST_ALONG * k / clear.powi(3) * (1.0 + slope * reach / 2.0);
             let off = motion::bound(&terms, k, clear) * reach.powi(4) / 24.0 + lost;
             if clear > 0.0 && off <= share && sifted.off + off <= allowed {
