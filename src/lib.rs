@@ -63,7 +63,9 @@
 //!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds. Within
 //!   the certificate's time limit results are the same bytes on any number of threads.
 //! - Tiles of 128 magnets and more: far groups of point dipoles are replaced by fewer, with
-//!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair.
+//!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair. From some
+//!   64 magnets a face on surveys take long all the same, up to hours for hundreds: there are many
+//!   states, and the motions that join each of them are followed to a fraction of the pitch.
 //! - Curves are polygons with chords within 0.2 mm.
 //! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
 //!   one outline without holes and at most 64 faces.

@@ -116,8 +116,12 @@ impl Analyse {
         let sheet = self.figures.sheet()?;
         memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
         self.work.use_threads()?;
-        let (milestones, starts) = (self.survey.milestones, self.survey.far_starts);
-        workload::tell_of(&design, milestones, starts, self.work.threads());
+        let survey = workload::Survey {
+            milestones: self.survey.milestones,
+            far_starts: self.survey.far_starts,
+            states: true,
+        };
+        workload::tell_of(&design, survey, self.work.threads());
 
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &self.settings(), &progress);

@@ -79,7 +79,12 @@ impl Barrier {
         }
         memory::check(self.milestones, None, 1)?;
         self.work.use_threads()?;
-        workload::tell_of(&design, self.milestones, 0, self.work.threads());
+        let survey = workload::Survey {
+            milestones: self.milestones,
+            far_starts: 0,
+            states: false,
+        };
+        workload::tell_of(&design, survey, self.work.threads());
         let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
             let message = error.to_string();

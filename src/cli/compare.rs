@@ -77,8 +77,12 @@ impl Compare {
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
         for design in &designs {
-            let threads = self.work.threads();
-            workload::tell_of(design, settings.milestones, settings.far_starts, threads);
+            let survey = workload::Survey {
+                milestones: settings.milestones,
+                far_starts: settings.far_starts,
+                states: true,
+            };
+            workload::tell_of(design, survey, self.work.threads());
         }
 
         let progress = self.print.progress();

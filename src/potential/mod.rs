@@ -22,7 +22,8 @@
 //!
 //! Of two tiles with very many magnets (128 each) far groups of point dipoles are replaced by fewer dipoles at
 //! the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4 pi
-//! r^3)`, r the distance of the groups; energies, gradients and bounds alike.
+//! r^3)`, r the distance of the groups; energies, gradients and bounds alike. Along the motions of a
+//! roadmap groups far apart are asked at fewer places than close ones ([`parts`]).
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields
@@ -40,6 +41,7 @@ pub(crate) mod groups;
 pub mod interaction;
 mod lever;
 pub mod motion;
+pub mod parts;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -49,6 +51,7 @@ pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
 pub use interaction::{Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
+pub use parts::Parts;
 pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.
@@ -98,6 +101,12 @@ pub trait Potential: Sync {
     /// right in its middle may be taken to be right all along; 0 where only bounds count.
     fn feature_length(&self) -> f64 {
         0.0
+    }
+
+    /// The energy as a sum of very many parts, where following those along motions one by one is
+    /// worth it.
+    fn parts(&self) -> Option<&dyn Parts> {
+        None
     }
 
     /// How much lower, as a fraction of |U|, an energy must be than that of a configuration close

@@ -13,6 +13,7 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
 use crate::contact::{Contact, TOUCH};
 use crate::interruption;
+use crate::potential::parts::{Part, Parts};
 use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
 use crate::tile::{Face, Pair, face_to_face};
 
@@ -202,6 +203,18 @@ impl Problem {
         for (q, result) in qs.iter().zip(out) {
             *result = self.energy.potential.energy_and_gradient(q);
         }
+    }
+
+    /// U (J) of some of the energy's parts and its gradient, counted as one evaluation.
+    pub fn energy_and_gradient_of(
+        &self,
+        energy: &dyn Parts,
+        parts: &[Part],
+        q: &Configuration,
+        roughly: bool,
+    ) -> (f64, Vector3<f64>) {
+        self.count(1);
+        energy.energy_and_gradient_of(parts, q, roughly)
     }
 
     /// How many energies have been computed so far.

@@ -4,6 +4,7 @@
 pub mod edge;
 pub mod milestone;
 pub mod neighbour;
+mod parted;
 pub mod profile;
 mod stretch;
 

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
 use super::Milestone;
+use super::parted::Parted;
 use super::stretch::{Motion, Stretch};
 use crate::problem::Problem;
 
@@ -37,7 +38,7 @@ pub struct Profile {
 }
 
 /// Stretches are not halved more often than this.
-const DEEPEST: u32 = 16;
+pub(super) const DEEPEST: u32 = 16;
 
 impl Profile {
     /// Samples the straight motion from `a` to `b`.
@@ -55,6 +56,9 @@ impl Profile {
     /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
     /// where the cubic foretells the energy in its middle. That is a check, no proof; proved bounds
     /// of barriers come from the certificate.
+    ///
+    /// Of very many magnets those far apart are asked at fewer places than those close to each
+    /// other ([`crate::potential::parts`]), within the same tolerance.
     pub fn new(
         problem: &Problem,
         a: &Milestone,
@@ -76,6 +80,13 @@ impl Profile {
             .iter()
             .map(|[a, b]| Motion::new(problem, a, b, tolerance))
             .collect();
+        if let Some(parts) = problem.potential().parts() {
+            let followed = motions.iter().zip(pairs).map(|(motion, pair)| {
+                let stretches = Parted::new(motion, parts).settled(motion.ends(*pair));
+                Self::of_stretches(&stretches)
+            });
+            return followed.collect();
+        }
         let mut open: Vec<Stretch> = (0..pairs.len())
             .map(|number| Stretch {
                 number,
@@ -124,15 +135,17 @@ impl Profile {
         settled.sort_by_key(|(number, [a, _])| (*number, OrderedFloat(a.t)));
         settled
             .chunk_by(|a, b| a.0 == b.0)
-            .map(Self::of_stretches)
+            .map(|some| Self::of_stretches(some.iter().map(|(_, ends)| ends)))
             .collect()
     }
 
     /// From the settled stretches of one motion, in order.
-    fn of_stretches(stretches: &[(usize, [Knot; 2])]) -> Self {
+    fn of_stretches<'a>(stretches: impl IntoIterator<Item = &'a [Knot; 2]>) -> Self {
         let mut knots = Vec::with_capacity(16);
-        knots.push(stretches[0].1[0]);
-        for (_, [a, b]) in stretches {
+        for [a, b] in stretches {
+            if knots.is_empty() {
+                knots.push(*a);
+            }
             knots.extend(inner_extremes(a, b));
             knots.push(*b);
         }
@@ -181,6 +194,16 @@ pub(super) fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
         + a.slope * h * (u3 - 2.0 * u2 + u)
         + b.energy * (3.0 * u2 - 2.0 * u3)
         + b.slope * h * (u3 - u2)
+}
+
+/// The slope of the cubic through the values and slopes of two knots.
+pub(super) fn cubic_slope(a: &Knot, b: &Knot, t: f64) -> f64 {
+    let h = b.t - a.t;
+    let u = (t - a.t) / h;
+    let u2 = u * u;
+    (b.energy - a.energy) / h * 6.0 * (u - u2)
+        + a.slope * (3.0 * u2 - 4.0 * u + 1.0)
+        + b.slope * (3.0 * u2 - 2.0 * u)
 }
 
 /// Where the cubic through two knots is highest or lowest between them, in order.

@@ -25,13 +25,13 @@ impl Stretch {
 }
 
 pub(super) struct Motion<'a> {
-    problem: &'a Problem,
+    pub problem: &'a Problem,
     from: Configuration,
     /// The whole motion (m, m, rad).
     pub step: Vector3<f64>,
     /// Displacement of the whole motion, as the potential counts it (m).
-    displacement: f64,
-    tolerance: &'a ProfileTolerance,
+    pub displacement: f64,
+    pub tolerance: &'a ProfileTolerance,
 }
 
 impl<'a> Motion<'a> {
@@ -64,7 +64,7 @@ impl<'a> Motion<'a> {
     }
 
     /// Error (J) allowed on a stretch.
-    fn allowed(&self, a: &Knot, b: &Knot) -> f64 {
+    pub fn allowed(&self, a: &Knot, b: &Knot) -> f64 {
         let highest = a.energy.max(b.energy);
         self.tolerance.absolute + self.tolerance.relative * highest.abs()
     }

@@ -5,9 +5,11 @@ use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
 use tilebind::potential::Potential;
+use tilebind::potential::dipole::{ScalarDipoles, dipoles};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
     Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
+    profile::Profile,
 };
 
 const SPACE: ConfigurationSpace = ConfigurationSpace {
@@ -178,4 +180,53 @@ fn waiting_costs_nothing() {
     }
     let nowhere = edge::costs_of_energies(&[3e-3], &[], &SETTINGS);
     assert_eq!((nowhere.peak, nowhere.length), (3e-3, 0.0));
+}
+
+/// Squares with forty magnets a face, which are put in groups, and the energy along motions near
+/// and far against all pairs of magnets: between the knots nowhere off by more than the tolerance.
+#[test]
+fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
+    let word = |k: usize| if (k * k + k / 3) % 5 < 2 { 'N' } else { 'S' };
+    let code: String = (0..40).map(word).collect();
+    let text = format!(
+        "name = \"many\"\n[table]\nsize = [2.0, 2.0]\n[magnet]\nsize = [0.008, 0.008, 0.0024]\n\
+         remanence = 1.2\npitch = 0.01\ninset = 0.0\n\
+         [fixed]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n[fixed.faces]\nall = {{ code = \"{code}\" }}\n\
+         [moving]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n[moving.faces]\nall = {{ code = \"{code}\" }}\n\
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n"
+    );
+    let design = Design::parse(&text, "many.toml").unwrap_or_else(|error| panic!("{error}"));
+    let problem = design.problem();
+    let pair = problem.pair.clone().expect("two tiles");
+    let [fixed, moving] = [&pair.fixed, &pair.moving].map(|tile| dipoles(&tile.magnets));
+    let scalar = ScalarDipoles::new(&fixed, &moving);
+    let depth = problem.depth();
+    let tolerance = ProfileTolerance {
+        relative: 0.0,
+        absolute: 1e-4 * depth,
+    };
+    let mut most = 0f64;
+    let mut asked = 0;
+    for (from, to) in [
+        ([0.430, 0.0, 0.0], [0.430, 0.03, 0.0]),
+        ([0.431, -0.02, 0.0], [0.450, 0.02, 0.1]),
+        ([0.435, 0.1, 0.01], [0.44, 0.2, 0.0]),
+        ([0.50, 0.1, 0.3], [0.7, 0.2, 1.0]),
+    ] {
+        let [a, b] = [from, to].map(|[x, y, t]| Configuration::new(x, y, t));
+        let ends = [a, b].map(|q| Milestone::new(&problem, q));
+        let before = problem.evaluations();
+        let profile = Profile::new(&problem, &ends[0], &ends[1], &tolerance);
+        asked += problem.evaluations() - before;
+        let step = a.step_to(&b);
+        let count = 400;
+        for (k, energy) in profile.energies(count).enumerate() {
+            let t = k as f64 / count as f64;
+            let off = (energy - scalar.energy(&a.moved(step * t))).abs();
+            assert!(off <= tolerance.absolute, "{from:?} {t}: {off}");
+            most = most.max(off / tolerance.absolute);
+        }
+    }
+    println!("{most} of the tolerance, {asked} energies");
+    assert!(most > 1e-4, "far finer than it need be: {most}");
 }

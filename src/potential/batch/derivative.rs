@@ -6,11 +6,12 @@ use super::DipolePotential;
 use super::bundle::Bundle;
 use super::field::{Frame, Source, TOGETHER};
 use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
-use super::tasks::frame_of_one;
+use super::tasks::{frame_of_one, walk};
 use crate::configuration::Configuration;
 use crate::potential::groups::tree::{LOST_OF_BOUNDS, Purpose};
-use crate::potential::groups::walk::{Leeway, Walk};
+use crate::potential::groups::walk::Leeway;
 use crate::potential::motion;
+use crate::potential::parts::Part;
 use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
@@ -21,6 +22,8 @@ pub struct DerivativeBound<'a, const TERMS: usize> {
     pub reach: f64,
     /// The polynomial's coefficients, that of the highest power first.
     pub terms: [f64; TERMS],
+    /// Of a potential with groups some pairs of them only.
+    pub parts: Option<&'a [Part]>,
 }
 
 impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
@@ -43,7 +46,7 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
                     purpose: Purpose::Bound,
                     ..Leeway::default()
                 };
-                for meeting in Walk::new([fixed, moving], self.q, leeway) {
+                for meeting in walk(self.parts, [fixed, moving], self.q, leeway) {
                     let sources = &sources[meeting.fixed];
                     self.meet(l, &frame, sources, meeting.moving, &mut sums);
                     if meeting.replaced > 0.0 {

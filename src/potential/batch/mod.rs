@@ -17,6 +17,7 @@ mod derivative;
 mod field;
 pub mod lanes;
 mod level;
+mod parts;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sin_cos;
@@ -31,9 +32,10 @@ pub use level::Level;
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::groups::are_many;
-use super::groups::tree::{Group, Tree};
+use super::groups::tree::{Group, Purpose, Tree};
 use super::lever::Lever;
 use super::motion;
+use super::parts::{Part, Parts};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
@@ -119,6 +121,34 @@ impl DipolePotential {
     pub fn level(&self) -> Level {
         self.level
     }
+
+    fn one<const SLOPE: bool>(
+        &self,
+        q: &Configuration,
+        parts: Option<(&[Part], Purpose)>,
+    ) -> (f64, Vector3<f64>) {
+        self.level.run(One::<SLOPE> {
+            potential: self,
+            q,
+            parts,
+        })
+    }
+
+    fn derivative_bound<const TERMS: usize>(
+        &self,
+        terms: [f64; TERMS],
+        q: &Configuration,
+        reach: f64,
+        parts: Option<&[Part]>,
+    ) -> f64 {
+        self.level.run(DerivativeBound {
+            potential: self,
+            q,
+            reach,
+            terms,
+            parts,
+        })
+    }
 }
 
 /// Dipoles with their moments scaled by `sqrt(mu0 / 4 pi)`, so that products of two are in J m^3,
@@ -139,11 +169,11 @@ fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
 
 impl Potential for DipolePotential {
     fn energy(&self, q: &Configuration) -> f64 {
-        self.level.run(One::<false> { potential: self, q }).0
+        self.one::<false>(q, None).0
     }
 
     fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        self.level.run(One::<true> { potential: self, q })
+        self.one::<true>(q, None)
     }
 
     fn energies(&self, qs: &[Configuration], out: &mut [f64]) {
@@ -177,21 +207,17 @@ impl Potential for DipolePotential {
     }
 
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.level.run(DerivativeBound {
-            potential: self,
-            q,
-            reach,
-            terms: motion::second_derivative(self.lever.turn()),
-        })
+        let terms = motion::second_derivative(self.lever.turn());
+        self.derivative_bound(terms, q, reach, None)
     }
 
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.level.run(DerivativeBound {
-            potential: self,
-            q,
-            reach,
-            terms: motion::fourth_derivative(self.lever.turn()),
-        })
+        let terms = motion::fourth_derivative(self.lever.turn());
+        self.derivative_bound(terms, q, reach, None)
+    }
+
+    fn parts(&self) -> Option<&dyn Parts> {
+        self.groups.is_some().then_some(self as &dyn Parts)
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

@@ -9,7 +9,9 @@ use super::field::{Frame, Shares, Source, field, pair_of};
 use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
 use crate::configuration::Configuration;
 use crate::potential::finite;
+use crate::potential::groups::tree::{Group, Purpose};
 use crate::potential::groups::walk::{Leeway, Walk};
+use crate::potential::parts::Part;
 
 /// The same angle, in the range of the vectors' sine and cosine.
 #[inline(always)]
@@ -60,6 +62,8 @@ fn frame_of_many<L: Lanes>(l: L, qs: &[Configuration]) -> Frame<L::F> {
 pub struct One<'a, const SLOPE: bool> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
+    /// Of a potential with groups some pairs of them only, for a purpose.
+    pub parts: Option<(&'a [Part], Purpose)>,
 }
 
 impl<const SLOPE: bool> One<'_, SLOPE> {
@@ -120,7 +124,12 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
         match &self.potential.groups {
             None => self.meet(l, &frame, sources, all, &mut shares),
             Some([fixed, moving]) => {
-                for meeting in Walk::new([fixed, moving], self.q, Leeway::default()) {
+                let leeway = Leeway {
+                    purpose: self.parts.map_or(Purpose::Energy, |(_, purpose)| purpose),
+                    ..Leeway::default()
+                };
+                let parts = self.parts.map(|(parts, _)| parts);
+                for meeting in walk(parts, [fixed, moving], self.q, leeway) {
                     let sources = &sources[meeting.fixed];
                     self.meet(l, &frame, sources, meeting.moving, &mut shares);
                 }
@@ -133,6 +142,19 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
         let (energy, slope) = Shares::from_array(sums).finish(l, &frame);
         let slope = Vector3::new(l.first(slope[0]), l.first(slope[1]), l.first(slope[2]));
         finite(l.first(energy), slope)
+    }
+}
+
+/// The meetings of all groups, or within some pairs of them.
+pub fn walk<'a>(
+    parts: Option<&[Part]>,
+    groups: [&'a [Group]; 2],
+    q: &Configuration,
+    leeway: Leeway,
+) -> Walk<'a> {
+    match parts {
+        Some(parts) => Walk::within(parts, groups, q, leeway),
+        None => Walk::new(groups, q, leeway),
     }
 }
 

@@ -15,13 +15,16 @@ pub const LOST: f64 = 1e-11;
 /// The same of bounds of derivatives, which need not be narrow, as a share of the bound.
 pub const LOST_OF_BOUNDS: f64 = 1e-3;
 
+/// The same of energies along motions that are followed within a tolerance.
+pub const LOST_ALONG: f64 = 1e-5;
+
 /// Into so many parts what may be lost is divided. Of either group it is lost along and across; of
 /// the second one times Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
 /// along and 2.33 for 8 across.
 const SHARES: f64 = 2.0 * (1.0 + 3.03 * 2.33);
 
-/// Groups of at most so many dipoles are not halved.
-const FEW: usize = 16;
+/// Groups of at most so many dipoles, or as many as they are filled up to twice, are not halved.
+const FEW: usize = 8;
 
 /// Boxes that reach so many times farther from the reference point than any dipole are no good:
 /// motions would have to be counted as that much longer.
@@ -74,13 +77,15 @@ pub enum Purpose {
     Energy = 0,
     /// Bounds of derivatives.
     Bound = 1,
+    /// Energies along motions that are followed within a tolerance.
+    Along = 2,
 }
 
 /// Dipoles that stand for a group from afar.
 #[derive(Clone, Debug)]
 pub struct Stand {
-    /// From these distances (m) of the box on: for energies, and for bounds of derivatives.
-    pub from: [f64; 2],
+    /// From these distances (m) of the box on, by purpose.
+    pub from: [f64; 3],
     /// By their numbers in the tree.
     pub dipoles: Range<usize>,
 }
@@ -107,7 +112,7 @@ impl Tree {
         let number = self.groups.len();
         let mut group = Group::around(dipoles);
         self.groups.push(group.clone());
-        if dipoles.len() <= FEW {
+        if dipoles.len() <= FEW.max(2 * fill) {
             group.own = self.append(dipoles.to_vec(), fill);
         } else {
             let stands = ORDERS.map(|order| group.stand(dipoles, order));
@@ -200,7 +205,7 @@ impl Group {
     /// With a grid of n by k nodes no more is lost than by n nodes along, and by k nodes across
     /// times Lebesgue's constant of the n; with both groups of a pair replaced, than by the one and
     /// by the other times the constants of the one.
-    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, [f64; 2])> {
+    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, [f64; 3])> {
         let [length, width] = self.half;
         let from = least_distance(lost, order, length, LOST / SHARES);
         let across = LOST / (SHARES * lebesgue(order));
@@ -208,6 +213,10 @@ impl Group {
         let across = LOST_OF_BOUNDS / (SHARES * lebesgue(order));
         let roughly = least_distance(lost_of_bounds, order, length, LOST_OF_BOUNDS / SHARES)
             .max(least_distance(lost_of_bounds, widths, width, across));
+        let across = LOST_ALONG / (SHARES * lebesgue(order));
+        let along = least_distance(lost, order, length, LOST_ALONG / SHARES)
+            .max(least_distance(lost, widths, width, across));
+        let from = [from, roughly, along];
         if 4 * order * widths > 3 * dipoles.len() {
             return None;
         }
@@ -239,7 +248,7 @@ impl Group {
                 }
             }
         }
-        Some((stand, [from, roughly]))
+        Some((stand, from))
     }
 
     /// What stands for the group at a distance (m): the fewest dipoles, or its own where it has no

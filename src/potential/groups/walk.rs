@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 
 use super::tree::{Group, Purpose};
 use crate::configuration::Configuration;
+use crate::potential::parts::Part;
 
 /// By how much the dipoles of the moving tile may be elsewhere than in the middle of what is asked
 /// about.
@@ -32,26 +33,57 @@ pub struct Meeting {
 
 /// All meetings of the groups of two tiles in a configuration: every pair of dipoles is in one.
 pub struct Walk<'a> {
-    groups: [&'a [Group]; 2],
-    place: Vector2<f64>,
-    turn: Vector2<f64>,
+    sight: Sight<'a>,
     leeway: Leeway,
     open: Vec<[usize; 2]>,
 }
 
 impl<'a> Walk<'a> {
     pub fn new(groups: [&'a [Group]; 2], q: &Configuration, leeway: Leeway) -> Self {
-        let (sin, cos) = q.theta.sin_cos();
         let mut open = Vec::with_capacity(64);
         if groups.iter().all(|groups| !groups.is_empty()) {
             open.push([0, 0]);
         }
+        let sight = Sight::new(groups, q);
+        Self {
+            sight,
+            leeway,
+            open,
+        }
+    }
+
+    /// The meetings within some pairs of groups.
+    pub fn within(
+        parts: &[Part],
+        groups: [&'a [Group]; 2],
+        q: &Configuration,
+        leeway: Leeway,
+    ) -> Self {
+        let mut open = Vec::with_capacity(parts.len() + 64);
+        open.extend_from_slice(parts);
+        let sight = Sight::new(groups, q);
+        Self {
+            sight,
+            leeway,
+            open,
+        }
+    }
+}
+
+/// The groups of two tiles in a configuration.
+pub struct Sight<'a> {
+    pub groups: [&'a [Group]; 2],
+    place: Vector2<f64>,
+    turn: Vector2<f64>,
+}
+
+impl<'a> Sight<'a> {
+    pub fn new(groups: [&'a [Group]; 2], q: &Configuration) -> Self {
+        let (sin, cos) = q.theta.sin_cos();
         Self {
             groups,
             place: q.position(),
             turn: Vector2::new(cos, sin),
-            leeway,
-            open,
         }
     }
 
@@ -62,7 +94,7 @@ impl<'a> Walk<'a> {
 
     /// A lower bound of the distance (m) of two groups: in the frame of either box, that of the
     /// upright boxes around both.
-    fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
+    pub fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
         let way = self.place + self.turned(moving.centre) - fixed.centre;
         let axis = self.turned(moving.axis);
         let cos = fixed.axis.dot(&axis).abs();
@@ -85,9 +117,10 @@ impl Iterator for Walk<'_> {
 
     fn next(&mut self) -> Option<Meeting> {
         while let Some([f, m]) = self.open.pop() {
-            let (fixed, moving) = (&self.groups[0][f], &self.groups[1][m]);
+            let groups = self.sight.groups;
+            let (fixed, moving) = (&groups[0][f], &groups[1][m]);
             let leeway = self.leeway.travel + self.leeway.turn * moving.lever;
-            let distance = self.distance(fixed, moving);
+            let distance = self.sight.distance(fixed, moving);
             let clear = if distance > self.leeway.near * leeway {
                 distance - leeway
             } else {

@@ -60,10 +60,11 @@ impl DipoleBounds {
 /// making them.
 const LOST_AND_ROUNDED: f64 = 1.1 * tree::LOST;
 
-/// A motion by half the cell's sizes changes what is lost by no more than this times its bound: by
-/// `(n + 3) / r` times the reach, which is a third of the distance r at most, for n up to 24 nodes,
-/// and twice the turn, which is half a turn at most.
-const SLOPE_OF_LOST: f64 = 20.0;
+/// A motion by the cell's half sizes changes what is lost by no more than this times its bound: for
+/// n up to 24 nodes by `(n + 3) / r` times the reach, which is a third of the distance r at most, and
+/// by `n + 2` times the turn, which is half a turn at most, as a turn moves dipoles by what is linear
+/// in their places and turns their moments.
+const SLOPE_OF_LOST: f64 = 100.0;
 
 /// The tree of a tile's dipoles, and the dipoles of its groups with their distances to the outline,
 /// which no stand-in has.
