@@ -48,7 +48,7 @@ use nalgebra::Vector3;
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
-pub use interaction::{Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
+pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
 pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
-use crate::report::rates::{AtKt, Table};
+use crate::report::rates::{AtKt, Table, leaving_set, per_second};
 use crate::units::si;
 
 impl Page {
@@ -34,7 +34,7 @@ impl Page {
         ];
         for (number, place) in table.places.iter().enumerate() {
             let note = match table.bounds_out(number) {
-                [Some(lower), Some(upper)] if lower > 0.0 => {
+                [Some(lower), Some(upper)] => {
                     format!("between {} and {}", per_second(lower), per_second(upper))
                 }
                 [_, Some(upper)] => format!("at most {}", per_second(upper)),
@@ -63,10 +63,6 @@ impl Page {
             ..Self::titled(format!("Rates of {}", table.design.name))
         }
     }
-}
-
-fn per_second(rate: f64) -> String {
-    format!("{rate:.2e} /s")
 }
 
 fn column(name: &str, unit: &'static str) -> Column {
@@ -130,6 +126,13 @@ fn of_places(table: &Table) -> Sorted {
                 Some(place) => json!([place.below, format!("U < {}", si(place.below, "J", 4))]),
                 None => json!([0.0, format!("{} apart", si(table.asked.free_at, "m", 4))]),
             },
+            table.proved(number).map_or(Value::Null, |proved| {
+                let [lower, upper] = leaving_set(table.motion, proved);
+                json!([
+                    lower,
+                    format!("{} to {}", per_second(lower), per_second(upper))
+                ])
+            }),
         ]
     };
     let columns = vec![
@@ -138,11 +141,13 @@ fn of_places(table: &Table) -> Sorted {
         column("share of all time", ""),
         column("energy", "J"),
         column("its set", ""),
+        column("set left, proved", ""),
     ];
     let rows = occupation.iter().enumerate().map(row).collect();
     sorted(
         "Places and occupation",
-        "a set of configurations",
+        "a set of configurations; how often tiles leave it for another, by the time in it, is proved \
+         with --certify",
         columns,
         rows,
     )

@@ -6,12 +6,13 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::{
-    Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second,
+    Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, Place, SCOPE,
+    apart, finite, leaving_set, per_second, proved_entry, proved_words,
 };
 use crate::design::Design;
-use crate::kinetics::Way;
 use crate::kinetics::chain::Chain;
 use crate::kinetics::rates::{RateSettings, Rates};
+use crate::kinetics::{Capacity, Way};
 use crate::report::terminal::write_table;
 use crate::report::values;
 use crate::units::si;
@@ -68,9 +69,16 @@ impl Table<'_> {
         )
     }
 
+    /// Bounds (1/s), those that say anything: of what is 0 from below none is known.
     fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
         let scaled = |end: f64| finite(end * self.motion.diffusion);
-        bounds.map_or([None; 2], |ends| ends.map(scaled))
+        let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
+        [lower.filter(|lower| *lower > 0.0), upper]
+    }
+
+    /// What is proved of a place.
+    pub(in crate::report) fn proved(&self, place: usize) -> Option<&Capacity> {
+        self.found.proved.get(place)?.as_ref()
     }
 
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
@@ -105,6 +113,7 @@ impl Table<'_> {
                 "mean_exit_s": finite(1.0 / self.rate_out(number)),
                 "leaving_per_s": finite(self.rate_out(number)),
                 "leaving_bounds_per_s": self.bounds_out(number),
+                "proved": proved_entry(self.motion, self.proved(number)),
             })
         };
         let rate = |(from, to): (usize, usize)| {
@@ -137,10 +146,10 @@ impl Table<'_> {
         })
     }
 
-    /// rates.csv: bounds are empty where there are none.
+    /// rates.csv: bounds are empty where none are known.
     pub fn rates_csv(&self) -> String {
         let mut text = "from,to,lower_per_s,value_per_s,upper_per_s,spread,first,mean_first_passage_s,from_basin_J,\
-                        to_basin_J,free_at_m\n"
+                        to_basin_J,free_at_m,bounds_hold\n"
             .to_owned();
         let limit = |place: usize| {
             let below = self.places.get(place).map(|place| place.below);
@@ -152,7 +161,7 @@ impl Table<'_> {
                 .map(|end| end.map_or(String::new(), |end| format!("{end:.6e}")));
             let _ = writeln!(
                 text,
-                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{}",
+                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{},{}",
                 self.name(from),
                 self.name(to),
                 self.rate(from, to),
@@ -162,16 +171,25 @@ impl Table<'_> {
                 limit(from),
                 limit(to),
                 self.asked.free_at,
+                self.found.bounds.as_ref().map_or("", |_| "on the mesh"),
             );
         }
         text
     }
 
-    /// occupation.csv: shares of all time on the design's table.
+    /// occupation.csv: shares of all time on the design's table, and proved bounds of how often tiles
+    /// leave a place's set for another, by the time in the set.
     pub fn occupation_csv(&self) -> String {
-        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside\n".to_owned();
+        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside,\
+                        proved_lower_per_s,proved_upper_per_s\n"
+            .to_owned();
         for (number, share) in self.found.finest().occupation.iter().enumerate() {
             let (name, inside) = (self.name(number), self.found.inside[number]);
+            let proved = self.proved(number);
+            let [lower, upper] = [0, 1].map(|end| {
+                let bound = proved.map(|proved| leaving_set(self.motion, proved)[end]);
+                bound.map_or(String::new(), |bound| format!("{bound:.6e}"))
+            });
             let _ = match self.places.get(number) {
                 Some(Place {
                     copies,
@@ -180,11 +198,11 @@ impl Table<'_> {
                     ..
                 }) => writeln!(
                     text,
-                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e}"
+                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e},{lower},{upper}"
                 ),
                 None => writeln!(
                     text,
-                    "{name},,{share:.6e},,,{},{inside:.6e}",
+                    "{name},,{share:.6e},,,{},{inside:.6e},,",
                     self.asked.free_at
                 ),
             };
@@ -270,6 +288,7 @@ impl Table<'_> {
             });
             let told = told.collect::<Vec<_>>().join(", ");
             let _ = writeln!(text, "  left: {told};\n  {ONE_SIDED};\n  {ON_THE_MESH}");
+            text.push_str(&self.told_of_proofs());
             text.push_str(SCOPE);
             return text;
         }
@@ -280,7 +299,27 @@ impl Table<'_> {
             "  bounds of the rates out are apart by: {}; of every rate in rates.csv;\n  {ON_THE_MESH}",
             told.collect::<Vec<_>>().join(", "),
         );
+        text.push_str(&self.told_of_proofs());
         text.push_str(SCOPE);
         text
+    }
+
+    /// What is proved, if that was asked for.
+    fn told_of_proofs(&self) -> String {
+        if self.asked.certify.is_none_or(|certify| certify.pieces == 0) {
+            return String::new();
+        }
+        let named = (0..self.places.len()).filter_map(|number| {
+            let words = proved_words(self.motion, self.proved(number)?);
+            Some(format!("{} {words}", self.name(number)))
+        });
+        let told = named.collect::<Vec<_>>().join(", ");
+        match told.is_empty() {
+            true => format!("  {NOT_PROVED}\n"),
+            false => format!(
+                "  {PROVED}: tiles leave a basin for another place, not to come back before,\n  by \
+                 the time in it: {told}\n"
+            ),
+        }
     }
 }
