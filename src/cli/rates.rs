@@ -34,7 +34,9 @@ reflected where tiles touch. Mean exit times and committors solve the backward e
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
 sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
 all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
-estimated). Without --start: rates between the bond, the deepest
+estimated): they are \"bracketed on the mesh\". With --start and --certify the capacity of the well about
+the start, and with it how often tiles set out from there for an end, is proved besides, integrals and
+sets enclosed (convex outlines; some 20 s); the mean exit time is not. Without --start: rates between the bond, the deepest
 traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
 beside every number.
 
@@ -76,7 +78,7 @@ pub struct Rates {
 
     /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
     /// time, or those of the rates out of the bond and of the traps [default: 0.1, as far as it
-    /// comes within seconds]
+    /// comes within seconds]; with --start, prove how often the well is left, too
     #[arg(long, value_name = "REL", value_parser = input::positive)]
     certify: Option<f64>,
 

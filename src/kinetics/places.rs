@@ -4,7 +4,6 @@ use super::bracket::{Asked, Bounded, Bracket};
 use super::certify::Step;
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
-use super::proof::Set;
 use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
@@ -81,17 +80,6 @@ impl Places {
             }
         }
         Ok(places)
-    }
-
-    /// The basins as sets whose capacities are proved.
-    pub fn sets(&self, settings: &RateSettings) -> Vec<Set> {
-        let all = settings.basins.iter().zip(&self.limits);
-        let set = |(basin, limit): (&Basin, &f64)| Set {
-            at: basin.at,
-            below: basin.below,
-            wide: *limit,
-        };
-        all.map(set).collect()
     }
 
     /// The rims of the basins.

@@ -8,7 +8,6 @@ use super::field::{DIVIDED, Earlier, Field};
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
-use super::proof::{self, Capacity};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -116,9 +115,6 @@ pub struct Rates {
     pub meshes: Vec<MeshRates>,
     /// Bounds, if they are asked for.
     pub bounds: Option<RateBounds>,
-    /// For each basin proved bounds of its capacity against the others and `free`, where they are
-    /// asked for and can be had.
-    pub proved: Vec<Option<Capacity>>,
     /// The map asked for, from the last mesh without bounds.
     pub map: Option<Map>,
     /// The share of all time that each place is occupied itself: U below the basin's limit, or
@@ -243,17 +239,11 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = places.inside(&field, settings, beyond);
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
-            let mut proved = vec![None; seeds.len()];
-            let mut bounds = settings.certify.map(|_| upper);
-            if let Some(found) = bounded(problem, settings, [ground, beyond])? {
-                meshes.extend(found.mesh);
-                bounds = Some(found.bounds);
-                proved = found.proved;
-            }
+            let (finest, bounds) = bounded(problem, settings, [ground, beyond])?.unzip();
+            meshes.extend(finest.flatten());
             return Ok(Rates {
                 meshes,
-                bounds,
-                proved,
+                bounds: bounds.or(settings.certify.map(|_| upper)),
                 map,
                 inside,
                 ways,
@@ -272,21 +262,13 @@ pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
 }
 
-/// What meshes that begin at contact say.
-struct Bounded {
-    /// The finest.
-    mesh: Option<MeshRates>,
-    bounds: RateBounds,
-    proved: Vec<Option<Capacity>>,
-}
-
 /// What the finest of meshes that begin at contact says, and its bounds, if there are any. Energies
 /// are counted from `ground` (J), and `beyond` is the occupation of the table outside the mesh.
 fn bounded(
     problem: &Problem,
     settings: &RateSettings,
     [ground, beyond]: [f64; 2],
-) -> Result<Option<Bounded>, RatesError> {
+) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
@@ -297,24 +279,13 @@ fn bounded(
         let nodes = Nodes::new(&field.mesh);
         Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
     })?;
-    let Some(step) = all.pop() else {
-        return Ok(None);
-    };
     let count = settings.basins.len() + 1;
-    let rates = step.bounds[count..].chunks(count);
-    let bounds = RateBounds {
-        leaving: step.bounds[..count].to_vec(),
-        rates: rates.map(<[_]>::to_vec).collect(),
-    };
-    let sets = Places::new(&mut field, settings)?.sets(settings);
-    let prove = |own: usize| {
-        let mut sets = sets.clone();
-        sets.swap(0, own);
-        proof::capacity(&mut field, &sets, certify.proof()?)
-    };
-    Ok(Some(Bounded {
-        mesh: step.rates,
-        bounds,
-        proved: (0..sets.len()).map(prove).collect(),
+    Ok(all.pop().map(|step| {
+        let rates = step.bounds[count..].chunks(count);
+        let bounds = RateBounds {
+            leaving: step.bounds[..count].to_vec(),
+            rates: rates.map(<[_]>::to_vec).collect(),
+        };
+        (step.rates, bounds)
     }))
 }

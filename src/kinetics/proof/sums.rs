@@ -44,7 +44,9 @@ pub(in crate::kinetics) struct Closeness {
 /// Share of what bounds are apart in the pieces that are halved.
 const HALVED: f64 = 0.8;
 /// Times that pieces are halved at most.
-const ROUNDS: usize = 200;
+const ROUNDS: usize = 100;
+/// Sums this many times as far apart as is asked are far from the goal.
+const FAR: f64 = 8.0;
 /// Relative rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
@@ -127,13 +129,15 @@ pub(super) fn bounded(
             });
         }
         gaps.sort_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
+        // Far from the goal all that is more than its share of it.
+        let is_far = all > FAR * asked.apart;
+        let least = asked.apart / parts.len() as f64;
         let mut left = HALVED * all;
-        let is_marked = |gap: f64| {
-            let marked = left > 0.0 || gap.is_infinite();
+        let mut is_marked = |gap: f64| {
+            let marked = if is_far { gap > least } else { left > 0.0 };
             left -= gap;
             marked
         };
-        let mut is_marked = is_marked;
         let marked: Vec<usize> = gaps
             .iter()
             .take_while(|(_, gap)| is_marked(*gap))

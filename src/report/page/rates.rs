@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
-use crate::report::rates::{AtKt, Table, leaving_set, per_second};
+use crate::report::rates::{AtKt, Table, per_second};
 use crate::units::si;
 
 impl Page {
@@ -126,13 +126,6 @@ fn of_places(table: &Table) -> Sorted {
                 Some(place) => json!([place.below, format!("U < {}", si(place.below, "J", 4))]),
                 None => json!([0.0, format!("{} apart", si(table.asked.free_at, "m", 4))]),
             },
-            table.proved(number).map_or(Value::Null, |proved| {
-                let [lower, upper] = leaving_set(table.motion, proved);
-                json!([
-                    lower,
-                    format!("{} to {}", per_second(lower), per_second(upper))
-                ])
-            }),
         ]
     };
     let columns = vec![
@@ -141,13 +134,11 @@ fn of_places(table: &Table) -> Sorted {
         column("share of all time", ""),
         column("energy", "J"),
         column("its set", ""),
-        column("set left, proved", ""),
     ];
     let rows = occupation.iter().enumerate().map(row).collect();
     sorted(
         "Places and occupation",
-        "a set of configurations; how often tiles leave it for another, by the time in it, is proved \
-         with --certify",
+        "a set of configurations",
         columns,
         rows,
     )

@@ -67,7 +67,7 @@ fn proved_entry(motion: &Motion, proved: Option<&Capacity>) -> Value {
 }
 
 /// Proved bounds (1/s) of how often a tile leaves a set for an end, by the time spent in the set.
-pub(super) fn leaving_set(motion: &Motion, proved: &Capacity) -> [f64; 2] {
+fn leaving_set(motion: &Motion, proved: &Capacity) -> [f64; 2] {
     proved.leaving().map(|end| end * motion.diffusion)
 }
 

@@ -6,13 +6,12 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::{
-    Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, Place, SCOPE,
-    apart, finite, leaving_set, per_second, proved_entry, proved_words,
+    Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second,
 };
 use crate::design::Design;
+use crate::kinetics::Way;
 use crate::kinetics::chain::Chain;
 use crate::kinetics::rates::{RateSettings, Rates};
-use crate::kinetics::{Capacity, Way};
 use crate::report::terminal::write_table;
 use crate::report::values;
 use crate::units::si;
@@ -76,11 +75,6 @@ impl Table<'_> {
         [lower.filter(|lower| *lower > 0.0), upper]
     }
 
-    /// What is proved of a place.
-    pub(in crate::report) fn proved(&self, place: usize) -> Option<&Capacity> {
-        self.found.proved.get(place)?.as_ref()
-    }
-
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
     /// does not count.
     pub(in crate::report) fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
@@ -113,7 +107,6 @@ impl Table<'_> {
                 "mean_exit_s": finite(1.0 / self.rate_out(number)),
                 "leaving_per_s": finite(self.rate_out(number)),
                 "leaving_bounds_per_s": self.bounds_out(number),
-                "proved": proved_entry(self.motion, self.proved(number)),
             })
         };
         let rate = |(from, to): (usize, usize)| {
@@ -177,19 +170,11 @@ impl Table<'_> {
         text
     }
 
-    /// occupation.csv: shares of all time on the design's table, and proved bounds of how often tiles
-    /// leave a place's set for another, by the time in the set.
+    /// occupation.csv: shares of all time on the design's table.
     pub fn occupation_csv(&self) -> String {
-        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside,\
-                        proved_lower_per_s,proved_upper_per_s\n"
-            .to_owned();
+        let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside\n".to_owned();
         for (number, share) in self.found.finest().occupation.iter().enumerate() {
             let (name, inside) = (self.name(number), self.found.inside[number]);
-            let proved = self.proved(number);
-            let [lower, upper] = [0, 1].map(|end| {
-                let bound = proved.map(|proved| leaving_set(self.motion, proved)[end]);
-                bound.map_or(String::new(), |bound| format!("{bound:.6e}"))
-            });
             let _ = match self.places.get(number) {
                 Some(Place {
                     copies,
@@ -198,11 +183,11 @@ impl Table<'_> {
                     ..
                 }) => writeln!(
                     text,
-                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e},{lower},{upper}"
+                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e}"
                 ),
                 None => writeln!(
                     text,
-                    "{name},,{share:.6e},,,{},{inside:.6e},,",
+                    "{name},,{share:.6e},,,{},{inside:.6e}",
                     self.asked.free_at
                 ),
             };
@@ -288,7 +273,6 @@ impl Table<'_> {
             });
             let told = told.collect::<Vec<_>>().join(", ");
             let _ = writeln!(text, "  left: {told};\n  {ONE_SIDED};\n  {ON_THE_MESH}");
-            text.push_str(&self.told_of_proofs());
             text.push_str(SCOPE);
             return text;
         }
@@ -299,27 +283,7 @@ impl Table<'_> {
             "  bounds of the rates out are apart by: {}; of every rate in rates.csv;\n  {ON_THE_MESH}",
             told.collect::<Vec<_>>().join(", "),
         );
-        text.push_str(&self.told_of_proofs());
         text.push_str(SCOPE);
         text
-    }
-
-    /// What is proved, if that was asked for.
-    fn told_of_proofs(&self) -> String {
-        if self.asked.certify.is_none_or(|certify| certify.pieces == 0) {
-            return String::new();
-        }
-        let named = (0..self.places.len()).filter_map(|number| {
-            let words = proved_words(self.motion, self.proved(number)?);
-            Some(format!("{} {words}", self.name(number)))
-        });
-        let told = named.collect::<Vec<_>>().join(", ");
-        match told.is_empty() {
-            true => format!("  {NOT_PROVED}\n"),
-            false => format!(
-                "  {PROVED}: tiles leave a basin for another place, not to come back before,\n  by \
-                 the time in it: {told}\n"
-            ),
-        }
     }
 }
