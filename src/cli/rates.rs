@@ -34,9 +34,10 @@ reflected where tiles touch. Mean exit times and committors solve the backward e
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
 sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
 all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
-estimated). Without --start: rates between the bond, the deepest
-traps and free tiles. The ends are sets; without them no rate means anything, so they are printed
-beside every number.
+estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
+the capacity of the well about the start and how often tiles set out from there for an end (not the
+mean exit time). Without --start: rates between the bond, the deepest traps and free tiles. The ends
+are sets; without them no rate means anything, so they are printed beside every number.
 
 kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
 energy; tiles that glide far between knocks, or whose knocks take what shaking does not give back,
@@ -47,7 +48,7 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
     --basin-energy -0.03 --free-at 0.75 --json
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05"
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove"
 )]
 pub struct Rates {
     #[command(flatten)]
@@ -79,6 +80,11 @@ pub struct Rates {
     /// comes within seconds]
     #[arg(long, value_name = "REL", value_parser = input::positive)]
     certify: Option<f64>,
+
+    /// Prove how often tiles set out from the well about the start for an end, for tiles that are
+    /// convex about their centres of mass, of few corners
+    #[arg(long, requires = "start")]
+    prove: bool,
 
     /// Kinds of traps with rates, the deepest first
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = input::count_or_none,
@@ -123,8 +129,13 @@ impl Rates {
         let problem = design.problem();
         let half = || half_bond(&problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
+        let certify = self.certify.map_or_else(Certify::of_exit, Certify::to);
         let asked = ExitSettings {
-            certify: Some(self.certify.map_or_else(Certify::of_exit, Certify::to)),
+            certify: Some(if self.prove {
+                certify.proved()
+            } else {
+                certify
+            }),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
         let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {

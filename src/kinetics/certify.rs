@@ -1,6 +1,7 @@
 //! Meshes refined until bounds are as near each other as asked.
 
 use super::field::{DIVIDED, Field};
+use super::proof::Closeness;
 use super::rates::MeshRates;
 
 /// Near the goal so much more of the error is divided than should do.
@@ -13,7 +14,12 @@ pub struct Certify {
     pub distance: f64,
     /// Unknowns up to which meshes are refined for it.
     pub unknowns: usize,
+    /// Pieces of cells, at most, in which integrals are enclosed to prove bounds; 0 for no proof.
+    pub pieces: usize,
 }
+
+/// Share of the distance asked for that integrals' enclosures may take.
+const OF_INTEGRALS: f64 = 0.5;
 
 impl Default for Certify {
     /// As near as it comes within seconds.
@@ -21,6 +27,7 @@ impl Default for Certify {
         Self {
             distance: 0.1,
             unknowns: 40_000,
+            pieces: 0,
         }
     }
 }
@@ -39,7 +46,24 @@ impl Certify {
         Self {
             distance,
             unknowns: 400_000,
+            pieces: 0,
         }
+    }
+
+    /// The same, with what can be proved.
+    pub fn proved(self) -> Self {
+        Self {
+            pieces: 800_000,
+            ..self
+        }
+    }
+
+    /// How closely integrals are to be enclosed, if bounds are to be proved.
+    pub(super) fn proof(&self) -> Option<Closeness> {
+        (self.pieces > 0).then_some(Closeness {
+            apart: OF_INTEGRALS * self.distance,
+            pieces: self.pieces,
+        })
     }
 }
 

@@ -6,6 +6,7 @@ use super::corridor::Way;
 use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
+use super::proof::Set;
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
 use crate::configuration::Configuration;
@@ -80,6 +81,20 @@ impl Ends {
             near: is_well.then_some(near),
             limits,
         })
+    }
+
+    /// The start's well, half way up to the pass, and the bond's basin, as sets whose capacity is
+    /// proved.
+    pub fn sets(field: &Field, bond: &Configuration, asked: &ExitSettings) -> [Set; 2] {
+        let deep = field.level() - DEEP * field.kt;
+        let energy = field.energy_at(&asked.start);
+        let half = 0.5 * (energy + field.level());
+        let set = |at: &Configuration, below: f64| Set {
+            at: *at,
+            below,
+            wide: below.max(deep),
+        };
+        [set(&asked.start, half), set(bond, asked.basin_energy)]
     }
 
     /// The rims of the ends and of the start's well.

@@ -5,6 +5,7 @@ use super::corridor::Way;
 use super::ends::Ends;
 use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::{Nodes, Unsolved};
+use super::proof::{self, Capacity};
 use super::rates::enough;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -77,6 +78,9 @@ pub struct Exit {
     /// the integrals over cells are off by. None where the start lies in no well; from below only,
     /// the upper ones infinite, where the tiles' outlines are not convex.
     pub bounds: Vec<[f64; 2]>,
+    /// Proved bounds of the capacity of the well about the start, half way up to the pass, against
+    /// the ends, where they are asked for and can be had.
+    pub proved: Option<Capacity>,
     /// Whether a way leads from the start to free tiles.
     pub way: Way,
 }
@@ -189,7 +193,7 @@ pub fn exit(
         });
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
-            let mut bounds = bounds(problem, bond, settings)?;
+            let (mut bounds, proved) = bounds(problem, bond, settings)?;
             if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
                 let lower = ends.lower_bound(&field, &nodes)?;
                 bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
@@ -197,6 +201,7 @@ pub fn exit(
             return Ok(Exit {
                 meshes,
                 bounds,
+                proved,
                 way,
             });
         }
@@ -205,24 +210,29 @@ pub fn exit(
     }
 }
 
-/// Bounds of the mean exit time times D (m^2), on ever finer meshes that begin at contact.
+/// Bounds of the mean exit time times D (m^2), on ever finer meshes that begin at contact, and on
+/// the last the proved ones of the capacity.
 fn bounds(
     problem: &Problem,
     bond: &Configuration,
     settings: &ExitSettings,
-) -> Result<Vec<[f64; 2]>, ExitError> {
+) -> Result<(Vec<[f64; 2]>, Option<Capacity>), ExitError> {
     let ground = problem.energy(&settings.start);
     let seeds = [settings.start, *bond];
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), None));
     };
     let all = narrowed(&mut field, &certify, |field| {
         let ends = Ends::new(field, bond, settings, Way::Open)?;
         let nodes = Nodes::new(&field.mesh);
         Ok::<_, ExitError>(ends.bounds(field, &nodes)?)
     })?;
-    Ok(all.iter().map(|step| step.bounds[0]).collect())
+    let proved = certify.proof().and_then(|asked| {
+        let sets = Ends::sets(&field, bond, settings);
+        proof::capacity(&mut field, &sets, asked)
+    });
+    Ok((all.iter().map(|step| step.bounds[0]).collect(), proved))
 }
 
 fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Result<(), ExitError> {

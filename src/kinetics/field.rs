@@ -148,6 +148,11 @@ impl<'a> Field<'a> {
         self.integrator.level
     }
 
+    /// What all is asked about.
+    pub fn problem(&self) -> &'a Problem {
+        self.problem
+    }
+
     /// U (J) at a configuration.
     pub fn energy_at(&self, q: &Configuration) -> f64 {
         self.problem.energy(q)

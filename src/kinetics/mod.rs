@@ -23,13 +23,17 @@
 //! and of mean exit times.
 //!
 //! # What is proved
-//! The bounds hold on the mesh: that a trial function bounds a capacity from above and a flux from
-//! below is a theorem, and what the flux loses on its way to rounding and to the solver's last step
-//! is subtracted. Two things are not in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come
-//! of Gauss' rule; a proof would take the energies' bounds over cells
-//! ([`crate::potential::CellBounds`]) for them. And a basin is made of the cells whose mean of U lies
-//! below its limit; by Hadamard's formula, what that shifts capacities by is estimated, stated with
-//! each mesh, and makes the mesh be refined there.
+//! Two kinds of bounds. Those of mean exit times and of rates between places hold *on the mesh*: that
+//! a trial function bounds a capacity from above and a flux from below is a theorem, and what the
+//! flux loses on its way to rounding and to the solver's last step is subtracted. Two things are not
+//! in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come of Gauss' rule. And a basin is
+//! made of the cells whose mean of U lies below its limit; by Hadamard's formula, what that shifts
+//! capacities by is estimated, stated with each mesh, and makes the mesh be refined there.
+//! The capacity of the well about an exit's start against its ends, and how often tiles set out from
+//! it for them, are *proved* where that is asked for: `proof` has integrals and sets enclosed by the
+//! energies' bounds over cells ([`crate::potential::CellBounds`]), see [`Capacity`]. That takes convex
+//! outlines of few corners about their centres of mass. The mean exit time itself, which counts what
+//! lies between well and ends as well, is not proved.
 //! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
 //! begins there, and there are bounds from one side only: Dirichlet's.
 //!
@@ -65,6 +69,7 @@ pub mod mixture;
 mod narrow;
 mod places;
 pub mod population;
+mod proof;
 pub mod rates;
 mod rim;
 mod root;
@@ -74,4 +79,5 @@ pub mod well;
 pub use bond::{Bond, BondError, Hold, Trap};
 pub use certify::Certify;
 pub use corridor::{NARROW, Way};
+pub use proof::Capacity;
 pub use well::{Estimate, Well};

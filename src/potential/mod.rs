@@ -50,7 +50,7 @@ use nalgebra::Vector3;
 pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
-pub use interaction::{Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
+pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
 pub use parts::Parts;
 pub use shielding::ShieldedPotential;
 

@@ -14,7 +14,9 @@ use crate::contact::matching::matches;
 use crate::contact::{Contact, TOUCH};
 use crate::interruption;
 use crate::potential::parts::{Part, Parts};
-use crate::potential::{CellBounds, Energy, Interaction, Potential, Unbounded};
+use crate::potential::{
+    BoxedBounds, CellBounds, Energy, Interaction, LazyBounds, Potential, Unbounded,
+};
 use crate::tile::{Face, Pair, face_to_face};
 
 pub use rivals::Meeting;
@@ -77,6 +79,12 @@ impl Problem {
     ) -> Self {
         let bounds = Err(Unbounded::Unknown);
         Self::bare(space, Energy { potential, bounds })
+    }
+
+    /// The same with bounds of its energy over cells.
+    pub fn bounded_by(mut self, bounds: BoxedBounds) -> Self {
+        self.energy.bounds = Ok(LazyBounds::new(Box::new(move || bounds)));
+        self
     }
 
     fn bare(space: ConfigurationSpace, energy: Energy) -> Self {

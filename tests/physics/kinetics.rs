@@ -196,6 +196,7 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     let kt = 0.4;
     let settings = RateSettings {
         certify: Some(Certify {
+            pieces: 0,
             distance: 0.3,
             unknowns: 8_000,
         }),
@@ -252,6 +253,7 @@ fn bounds_hold_the_paper_tiles_exit() {
     let settings = ExitSettings {
         tolerance: 0.1,
         certify: Some(Certify {
+            pieces: 0,
             distance: 0.6,
             unknowns: 12_000,
         }),

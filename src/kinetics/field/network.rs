@@ -1,6 +1,6 @@
 //! The cells of a mesh as conductors of fluxes.
 
-use std::sync::PoisonError;
+use std::sync::{MutexGuard, PoisonError};
 
 use nalgebra::Matrix6;
 use rayon::prelude::*;
@@ -47,6 +47,25 @@ impl Field<'_> {
         rim: usize,
         like: &[f64],
     ) -> Option<Network> {
+        let (profile, costs) = self.costs(nodes, like);
+        Network::new(&self.mesh, nodes, pins, rim, profile, &costs.of)
+    }
+
+    /// The same between places given by the cells that they are made of, with how fluxes are spread.
+    pub fn network_between(
+        &self,
+        nodes: &Nodes,
+        place: &dyn Fn(usize) -> Option<usize>,
+        rim: usize,
+        like: &[f64],
+    ) -> Option<(Network, Profile)> {
+        let (profile, costs) = self.costs(nodes, like);
+        let network = Network::between(&self.mesh, place, rim, profile, &costs.of)?;
+        Some((network, profile))
+    }
+
+    /// What fluxes like a function's cost in all cells.
+    fn costs(&self, nodes: &Nodes, like: &[f64]) -> (Profile, MutexGuard<'_, Costs>) {
         let found = self.profile(nodes, like);
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
         let profile = costs.profile.filter(|known| known.is_like(&found));
@@ -66,6 +85,6 @@ impl Field<'_> {
         for (id, cost) in new.into_iter().zip(found) {
             costs.of[id] = Some(cost);
         }
-        Network::new(&self.mesh, nodes, pins, rim, profile, &costs.of)
+        (profile, costs)
     }
 }

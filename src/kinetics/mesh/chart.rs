@@ -85,6 +85,16 @@ impl Chart {
         self.copies
     }
 
+    /// Where s ends (m).
+    pub(in crate::kinetics) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Where s begins, if that is the same everywhere (m).
+    pub(in crate::kinetics) fn circle(&self) -> f64 {
+        self.ray([0.0; 2]).radius(0.0)
+    }
+
     /// Whether all of it is free, for it begins at contact.
     pub(in crate::kinetics) fn is_fitted(&self) -> bool {
         !matches!(self.wall, Wall::Circle(_))

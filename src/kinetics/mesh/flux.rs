@@ -58,9 +58,6 @@ impl Network {
         profile: Profile,
         resistance: &[Option<Box<Matrix6<f64>>>],
     ) -> Option<Self> {
-        if !mesh.chart.is_fitted() {
-            return None;
-        }
         let place = |id: usize| -> Option<usize> {
             let sources = nodes.corners[id]
                 .iter()
@@ -69,6 +66,20 @@ impl Network {
             let first = places.next()??;
             places.all(|other| other == Some(first)).then_some(first)
         };
+        Self::between(mesh, &place, rim, profile, resistance)
+    }
+
+    /// Between places given by the cells that they are made of, and the rim.
+    pub fn between(
+        mesh: &Octree,
+        place: &dyn Fn(usize) -> Option<usize>,
+        rim: usize,
+        profile: Profile,
+        resistance: &[Option<Box<Matrix6<f64>>>],
+    ) -> Option<Self> {
+        if !mesh.chart.is_fitted() {
+            return None;
+        }
         let (sides, mut ends) = sides(mesh, rim, &profile);
         let mut cells = Vec::new();
         for (id, ..) in mesh.live() {
@@ -128,7 +139,8 @@ impl Conductor {
         });
         let mut conductance = cost.try_inverse()?;
         for a in (0..6).filter(|a| is_closed(*a)) {
-            conductance[(a, a)] = 0.0;
+            conductance.row_mut(a).fill(0.0);
+            conductance.column_mut(a).fill(0.0);
         }
         let sums = conductance.column_sum();
         let share = sums / sums.sum();
@@ -151,10 +163,15 @@ impl Conductor {
     }
 }
 
+/// Rounding of sums of fluxes, as a share of all that flows.
+const ROUNDING: f64 = 1e-12;
+
 /// A flux of least cost.
 pub(in crate::kinetics) struct Flux {
     /// Out of each conductor's sides.
-    out: Vec<Vector6<f64>>,
+    pub out: Vec<Vector6<f64>>,
+    /// What is carried from the place where it begins, less all that is lost or added on the way.
+    pub carried: f64,
     /// What it costs.
     pub cost: f64,
     /// What it says of the capacity from below; of fluxes from a place.
@@ -173,6 +190,14 @@ impl Fluxes<'_> {
         let none = vec![0.0; given.len()];
         let potentials = self.equations.solve(&given, &none, like)?;
         Ok(self.flux(&potentials, &|_| 0.0, &given))
+    }
+
+    /// What flows from a place out of the conductors' sides, whatever it is, as a flux.
+    #[cfg(test)]
+    pub fn told(&self, place: usize, out: Vec<Vector6<f64>>) -> Flux {
+        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
+        let given: Vec<f64> = self.network.ends.iter().map(one).collect();
+        self.weighed(out, &|_| 0.0, &given)
     }
 
     /// From a source in each cell to the places. Its cost is no less than the integral of the source
@@ -201,20 +226,32 @@ impl Fluxes<'_> {
     }
 
     fn flux(&self, potentials: &[f64], source: &dyn Fn(usize) -> f64, given: &[f64]) -> Flux {
+        let all = self
+            .network
+            .conductors
+            .iter()
+            .map(|conductor| conductor.out(potentials, source(conductor.cell)));
+        self.weighed(all.collect(), source, given)
+    }
+
+    /// What flows out of the conductors' sides as a flux.
+    fn weighed(
+        &self,
+        all: Vec<Vector6<f64>>,
+        source: &dyn Fn(usize) -> f64,
+        given: &[f64],
+    ) -> Flux {
         let mut into = vec![0.0; given.len()];
         let (mut cost, mut lost) = (0.0, 0.0);
-        let mut all = Vec::new();
-        for conductor in &self.network.conductors {
+        for (conductor, out) in self.network.conductors.iter().zip(&all) {
             let own = source(conductor.cell);
-            let out = conductor.out(potentials, own);
             cost += out.dot(&(conductor.cost * out));
-            lost += (out.sum() - own).abs();
-            for (side, flux) in conductor.sides.iter().zip(&out) {
+            lost += (out.sum() - own).abs() + ROUNDING * out.abs().sum();
+            for (side, flux) in conductor.sides.iter().zip(out) {
                 for (face, share) in side.faces() {
                     into[face] += share * flux;
                 }
             }
-            all.push(out);
         }
         let mut current = 0.0;
         for ((flux, end), one) in into.iter().zip(&self.network.ends).zip(given) {
@@ -226,6 +263,7 @@ impl Fluxes<'_> {
         let carried = (current - lost).max(0.0);
         Flux {
             out: all,
+            carried,
             cost,
             capacity: if carried > 0.0 {
                 carried * carried / cost
@@ -233,6 +271,21 @@ impl Fluxes<'_> {
                 0.0
             },
         }
+    }
+
+    /// What flows upwards through the six sides of each cell.
+    pub fn upwards<'a>(&'a self, flux: &'a Flux) -> impl Iterator<Item = (usize, [f64; 6])> + 'a {
+        let conductors = self.network.conductors.iter().zip(&flux.out);
+        conductors.map(|(conductor, out)| {
+            let upwards = |side: usize| {
+                if side.is_multiple_of(2) {
+                    -out[side]
+                } else {
+                    out[side]
+                }
+            };
+            (conductor.cell, std::array::from_fn(upwards))
+        })
     }
 
     /// The potentials on faces of a function on the mesh: its means there, a guess.

@@ -2,8 +2,6 @@
 
 use nalgebra::Vector6;
 
-/// Beyond so many times the decay length fluxes are spread evenly.
-const EVEN: f64 = 4.0;
 /// Rates that differ by this share are much the same.
 const ALIKE: f64 = 0.1;
 
@@ -16,6 +14,10 @@ pub(in crate::kinetics) struct Profile {
 }
 
 impl Profile {
+    /// The density that is left far from contact: beyond four times the decay length, of which
+    /// this is the part e^-4, fluxes are spread evenly.
+    pub(in crate::kinetics) const EVENLY: f64 = 0.018_315_638_888_734_18;
+
     /// Whether it is much the same as another: any profile gives bounds.
     pub(in crate::kinetics) fn is_like(&self, other: &Self) -> bool {
         (self.rate - other.rate).abs() <= ALIKE * other.rate
@@ -23,15 +25,21 @@ impl Profile {
 
     /// The integral of the density from contact to s.
     fn below(&self, s: f64) -> f64 {
-        let even = (-EVEN).exp() * s;
+        let even = Self::EVENLY * s;
         match self.rate > 0.0 {
             true => -(-self.rate * s).exp_m1() / self.rate + even,
             false => s + even,
         }
     }
 
-    fn density(&self, s: f64) -> f64 {
-        (-self.rate * s).exp() + (-EVEN).exp()
+    /// The density at s.
+    pub(in crate::kinetics) fn density(&self, s: f64) -> f64 {
+        (-self.rate * s).exp() + Self::EVENLY
+    }
+
+    /// The integral of the density between two s.
+    pub(in crate::kinetics) fn between(&self, [from, to]: [f64; 2]) -> f64 {
+        self.below(to) - self.below(from)
     }
 
     /// The share of what flows between two s that does so below a third.

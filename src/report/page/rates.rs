@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
-use crate::report::rates::{AtKt, Table};
+use crate::report::rates::{AtKt, Table, per_second};
 use crate::units::si;
 
 impl Page {
@@ -34,7 +34,7 @@ impl Page {
         ];
         for (number, place) in table.places.iter().enumerate() {
             let note = match table.bounds_out(number) {
-                [Some(lower), Some(upper)] if lower > 0.0 => {
+                [Some(lower), Some(upper)] => {
                     format!("between {} and {}", per_second(lower), per_second(upper))
                 }
                 [_, Some(upper)] => format!("at most {}", per_second(upper)),
@@ -63,10 +63,6 @@ impl Page {
             ..Self::titled(format!("Rates of {}", table.design.name))
         }
     }
-}
-
-fn per_second(rate: f64) -> String {
-    format!("{rate:.2e} /s")
 }
 
 fn column(name: &str, unit: &'static str) -> Column {

@@ -4,7 +4,10 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, area, finite};
+use super::{
+    Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, area,
+    finite, proved_entry, proved_words,
+};
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
 use crate::kinetics::Way;
@@ -29,6 +32,8 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
         // Proved are the inequalities, not the integrals over cells.
         "bounds_hold": exit.bracket().map(|_| "on the mesh"),
         "bounds_leave_out": exit.bracket().map(|_| NOT_BOUNDED),
+        // Of the well about the start, apart from any mesh.
+        "proved": proved_entry(motion, exit.proved.as_ref()),
         "exits": {"bound": finest.bound, "free": 1.0 - finest.bound},
         "kt_J": asked.kt,
         "drag_per_s": motion.drag,
@@ -102,6 +107,18 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
             apart([lower, upper]),
         ),
         _ => writeln!(text, "  {NO_BOUNDS}"),
+    };
+    let is_asked = asked.certify.is_some_and(|certify| certify.pieces > 0);
+    let _ = match &exit.proved {
+        Some(proved) => writeln!(
+            text,
+            "  {PROVED}: from the well about the start, U < {}, tiles set out\n  for an end, not to \
+             come back before, {} of time in the well",
+            si(proved.below, "J", 4),
+            proved_words(motion, proved),
+        ),
+        None if is_asked => writeln!(text, "  {NOT_PROVED}"),
+        None => Ok(()),
     };
     text.push_str(SCOPE);
     text

@@ -12,7 +12,10 @@ pub use over_kt::{AtKt, over_kt};
 pub use place::Place;
 pub use table::Table;
 
+use serde_json::{Value, json};
+
 use crate::design::Design;
+use crate::kinetics::Capacity;
 
 /// Overdamped motion on an air table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +54,41 @@ const NO_BOUNDS: &str = "no bounds: they are of a start in a well";
 const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid for convex \
                          outlines only";
 
+/// Proved bounds of how often tiles leave a set, as an object.
+fn proved_entry(motion: &Motion, proved: Option<&Capacity>) -> Value {
+    proved.map_or(Value::Null, |proved| {
+        json!({
+            "set_below_J": proved.below,
+            "capacity_rad": proved.capacity,
+            "held_m2_rad": proved.held,
+            "leaving_set_per_s": leaving_set(motion, proved),
+        })
+    })
+}
+
+/// Proved bounds (1/s) of how often a tile leaves a set for an end, by the time spent in the set.
+fn leaving_set(motion: &Motion, proved: &Capacity) -> [f64; 2] {
+    proved.leaving().map(|end| end * motion.diffusion)
+}
+
+/// The same in words.
+fn proved_words(motion: &Motion, proved: &Capacity) -> String {
+    let ends = leaving_set(motion, proved);
+    format!(
+        "{} to {} ({} apart)",
+        per_second(ends[0]),
+        per_second(ends[1]),
+        apart(ends)
+    )
+}
+
+/// What is said where a proof was asked for and there is none.
+const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres \
+                          of mass, of few corners,\n  an energy with bounds over cells, and sets \
+                          that the mesh tells apart";
+/// What is proved.
+const PROVED: &str = "proved (integrals and sets enclosed, rounding included)";
+
 /// How far apart bounds are, in percent of the lower one.
 fn apart([lower, upper]: [f64; 2]) -> String {
     match lower > 0.0 {
@@ -60,7 +98,7 @@ fn apart([lower, upper]: [f64; 2]) -> String {
 }
 
 /// A rate with three digits.
-fn per_second(rate: f64) -> String {
+pub(super) fn per_second(rate: f64) -> String {
     match rate {
         0.0 => "0 /s".to_owned(),
         _ => format!("{rate:.2e} /s"),

@@ -68,9 +68,11 @@ impl Table<'_> {
         )
     }
 
+    /// Bounds (1/s), those that say anything: of what is 0 from below none is known.
     fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
         let scaled = |end: f64| finite(end * self.motion.diffusion);
-        bounds.map_or([None; 2], |ends| ends.map(scaled))
+        let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
+        [lower.filter(|lower| *lower > 0.0), upper]
     }
 
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
@@ -137,10 +139,10 @@ impl Table<'_> {
         })
     }
 
-    /// rates.csv: bounds are empty where there are none.
+    /// rates.csv: bounds are empty where none are known.
     pub fn rates_csv(&self) -> String {
         let mut text = "from,to,lower_per_s,value_per_s,upper_per_s,spread,first,mean_first_passage_s,from_basin_J,\
-                        to_basin_J,free_at_m\n"
+                        to_basin_J,free_at_m,bounds_hold\n"
             .to_owned();
         let limit = |place: usize| {
             let below = self.places.get(place).map(|place| place.below);
@@ -152,7 +154,7 @@ impl Table<'_> {
                 .map(|end| end.map_or(String::new(), |end| format!("{end:.6e}")));
             let _ = writeln!(
                 text,
-                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{}",
+                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{},{}",
                 self.name(from),
                 self.name(to),
                 self.rate(from, to),
@@ -162,6 +164,7 @@ impl Table<'_> {
                 limit(from),
                 limit(to),
                 self.asked.free_at,
+                self.found.bounds.as_ref().map_or("", |_| "on the mesh"),
             );
         }
         text

@@ -21,7 +21,14 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     let entry = json(
         &[
             &SLID[..],
-            &["--drag", "50", "--basin-energy", "-0.03", "--json"],
+            &[
+                "--drag",
+                "50",
+                "--basin-energy",
+                "-0.03",
+                "--prove",
+                "--json",
+            ],
         ]
         .concat(),
     );
@@ -37,6 +44,14 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     assert_eq!(entry["bounds_hold"], "on the mesh");
     assert_eq!(entry["bounds_leave_out"].as_array().unwrap().len(), 2);
     assert!((0.0..0.05).contains(&number("/mesh/of_basins")));
+    // What is proved is of a set told by its energy, whatever the mesh.
+    assert!((-16e-3..-1e-3).contains(&number("/proved/set_below_J")));
+    let [capacity, held, leaving] = ["capacity_rad", "held_m2_rad", "leaving_set_per_s"]
+        .map(|name| [0, 1].map(|end| number(&format!("/proved/{name}/{end}"))));
+    for [lower, upper] in [capacity, held, leaving] {
+        assert!(0.0 < lower && lower < upper && upper < 3.0 * lower);
+    }
+    assert!((leaving[0] / (diffusion * capacity[0] / held[1]) - 1.0).abs() < 1e-12);
     assert_eq!(
         (number("/basin_energy_J"), number("/free_at_m")),
         (-0.03, 0.75)
@@ -49,6 +64,7 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
         "750.0 mm apart",
         "-32.73 mJ",
         "100 /s",
+        "on the mesh",
     ] {
         assert!(text.contains(told), "{told} in\n{text}");
     }
@@ -121,6 +137,12 @@ fn rates_between_the_states_balance_in_detail() {
     let table = std::fs::read_to_string(out.join("rates.csv")).unwrap();
     assert!(table.starts_with("from,to,lower_per_s,value_per_s,upper_per_s,"));
     assert_eq!(table.lines().count(), 7);
+    assert!(
+        table
+            .lines()
+            .skip(1)
+            .all(|line| line.ends_with(",on the mesh"))
+    );
     let table = std::fs::read_to_string(out.join("occupation.csv")).unwrap();
     assert_eq!(table.lines().count(), 4);
     let report = std::fs::read_to_string(out.join("report.json")).unwrap();

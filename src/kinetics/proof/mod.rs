@@ -1,0 +1,289 @@
+//! Proved bounds of capacities: Dirichlet's and Thomson's principles with integrals that are
+//! enclosed, between sets that are told by energies and not by a mesh.
+//!
+//! # The statement
+//! A is what of U < a joins a configuration (where that is held by contact: the place on contact
+//! nearest to it, nm away), B what of U < b joins others, all up to the pair's
+//! symmetries, and free tiles are those with centres R apart. The capacity of A against B and free
+//! tiles is the least integral of e^(-U/kT) |grad h|^2 over the configurations at which the tiles do
+//! not overlap, h = 1 on A and 0 on the others. Every such h bounds it from above. A flux J from A
+//! to the others, which nothing leaves through contact and which loses d of its current I on the
+//! way, bounds it from below: `(I - d)^2 <= C int e^(U/kT) |J|^2`, for 0 <= h <= 1.
+//!
+//! # How it is proved
+//! - *Contact.* The mesh begins where two convex tiles touch, so that its cells hold all free
+//!   configurations and no others. Where that is, along a ray, and with which slopes, is enclosed
+//!   over boxes of rays ([`wall`]).
+//! - *Sets.* Cells that may reach into a set, found from one to the next by the least that U may be
+//!   in each, are all set to the set's value; fluxes begin and end in cells proved to lie in it.
+//! - *Integrals.* Over a piece of a cell the exponent is a linear function of the place but for a
+//!   remainder enclosed by the energy's bounds ([`crate::potential::CellBounds`]); what is squared
+//!   is linear but for one enclosed by first-order expansions. The integrals of e^(linear) times
+//!   squares of linear functions are known in closed form ([`moments`]). Pieces are halved where
+//!   bounds are apart.
+//! - *Sources.* In the mesh's coordinates a flux that is linear between opposite sides has a constant
+//!   divergence, whatever the wall. What cells and faces lose is summed up and taken off.
+//! - *Rounding* widens every remainder by 4e-15 of what was computed with, moments by 1e-12 and sums
+//!   by 1e-11. Assumed, not proved, as for the certificates of barriers: the platform's sines,
+//!   cosines and exponentials are right to 8 units in the last place.
+
+mod expansion;
+mod moments;
+mod piece;
+mod rim;
+mod sums;
+#[cfg(test)]
+mod tests;
+mod wall;
+
+use rayon::prelude::*;
+
+use super::field::Field;
+use super::mesh::{Leaf, Nodes, Profile, System, UNITS};
+use super::sets::is_at_the_rim;
+use crate::configuration::Configuration;
+use piece::{Ground, Piece, Range};
+pub(super) use sums::Closeness;
+use sums::{Load, Role, bounded};
+use wall::Wall;
+
+/// Relative margin of what follows, for slivers and roundings that are in no sum.
+const MARGIN: f64 = 1e-9;
+/// Divisions of the cells about a set's configuration, at most, until one lies in the set.
+const DIVISIONS: usize = 8;
+/// Halvings of a cell that tell how low U gets in it.
+const HALVINGS: usize = 6;
+
+/// A set: what of U below a limit (J) is joined to a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Set {
+    pub at: Configuration,
+    pub below: f64,
+    /// A trial committor may be that of a wider set, below this (J): it bounds the capacity all the
+    /// same.
+    pub wide: f64,
+}
+
+/// A capacity between proved bounds, with what its set holds: of one of all that the pair's
+/// symmetries map onto each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capacity {
+    /// The set is where U is below this (J), joined to its configuration.
+    pub below: f64,
+    /// Bounds of the capacity C (rad) against the other sets and free tiles, weights counted from
+    /// the energy that loads are counted from.
+    pub capacity: [f64; 2],
+    /// Bounds of the integral Z of e^(-U/kT) over the set (m^2 rad), so counted, too.
+    pub held: [f64; 2],
+}
+
+impl Capacity {
+    /// Bounds of C / Z (1/m^2): times D, how often a tile leaves the set for another or free ones,
+    /// not to come back before, by the time that it is in the set.
+    pub fn leaving(&self) -> [f64; 2] {
+        [
+            self.capacity[0] / self.held[1],
+            self.capacity[1] / self.held[0],
+        ]
+    }
+}
+
+/// Cells of a set: those that may reach into it, or into the wider one, and those that lie in it.
+struct Cells {
+    wide: Vec<bool>,
+    outer: Vec<bool>,
+    inner: Vec<bool>,
+}
+
+/// Proved bounds of the capacity of the first set against the others and free tiles, the bounds of
+/// the integrals that are asked for this close together; `None` where nothing can be proved on this
+/// mesh. Divides cells.
+pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Option<Capacity> {
+    let problem = field.problem();
+    let bounds = problem.bounds().ok()?;
+    // The centre of mass is the reference point, or coordinates are not upright.
+    let metric = problem.mass_metric(0.0);
+    let is_upright = metric[(0, 2)].abs().max(metric[(1, 2)].abs()) < 1e-12;
+    if !is_upright || !field.mesh.chart.is_fitted() {
+        return None;
+    }
+    let wall = Wall::new(problem.contact.as_ref(), field.mesh.chart.circle())?;
+    let chart = field.mesh.chart.clone();
+    let (kt, level, rho) = (field.kt, field.level(), field.mesh.rho);
+    let ground = |profile| Ground {
+        bounds,
+        wall: &wall,
+        chart: &chart,
+        kt,
+        level,
+        rho,
+        profile,
+    };
+    let even = ground(Profile { rate: 0.0 });
+    let mut cells = Vec::new();
+    for _ in 0..=DIVISIONS {
+        let energies = energies(field, &even, sets);
+        cells = sets
+            .iter()
+            .map(|set| Cells::new(field, &energies, set))
+            .collect();
+        let is_lost = |(_, cells): &(&Set, &Cells)| !cells.inner.iter().any(|inner| *inner);
+        let lost = sets.iter().zip(&cells).filter(is_lost);
+        let open: Vec<usize> = lost
+            .flat_map(|(set, _)| field.mesh.holding(&set.at))
+            .collect();
+        if open.is_empty() {
+            break;
+        }
+        field.divide(&open);
+        cells.clear();
+    }
+    let mesh = &field.mesh;
+    let touches_rim = |(id, wide): (usize, &bool)| *wide && is_at_the_rim(mesh, &mesh.leaves[id]);
+    if cells.is_empty()
+        || cells
+            .iter()
+            .any(|it| it.wide.iter().enumerate().any(touches_rim))
+    {
+        return None;
+    }
+    let nodes = &Nodes::new(mesh);
+    let rim = sets.len();
+    // Dirichlet's side.
+    let mut pins = vec![None; nodes.len()];
+    let mut pin = |node: u32, set: usize| -> Option<()> {
+        for &(of, _) in &nodes.sources[node as usize] {
+            let pin = &mut pins[of as usize];
+            if pin.is_some_and(|other| other != set) {
+                return None;
+            }
+            *pin = Some(set);
+        }
+        Some(())
+    };
+    let outer = mesh.chart.cells[0] * UNITS;
+    for (id, leaf, _) in mesh.live() {
+        for (number, &node) in nodes.corners[id].iter().enumerate() {
+            if leaf.corner(number)[0] == outer {
+                pin(node, rim)?;
+            }
+            for set in (0..sets.len()).filter(|&set| cells[set].wide[id]) {
+                pin(node, set)?;
+            }
+        }
+    }
+    let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
+    let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
+    let given: Vec<f64> = pins.iter().map(one).collect();
+    let none = vec![0.0; nodes.len()];
+    let system = System::new(mesh, nodes, &pinned);
+    let trial = system.solve(&given, &none, &none).ok()?;
+    // Thomson's.
+    let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
+    let (network, profile) = field.network_between(nodes, &inside, rim, &trial)?;
+    let fluxes = network.fluxes();
+    let flux = fluxes.from(0, &fluxes.potentials(nodes, &trial)).ok()?;
+    let mut upwards = vec![None; mesh.leaves.len()];
+    for (cell, sides) in fluxes.upwards(&flux) {
+        upwards[cell] = Some(sides);
+    }
+    let role = |id: usize| Role {
+        values: Some(nodes.of(id, &trial)).filter(|it| it.iter().any(|value| *value != it[0])),
+        fluxes: upwards[id].filter(|sides| sides.iter().any(|flux| *flux != 0.0)),
+        load: cells[0].inner[id].then_some(Load::All),
+    };
+    let own = |id: usize| Piece::whole(id, &mesh.leaves[id]);
+    let mut roles: Vec<(Piece, Role)> = mesh.live().map(|(id, ..)| (own(id), role(id))).collect();
+    roles.extend(rim::pieces(mesh, &even, &cells[0], sets[0].below));
+    let held = |(id, leaf): (usize, &Leaf)| match &leaf.element {
+        Some(element) if cells[0].inner[id] => element.load.iter().sum(),
+        _ => 0.0,
+    };
+    let held: f64 = mesh.leaves.iter().enumerate().map(held).sum();
+    let scale = ((field.ground() - level) / kt).exp();
+    let sizes = [field.energy(nodes, &trial), flux.cost, held / scale];
+    let [energy, cost, load] = bounded(&ground(profile), mesh, &roles, sizes, asked);
+    let lower = flux.carried * flux.carried / cost[1];
+    let least = scale * (1.0 - MARGIN);
+    let most = scale * (1.0 + MARGIN);
+    let found = Capacity {
+        below: sets[0].below,
+        capacity: [least * lower, most * energy[1]],
+        held: [least * load[0], most * load[1]],
+    };
+    (found.capacity[1].is_finite() && found.held[0] > 0.0).then_some(found)
+}
+
+/// The least and the greatest U in each cell (J), as close as sets ask for.
+fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
+    let leaves = &field.mesh.leaves;
+    let of = |id: usize| {
+        if !leaves[id].live {
+            return [f64::INFINITY; 2];
+        }
+        let is_open = |[low, high]: Range| {
+            let limits = sets.iter().flat_map(|set| [set.below, set.wide]);
+            limits.into_iter().any(|limit| low < limit && high >= limit)
+        };
+        range(
+            ground,
+            Piece::whole(id, &leaves[id]),
+            leaves[id].level,
+            &is_open,
+            0,
+        )
+    };
+    (0..leaves.len()).into_par_iter().map(of).collect()
+}
+
+fn range(
+    ground: &Ground,
+    piece: Piece,
+    level: u8,
+    is_open: &dyn Fn(Range) -> bool,
+    halved: usize,
+) -> Range {
+    let place = ground.place(&piece, level);
+    let found = place
+        .as_ref()
+        .map_or([f64::NEG_INFINITY, f64::INFINITY], |place| {
+            place.energies(ground.kt, ground.level)
+        });
+    if halved == HALVINGS || !is_open(found) {
+        return found;
+    }
+    let axis = place.map_or(halved % 3, |place| place.axis());
+    let halves = piece
+        .halves(axis)
+        .map(|half| range(ground, half, level, is_open, halved + 1));
+    let [[a, b], [c, d]] = halves;
+    [a.min(c).max(found[0]), b.max(d).min(found[1])]
+}
+
+impl Cells {
+    fn new(field: &Field, energies: &[Range], set: &Set) -> Self {
+        let mesh = &field.mesh;
+        let beside = mesh.neighbours();
+        let held = mesh.holding(&set.at);
+        let flood = |is_in: &dyn Fn(usize) -> bool| {
+            let mut inside = vec![false; mesh.leaves.len()];
+            let mut open: Vec<usize> = held.iter().copied().filter(|&id| is_in(id)).collect();
+            for &id in &open {
+                inside[id] = true;
+            }
+            while let Some(id) = open.pop() {
+                for other in beside[id].iter().map(|&other| other as usize) {
+                    if is_in(other) && !std::mem::replace(&mut inside[other], true) {
+                        open.push(other);
+                    }
+                }
+            }
+            inside
+        };
+        Self {
+            wide: flood(&|id| energies[id][0] < set.wide),
+            outer: flood(&|id| energies[id][0] < set.below),
+            inner: flood(&|id| energies[id][1] < set.below),
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Bounds of sums over a mesh's cells, divided where they are apart.
+
+use std::cmp::Reverse;
+
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::piece::{Ground, Piece, Place, Range, UNKNOWN};
+use crate::interruption;
+use crate::kinetics::mesh::Octree;
+
+/// What of a load is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Load {
+    /// All of it.
+    All,
+    /// What may lie below an energy (J), from above only.
+    Below(f64),
+}
+
+/// What is asked of a piece of a cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Role {
+    /// The values of a function at its corners, of which the energy is asked.
+    pub values: Option<[f64; 8]>,
+    /// Fluxes upwards through its sides, of which the cost is asked.
+    pub fluxes: Option<[f64; 6]>,
+    /// Whether its load is asked.
+    pub load: Option<Load>,
+}
+
+/// Of energies, costs and loads.
+pub(super) const SUMS: usize = 3;
+
+/// How closely sums are asked for, and how many pieces of cells there may be.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::kinetics) struct Closeness {
+    /// How far apart the bounds of the sums may be, as shares of them, added up.
+    pub apart: f64,
+    /// Pieces at most.
+    pub pieces: usize,
+}
+
+/// Share of what bounds are apart in the pieces that are halved.
+const HALVED: f64 = 0.8;
+/// Times that pieces are halved at most.
+const ROUNDS: usize = 100;
+/// Sums this many times as far apart as is asked are far from the goal.
+const FAR: f64 = 8.0;
+/// Relative rounding of the sums.
+const ROUNDING: f64 = 1e-11;
+
+struct Part {
+    piece: Piece,
+    /// The number of its role.
+    role: usize,
+    sums: [Range; SUMS],
+    axis: usize,
+}
+
+/// Bounds of the sums over pieces. `sizes` are about what the sums are.
+pub(super) fn bounded(
+    ground: &Ground,
+    mesh: &Octree,
+    roles: &[(Piece, Role)],
+    sizes: [f64; SUMS],
+    asked: Closeness,
+) -> [Range; SUMS] {
+    let part = |(number, piece): (usize, Piece)| {
+        interruption::check();
+        let leaf = &mesh.leaves[piece.cell];
+        let role = &roles[number].1;
+        let place = ground.place(&piece, leaf.level);
+        let of = |asked: bool, find: &dyn Fn(&Place) -> Range| match asked {
+            true => place.as_ref().map_or(UNKNOWN, find),
+            false => [0.0; 2],
+        };
+        let energy = |place: &Place| match &role.values {
+            Some(values) => ground.energy(place, &piece, leaf, values),
+            None => [0.0; 2],
+        };
+        let cost = |place: &Place| match &role.fluxes {
+            Some(fluxes) => ground.cost(place, &piece, leaf, fluxes),
+            None => [0.0; 2],
+        };
+        let load = |place: &Place| match role.load {
+            Some(Load::All) => ground.load(place, &piece, leaf),
+            Some(Load::Below(limit)) if place.energies(ground.kt, ground.level)[0] < limit => {
+                // That is as near as it comes.
+                [ground.load(place, &piece, leaf)[1]; 2]
+            }
+            _ => [0.0; 2],
+        };
+        let longest = (0..3).max_by(|a, b| piece.size[*a].total_cmp(&piece.size[*b]));
+        Part {
+            role: number,
+            sums: [
+                of(role.values.is_some(), &energy),
+                of(role.fluxes.is_some(), &cost),
+                of(role.load.is_some(), &load),
+            ],
+            axis: place.as_ref().map_or(longest.unwrap_or(0), Place::axis),
+            piece,
+        }
+    };
+    let whole = |(number, (piece, _)): (usize, &(Piece, Role))| part((number, *piece));
+    let mut parts: Vec<Part> = roles.par_iter().enumerate().map(whole).collect();
+    let mut rounds = 0;
+    loop {
+        let gap = |part: &Part| -> f64 {
+            let each = part.sums.iter().zip(sizes);
+            let apart = |[low, high]: &Range| if low == high { 0.0 } else { high - low };
+            each.map(|(range, size)| apart(range) / size).sum()
+        };
+        let mut gaps: Vec<(usize, f64)> = parts.iter().map(gap).enumerate().collect();
+        let all: f64 = gaps.iter().map(|(_, gap)| gap).sum();
+        rounds += 1;
+        let is_full = parts.len() >= asked.pieces && all.is_finite();
+        if all <= asked.apart || is_full || rounds > ROUNDS {
+            let counts = |part: &Part, end: usize| {
+                end == 1 || !matches!(roles[part.role].1.load, Some(Load::Below(_)))
+            };
+            let sum = |k: usize, end: usize| -> f64 {
+                let own = parts.iter().filter(|part| k < 2 || counts(part, end));
+                own.map(|part| part.sums[k][end]).sum()
+            };
+            return std::array::from_fn(|k| {
+                [sum(k, 0) * (1.0 - ROUNDING), sum(k, 1) * (1.0 + ROUNDING)]
+            });
+        }
+        gaps.sort_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
+        // Far from the goal all that is more than its share of it.
+        let is_far = all > FAR * asked.apart;
+        let least = asked.apart / parts.len() as f64;
+        let mut left = HALVED * all;
+        let mut is_marked = |gap: f64| {
+            let marked = if is_far { gap > least } else { left > 0.0 };
+            left -= gap;
+            marked
+        };
+        let marked: Vec<usize> = gaps
+            .iter()
+            .take_while(|(_, gap)| is_marked(*gap))
+            .map(|(at, _)| *at)
+            .take(asked.pieces)
+            .collect();
+        let halves: Vec<[Part; 2]> = marked
+            .par_iter()
+            .map(|&at| {
+                let whole = &parts[at];
+                let halves = whole.piece.halves(whole.axis);
+                halves.map(|half| part((whole.role, half)))
+            })
+            .collect();
+        for (at, [lower, upper]) in marked.into_iter().zip(halves) {
+            parts[at] = lower;
+            parts.push(upper);
+        }
+    }
+}
