@@ -112,8 +112,8 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
     let _ = match &exit.proved {
         Some(proved) => writeln!(
             text,
-            "  {PROVED}: from the well about the start, U < {}, tiles set out\n  for an end, not to \
-             come back before, {} of time in the well",
+            "  {PROVED}:\n  while it is in the well about the start, U < {}, a tile sets out for an end, not \
+             to\n  come back before, {}",
             si(proved.below, "J", 4),
             proved_words(motion, proved),
         ),

@@ -71,15 +71,19 @@ fn leaving_set(motion: &Motion, proved: &Capacity) -> [f64; 2] {
     proved.leaving().map(|end| end * motion.diffusion)
 }
 
-/// The same in words.
+/// The same in words, rounded outwards.
 fn proved_words(motion: &Motion, proved: &Capacity) -> String {
-    let ends = leaving_set(motion, proved);
-    format!(
-        "{} to {} ({} apart)",
-        per_second(ends[0]),
-        per_second(ends[1]),
-        apart(ends)
-    )
+    let [lower, upper] = leaving_set(motion, proved);
+    let order = upper.log10().floor() as i32;
+    let unit = 10f64.powi(order - 2);
+    let [low, high] = [(lower / unit).floor() * unit, (upper / unit).ceil() * unit];
+    let apart = apart([lower, upper]);
+    match usize::try_from(2 - order) {
+        Ok(places) if places <= 4 => {
+            format!("{low:.places$} to {high:.places$} times per second ({apart} apart)")
+        }
+        _ => format!("{low:.2e} to {high:.2e} times per second ({apart} apart)"),
+    }
 }
 
 /// What is said where a proof was asked for and there is none.
