@@ -230,7 +230,13 @@ impl Rates {
                 .print
                 .results(&json::text(&table.entry()), || table.summary());
         };
-        let over_kt = report::over_kt(design, &analysis.problem, &places, &asked, &motion);
+        let over_kt = report::over_kt(
+            design,
+            &analysis.problem,
+            &places,
+            (&asked, &found),
+            &motion,
+        );
         let text = json::text(&report::report(&table, &over_kt, self.work.seed));
         let mut files = report::files(&table, &over_kt);
         files.push(("report.json".to_owned(), text.clone().into_bytes()));

@@ -25,12 +25,12 @@ pub struct AtKt {
     pub corner: Vec<Option<f64>>,
 }
 
-/// The rates out of states at some kT about the one asked for.
+/// The rates out of states at some kT about the one asked for, at which `known` are the rates.
 pub fn over_kt(
     design: &Design,
     problem: &Problem,
     places: &[Place],
-    asked: &RateSettings,
+    (asked, known): (&RateSettings, &Rates),
     motion: &Motion,
 ) -> Vec<AtKt> {
     let energies = places.iter().map(|place| place.energy);
@@ -46,7 +46,10 @@ pub fn over_kt(
             ..asked.clone()
         };
         let motion = Motion::new(design, kt, motion.drag);
-        let found = rates(problem, &settings).ok();
+        let found = match *share {
+            1.0 => Some(known.clone()),
+            _ => rates(problem, &settings).ok(),
+        };
         let finest = found.as_ref().map(Rates::finest);
         let rate = |place: usize| -> Option<f64> {
             Some(finest?.rates[place].iter().sum::<f64>() * motion.diffusion)

@@ -13,10 +13,11 @@ fn limited(blocks: u64) -> String {
 
 #[test]
 fn writes_that_fail_at_some_byte_end_with_status_1_and_leave_whole_files() {
-    for (name, more) in COMMANDS {
+    for (number, (name, more)) in COMMANDS.iter().enumerate() {
         let expected = undisturbed(name, more);
         let largest = expected.values().map(Vec::len).max().unwrap() as u64;
-        for blocks in [0, 8, largest / 512 - 1, largest / 512 + 1] {
+        let enough = (number == 0).then_some(largest / 512 + 1);
+        for blocks in [0, 8, largest / 512 - 1].into_iter().chain(enough) {
             let folder = tempfile::tempdir().unwrap();
             let out = folder.path().join("out");
             let output = after(&limited(blocks), &arguments(name, more, &out));

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use super::{DEPTH, DESIGN, QUICK, assert_same, done, sweep, text};
 use crate::program::stderr;
 
-const POINTS: usize = 8;
+const POINTS: usize = 6;
 
 fn arguments(out: &Path) -> Vec<String> {
     let depth = format!("{DEPTH}=0.005:0.04:{POINTS}");
