@@ -107,6 +107,9 @@ pub struct State {
     pub block_energy: Option<f64>,
     /// Share of far starts that overdamped motion takes into this state.
     pub capture: Option<Proportion>,
+    /// Of the first state of a kind: the lowest pass (J) to another one as low, a mirror twin or a
+    /// copy, where it is lower than that to `free` or to a clearly lower one.
+    pub sideways: Option<f64>,
 }
 
 impl State {

@@ -16,6 +16,7 @@ fn state(kind: StateKind, energy: f64) -> State {
         repelling: 0,
         block_energy: None,
         capture: None,
+        sideways: None,
     }
 }
 

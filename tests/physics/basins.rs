@@ -1,7 +1,10 @@
 //! What the basins of rates hold, and what symmetry makes equal.
 
 use tilebind::kinetics::rates::{Basin, RateSettings, Rates, rates};
-use tilebind::{Configuration, Problem};
+use tilebind::observer::Silent;
+use tilebind::pipeline::analyse;
+use tilebind::report::rates::Place;
+use tilebind::{Configuration, Problem, Settings};
 
 use crate::designs;
 
@@ -113,4 +116,29 @@ fn integral(problem: &Problem, basin: &Basin, kt: f64) -> f64 {
     }
     let steps = f64::from(STEPS);
     sum * (wide / steps) * (tilt / steps) * (deep / steps)
+}
+
+/// The dovetail's deepest traps are twins with a pass between them far below that to free tiles.
+#[test]
+fn twins_have_basins_of_their_own_where_they_hold_apart_and_one_where_they_do_not() {
+    let design = designs::load("shapes/dovetail.toml");
+    let settings = Settings {
+        far_starts: 10,
+        ..Settings::without_proofs(1)
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let held = |kt| {
+        let all = Place::held(&analysis, kt, 3, None);
+        let told = |place: &Place| (place.name.clone(), place.below * 1e3);
+        all.iter().map(told).collect::<Vec<_>>()
+    };
+    // mJ: -1.951 in the wells, -1.132 on the pass.
+    for (name, below) in &held(0.2e-3)[1..] {
+        assert!(["trap B", "trap B'"].contains(&name.as_str()), "{name}");
+        assert!((-1.6..-1.4).contains(below), "{below}");
+    }
+    assert_eq!(held(0.2e-3).len(), 3);
+    let shaken = held(0.6e-3);
+    assert_eq!(shaken.len(), 2, "{shaken:?}");
+    assert!((-1.0..-0.9).contains(&shaken[1].1), "{shaken:?}");
 }

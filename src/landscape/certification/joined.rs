@@ -128,6 +128,7 @@ mod tests {
             repelling: 0,
             block_energy: None,
             capture: None,
+            sideways: None,
         }
     }
 

@@ -125,16 +125,30 @@ impl Reader<'_> {
 
     /// The nodes of `free` and of all states clearly lower than this one.
     fn lower_nodes(&self, found: usize) -> HashSet<usize> {
-        let energy = self.energy(found);
-        let mut nodes: HashSet<usize> = self
-            .survey
-            .states
-            .iter()
-            .filter(|s| s.minimum.point.energy < energy - SAME_ENERGY * energy.abs())
-            .map(|s| s.node)
-            .collect();
+        let mut nodes = self.nodes(|by| by < -SAME_ENERGY, found);
         nodes.insert(self.survey.free);
         nodes
+    }
+
+    /// The nodes of the other states by whose energies' differences, as shares of this one's, they
+    /// are wanted.
+    fn nodes(&self, is_wanted: impl Fn(f64) -> bool, found: usize) -> HashSet<usize> {
+        let energy = self.energy(found);
+        let states = self.survey.states.iter().enumerate();
+        let others = states.filter(|(number, state)| {
+            *number != found && is_wanted((state.minimum.point.energy - energy) / energy.abs())
+        });
+        others.map(|(_, state)| state.node).collect()
+    }
+
+    /// See [`State::sideways`].
+    fn sideways(&self, found: usize) -> Option<f64> {
+        let equals = self.nodes(|by| by.abs() <= SAME_ENERGY, found);
+        let pass = |goals| self.survey.network.minimax(self.node(found), goals);
+        let sideways = pass(&equals)?;
+        pass(&self.lower_nodes(found))
+            .is_none_or(|down| sideways < down)
+            .then_some(sideways)
     }
 
     fn state(&self, found: usize, id: usize, class: usize, is_bound: bool) -> State {
@@ -162,6 +176,7 @@ impl Reader<'_> {
             repelling,
             block_energy: None,
             capture: None,
+            sideways: (id == class).then(|| self.sideways(found)).flatten(),
         }
     }
 

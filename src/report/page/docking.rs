@@ -71,6 +71,7 @@ fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<Sta
             repelling: 0,
             block_energy: None,
             capture: None,
+            sideways: None,
         })
         .collect()
 }

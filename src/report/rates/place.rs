@@ -5,6 +5,9 @@ use crate::kinetics::rates::Basin;
 use crate::landscape;
 use crate::pipeline::Analysis;
 
+/// Energies that differ by less than this share are those of twins.
+const TWINS: f64 = 1e-6;
+
 /// A state with rates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
@@ -23,6 +26,7 @@ pub struct Place {
 impl Place {
     /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
     /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
+    /// Twins that do not hold apart from each other share the first one's basin.
     pub fn held(
         analysis: &Analysis,
         kt: f64,
@@ -30,21 +34,57 @@ impl Place {
         basin_energy: Option<f64>,
     ) -> Vec<Self> {
         let inventory = &analysis.inventory;
-        let held = inventory.kinds().filter_map(|kind| {
+        let mut held: Vec<Self> = Vec::new();
+        let mut passes: Vec<f64> = Vec::new();
+        for kind in inventory.kinds() {
             let state = kind.first();
-            let barrier = analysis.escape(state.id)?.forward();
+            let Some(escape) = analysis.escape(state.id) else {
+                continue;
+            };
+            // Where no way is known it is taken to be as high as that of free tiles.
+            let known = escape.forward();
+            let barrier = if known.is_finite() {
+                known
+            } else {
+                -state.energy
+            };
+            let sideways = state.sideways.map(|pass| pass - state.energy);
+            let is_apart = sideways.is_none_or(|height| Basin::holds(height, kt));
+            let is_twin = |other: &Self| (other.energy / state.energy - 1.0).abs() < TWINS;
             let holds = kind.is_bond() || Basin::holds(barrier, kt);
-            let usual = Basin::of_state(state.configuration, state.energy, barrier);
+            if !holds || !is_apart && held.iter().any(is_twin) {
+                continue;
+            }
+            let height = sideways.filter(|_| is_apart).unwrap_or(barrier);
+            let usual = Basin::of_state(state.configuration, state.energy, height);
             let given = basin_energy.filter(|_| kind.is_bond());
-            holds.then(|| Self {
+            passes.push(state.energy + barrier);
+            held.push(Self {
                 name: inventory.name_of(landscape::Place::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
                 below: given.unwrap_or(usual.below),
                 copies: kind.copies(),
-            })
-        });
-        held.take(1 + traps).collect()
+            });
+            if held.len() > traps {
+                break;
+            }
+        }
+        let first = usize::from(basin_energy.is_some());
+        Self::keep_apart(&mut held, &passes, first);
+        held
+    }
+
+    /// Lowers basins, from the one of number `first` on, that reach over the pass (J) that another
+    /// state leaves by.
+    fn keep_apart(held: &mut [Self], passes: &[f64], first: usize) {
+        for (own, place) in held.iter_mut().enumerate().skip(first) {
+            let others = passes.iter().enumerate().filter(|(other, _)| *other != own);
+            let lowest = others.map(|(_, pass)| *pass).fold(f64::INFINITY, f64::min);
+            if lowest > place.energy && lowest <= place.below {
+                place.below = Basin::of_state(place.at, place.energy, lowest - place.energy).below;
+            }
+        }
     }
 
     /// Its basin.

@@ -84,6 +84,7 @@ impl Pair {
                         repelling: 0,
                         block_energy: None,
                         capture: None,
+                        sideways: None,
                     });
                 }
             }
