@@ -1,10 +1,10 @@
 //! Motion along contact: steps that never push the tiles into each other.
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 use crate::roadmap::profile::{Knot, inner_extremes};
 
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
@@ -49,6 +49,16 @@ impl Point {
             q,
             energy,
             gradient,
+        }
+    }
+
+    /// What a symmetry makes of it: it turns the plane by the fixed tile's turn.
+    pub fn image(&self, symmetry: &Symmetry) -> Self {
+        Self {
+            q: symmetry.apply(&self.q),
+            energy: self.energy,
+            gradient: Rotation3::from_axis_angle(&Vector3::z_axis(), symmetry.fixed)
+                * self.gradient,
         }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::constrained::{self, Point, step_downhill};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 
 /// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
@@ -45,19 +45,30 @@ pub struct Descent {
     pub outcome: Outcome,
 }
 
+impl Descent {
+    /// What a symmetry makes of it.
+    pub fn image(&self, problem: &Problem, symmetry: &Symmetry) -> Self {
+        let outcome = match &self.outcome {
+            Outcome::Minimum(found) => Outcome::Minimum(Box::new(found.image(problem, symmetry))),
+            Outcome::Free => Outcome::Free,
+            Outcome::Stuck(q) => Outcome::Stuck(symmetry.apply(q)),
+        };
+        Self {
+            way: self.way.iter().map(|point| point.image(symmetry)).collect(),
+            outcome,
+        }
+    }
+}
+
 /// Minima around which all is known to lie higher: a motion that ends in one of them need not look
 /// around again.
 #[derive(Clone, Debug, Default)]
 pub struct Verified(Vec<Configuration>);
 
 impl Verified {
-    /// These minima, and what the problem's symmetries make of them.
-    pub fn new<'a>(problem: &Problem, minima: impl Iterator<Item = &'a Stationary>) -> Self {
-        let images = |minimum: &'a Stationary| {
-            let all = problem.symmetries.iter();
-            all.map(move |symmetry| symmetry.apply(&minimum.point.q))
-        };
-        Self(minima.flat_map(images).collect())
+    /// These minima.
+    pub fn new<'a>(minima: impl Iterator<Item = &'a Stationary>) -> Self {
+        Self(minima.map(|minimum| minimum.point.q).collect())
     }
 
     fn hold(&self, problem: &Problem, q: &Configuration) -> bool {

@@ -12,7 +12,7 @@ use ordered_float::OrderedFloat;
 use super::constrained::{self, Point, Projected, length};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch};
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 
 /// Step of the second differences (m, mass metric): errors of the Hessian of 1e-4 for magnets a
 /// centimetre apart, and rounding far below that.
@@ -47,16 +47,15 @@ impl Stationary {
         self.modes.iter().filter(|mode| mode.0 < 0.0).count()
     }
 
-    /// The same stationary point at the configuration `q` to which a symmetry of the problem takes
-    /// it: energy, contacts and modes are determined anew there.
-    pub fn image(&self, problem: &Problem, q: Configuration) -> Self {
-        if q == self.point.q {
+    /// What a symmetry of the problem makes of it: contacts and modes are determined anew there.
+    pub fn image(&self, problem: &Problem, symmetry: &Symmetry) -> Self {
+        if *symmetry == Symmetry::IDENTITY {
             return self.clone();
         }
-        let point = Point::new(problem, q);
+        let point = self.point.image(symmetry);
         let surface = Surface::pressing(problem, &point);
         let modes = surface
-            .modes(&point, &surface.tangent(&q))
+            .modes(&point, &surface.tangent(&point.q))
             .unwrap_or_default();
         Self {
             point,

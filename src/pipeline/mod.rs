@@ -39,7 +39,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     }
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
-    let ends = capture::ends(&problem, &far_starts, &survey.verified(&problem));
+    let ends = capture::ends(&problem, &far_starts, &survey.verified());
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
     survey.add_arrivals(&problem, &arrivals, &roadmap.edges);
     clock.start("states and barriers", 0.7);

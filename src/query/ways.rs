@@ -63,7 +63,7 @@ impl<'a> Search<'a> {
                 count: FAR_STARTS,
                 seed: self.query.settings.seed,
             };
-            let known = survey.verified(self.problem);
+            let known = survey.verified();
             let ends = capture::ends(self.problem, &far_starts, &known);
             capture::arrivals(self.problem, &far_starts, &ends)
         });

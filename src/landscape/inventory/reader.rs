@@ -1,9 +1,11 @@
 //! Reading states, escapes, barriers and pathways off a surveyed network.
 
-use ordered_float::OrderedFloat;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::{Inventory, SAME};
+use ordered_float::OrderedFloat;
+use rayon::prelude::*;
+
+use super::Inventory;
 use crate::configuration::Configuration;
 use crate::landscape::meeting::{magnet_pairs, touching_faces};
 use crate::landscape::network::Cost;
@@ -29,27 +31,30 @@ pub(super) struct Reader<'a> {
 /// the one closest to the bound configuration.
 type Class = Vec<usize>;
 
+/// What is reported of the nodes of states.
+type Ids = HashMap<usize, usize>;
+
 impl Reader<'_> {
     pub fn inventory(&self) -> Inventory {
         let (classes, shallow) = self.deep_classes();
         let order: Vec<usize> = classes.iter().flatten().copied().collect();
-        let bound_state = order
-            .first()
-            .filter(|&&state| self.distance_to_bound(state) < BOUND)
-            .map(|_| 0);
-        let mut states = Vec::new();
-        for class in &classes {
-            let lowest_id = states.len();
-            for &found in class {
-                let is_bound = bound_state.is_some() && lowest_id == 0;
-                states.push(self.state(found, states.len(), lowest_id, is_bound));
-            }
-        }
+        let numbered = order.iter().enumerate();
+        let ids: Ids = numbered
+            .map(|(id, &found)| (self.node(found), id))
+            .collect();
+        let bound = order.first().copied();
+        let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
+        let firsts = classes.iter().flat_map(|class| vec![class[0]; class.len()]);
+        let members: Vec<(usize, usize)> = order.iter().copied().zip(firsts).collect();
+        let state = |(id, &(found, first)): (usize, &(usize, usize))| {
+            self.state(found, id, ids[&self.node(first)], bound == Some(first))
+        };
+        let states: Vec<State> = members.par_iter().enumerate().map(state).collect();
         Inventory {
-            barriers: self.barriers(&classes, &order, bound_state),
-            alternatives: self.alternatives(&states, &order, bound_state),
+            barriers: self.barriers(&classes, &ids, bound),
+            alternatives: self.alternatives(&states, &order, bound),
             states,
-            bound_state,
+            bound_state: bound.map(|_| 0),
             shallow,
         }
     }
@@ -75,36 +80,23 @@ impl Reader<'_> {
     /// Classes of states deep enough to be reported: the bound one first, then by energy. And the
     /// number of states left out.
     fn deep_classes(&self) -> (Vec<Class>, usize) {
-        let mut class_of: Vec<Option<usize>> = vec![None; self.survey.states.len()];
-        let mut classes: Vec<Class> = Vec::new();
-        for found in 0..self.survey.states.len() {
-            if class_of[found].is_some() {
-                continue;
-            }
-            let mut class: Class = self
-                .problem
-                .symmetries
-                .iter()
-                .filter_map(|s| {
-                    let image = s.apply(&self.configuration(found));
-                    self.survey.state_at(self.problem, &image, SAME)
-                })
-                .filter(|&member| class_of[member].is_none())
-                .collect();
-            class.sort_unstable();
-            class.dedup();
-            for &member in &class {
-                class_of[member] = Some(classes.len());
-            }
+        let mut of_class: BTreeMap<usize, Class> = BTreeMap::new();
+        for (found, state) in self.survey.states.iter().enumerate() {
+            of_class.entry(state.class).or_default().push(found);
+        }
+        let mut classes: Vec<Class> = of_class.into_values().collect();
+        for class in &mut classes {
             class.sort_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
-            classes.push(class);
         }
         let deepest = (0..self.survey.states.len())
             .map(|found| self.energy(found).abs())
             .fold(0.0, f64::max);
         let least = self.least_depth * deepest;
         let count = self.survey.states.len();
-        classes.retain(|class| self.depth(class[0]) >= least);
+        let mut classes: Vec<Class> = classes
+            .into_par_iter()
+            .filter(|class| self.depth(class[0]) >= least)
+            .collect();
         let kept: usize = classes.iter().map(Vec::len).sum();
         classes.sort_by_key(|class| {
             let distance = self.distance_to_bound(class[0]);
@@ -180,26 +172,12 @@ impl Reader<'_> {
         }
     }
 
-    /// What is reported of a node.
-    fn place(&self, node: usize, order: &[usize]) -> Place {
-        order
-            .iter()
-            .position(|&found| self.survey.states[found].node == node)
-            .map_or(Place::Free, Place::State)
-    }
-
     /// The barrier from a state to the nearest of some nodes.
-    fn barrier_to(&self, found: usize, goals: &HashSet<usize>, order: &[usize]) -> Option<Barrier> {
+    fn barrier_to(&self, found: usize, goals: &HashSet<usize>, ids: &Ids) -> Option<Barrier> {
         let node = self.node(found);
         let depth = self.energy(found).abs();
-        let reported: HashSet<usize> = goals
-            .iter()
-            .copied()
-            .filter(|&goal| {
-                goal == self.survey.free
-                    || order.iter().any(|&o| self.survey.states[o].node == goal)
-            })
-            .collect();
+        let is_reported = |goal: &usize| *goal == self.survey.free || ids.contains_key(goal);
+        let reported: HashSet<usize> = goals.iter().copied().filter(is_reported).collect();
         let Lowest { end, pathway } = pathway::lowest(
             self.problem,
             &self.survey.network,
@@ -207,12 +185,12 @@ impl Reader<'_> {
             [goals, &reported],
             [depth, 2e-3 * depth],
         )?;
-        let to = self.place(end, order);
+        let to = place(end, ids);
         let to_energy = match to {
             Place::Free => 0.0,
-            Place::State(id) => self.energy(order[id]),
+            Place::State(_) => self.survey.network.nodes[end]?.1,
         };
-        let from = (self.place(node, order), self.energy(found));
+        let from = (place(node, ids), self.energy(found));
         let mut barrier = Barrier::without_a_way(from, self.configuration(found), (to, to_energy));
         barrier.lead_along(pathway);
         Some(barrier)
@@ -220,36 +198,29 @@ impl Reader<'_> {
 
     /// From the first state of each class: its escape, the way to the bound state, and to `free`,
     /// also where none is known for the bond, or no way out at all.
-    fn barriers(
-        &self,
-        classes: &[Class],
-        order: &[usize],
-        bound_state: Option<usize>,
-    ) -> Vec<Barrier> {
-        let mut barriers: Vec<Barrier> = Vec::new();
-        let bound = bound_state.map(|bound| order[bound]);
-        for first in classes.iter().map(|class| class[0]) {
-            let lower = self.lower_nodes(first);
-            let mut found: Vec<Barrier> =
-                self.barrier_to(first, &lower, order).into_iter().collect();
-            let bound = bound.filter(|&bound| bound != first);
-            let goals = bound.map(|bound| self.survey.states[bound].node);
-            for goal in goals.into_iter().chain([self.survey.free]) {
-                let place = self.place(goal, order);
-                if found.iter().all(|barrier| barrier.to != place) {
-                    found.extend(self.barrier_to(first, &HashSet::from([goal]), order));
-                }
+    fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
+        let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
+        classes.par_iter().flat_map_iter(of_class).collect()
+    }
+
+    fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
+        let lower = self.lower_nodes(first);
+        let mut found: Vec<Barrier> = self.barrier_to(first, &lower, ids).into_iter().collect();
+        let is_bond = bound == Some(first);
+        let goals = bound.filter(|_| !is_bond).map(|bound| self.node(bound));
+        for goal in goals.into_iter().chain([self.survey.free]) {
+            let place = place(goal, ids);
+            if found.iter().all(|barrier| barrier.to != place) {
+                found.extend(self.barrier_to(first, &HashSet::from([goal]), ids));
             }
-            let is_bond = bound_state.is_some() && bound.is_none();
-            let is_way_out = |barrier: &Barrier| !is_bond || barrier.to == Place::Free;
-            if !found.iter().any(is_way_out) {
-                let from = (self.place(self.node(first), order), self.energy(first));
-                let start = self.configuration(first);
-                found.push(Barrier::without_a_way(from, start, (Place::Free, 0.0)));
-            }
-            barriers.extend(found);
         }
-        barriers
+        let is_way_out = |barrier: &Barrier| !is_bond || barrier.to == Place::Free;
+        if !found.iter().any(is_way_out) {
+            let from = (place(self.node(first), ids), self.energy(first));
+            let start = self.configuration(first);
+            found.push(Barrier::without_a_way(from, start, (Place::Free, 0.0)));
+        }
+        found
     }
 
     fn node(&self, found: usize) -> usize {
@@ -262,27 +233,29 @@ impl Reader<'_> {
         &self,
         states: &[State],
         order: &[usize],
-        bound_state: Option<usize>,
+        bound: Option<usize>,
     ) -> Vec<Alternative> {
         let trap = states
             .iter()
             .find(|s| s.kind == StateKind::Trap)
             .map(|s| s.id);
-        let mut ends: Vec<(Place, usize)> = bound_state
+        let mut ends: Vec<(Place, usize)> = bound
+            .map(|_| 0)
             .into_iter()
             .chain(trap)
             .map(|id| (Place::State(id), self.survey.states[order[id]].node))
             .collect();
         ends.push((Place::Free, self.survey.free));
-        let mut all = Vec::new();
+        let mut asked = Vec::new();
         for from in &ends {
             for to in ends.iter().filter(|to| to.0 != from.0) {
-                for by in [PathwayCost::Work, PathwayCost::Probability] {
-                    all.extend(self.alternative(*from, *to, by));
-                }
+                asked.extend(
+                    [PathwayCost::Work, PathwayCost::Probability].map(|by| (*from, *to, by)),
+                );
             }
         }
-        all
+        let found = |(from, to, by)| self.alternative(from, to, by);
+        asked.into_par_iter().filter_map(found).collect()
     }
 
     fn alternative(
@@ -307,4 +280,9 @@ impl Reader<'_> {
             pathway,
         })
     }
+}
+
+/// What is reported of a node.
+fn place(node: usize, ids: &Ids) -> Place {
+    ids.get(&node).copied().map_or(Place::Free, Place::State)
 }

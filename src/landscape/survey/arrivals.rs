@@ -40,7 +40,7 @@ impl Survey {
         };
         let starts: Vec<Configuration> =
             far.iter().filter(wanted).map(|(start, _)| *start).collect();
-        let known = self.verified(problem);
+        let known = self.verified();
         let descents: Vec<_> = starts
             .par_iter()
             .map(|q| approach(problem, q, &known))

@@ -16,22 +16,6 @@ use crate::problem::Problem;
 use crate::roadmap::{Milestone, edge};
 
 impl Survey {
-    /// Joins a node to the network by milestones around it.
-    pub(super) fn join(&mut self, problem: &Problem, node: usize, settings: &SurveySettings) {
-        let Some((centre, energy)) = self.network.nodes[node] else {
-            return;
-        };
-        for radius in [1e-3, 1e-2, 3e-2] {
-            let place = Place {
-                centre,
-                radius,
-                highest: energy.abs() + settings.edge.tolerance.absolute,
-                number: node as u64,
-            };
-            self.densify_at(problem, &place, settings);
-        }
-    }
-
     /// Adds milestones around the meeting places that are still no transition states, and notes
     /// how far that has moved them.
     pub(super) fn densify(

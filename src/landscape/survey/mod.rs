@@ -12,6 +12,9 @@
 //! until every meeting place is a transition state, or its energy moves by less than a set
 //! fraction of the barrier from round to round. Before that, states are joined straight to those
 //! closest to them, and what nothing joins to `free` is withdrawn straight from what it touches.
+//!
+//! What is found once is known of all copies that the problem's symmetries make of it: every state
+//! is a node together with its images, and so is every transition state with the ways on its sides.
 
 mod arrivals;
 mod densify;
@@ -64,6 +67,8 @@ pub struct FoundState {
     pub node: usize,
     /// The minimum with its spectrum.
     pub minimum: Stationary,
+    /// The first state, by its place in the list, of those that symmetries map onto each other.
+    pub class: usize,
 }
 
 /// What a survey found.
@@ -100,24 +105,17 @@ impl Survey {
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
-        survey.find_siblings(problem, 0, settings);
-        survey.find_meetings(problem, settings);
+        survey.find_siblings(problem, 0);
+        survey.find_meetings(problem);
         survey.settle(problem, 0, settings);
         survey
     }
 
-    /// Adds minima that were found otherwise, with their symmetric images, and how they are joined
-    /// to the others.
+    /// Adds minima that were found otherwise, and how they are joined to the others.
     pub fn add(&mut self, problem: &Problem, minima: &[Stationary], settings: &SurveySettings) {
         let fresh = self.states.len();
         for minimum in minima {
-            for symmetry in &problem.symmetries {
-                let image = minimum.image(problem, symmetry.apply(&minimum.point.q));
-                let node = self.state_node(problem, &image);
-                if self.network.is_isolated(node) {
-                    self.join(problem, node, settings);
-                }
-            }
+            self.state_node(problem, minimum);
         }
         self.settle(problem, fresh, settings);
     }
@@ -138,10 +136,29 @@ impl Survey {
             if open.is_empty() {
                 break;
             }
-            self.polish(problem, &open, &mut tried, settings);
-            self.densify(problem, &open, round as u64, settings);
+            let looked_at = self.first_of_classes(&open, 1 << round, &tried);
+            self.polish(problem, &looked_at, &mut tried, settings);
+            self.densify(problem, &looked_at, round as u64, settings);
             self.network.span();
         }
+    }
+
+    /// Of each class of states that merge upwards the lowest few merges, and those looked at before:
+    /// what is found there is found for the others, or they have their turn in a later round.
+    fn first_of_classes(&self, open: &[Merge], most: usize, tried: &HashSet<usize>) -> Vec<Merge> {
+        let class_of: HashMap<usize, usize> =
+            self.states.iter().map(|s| (s.node, s.class)).collect();
+        let mut fresh: HashMap<Option<&usize>, usize> = HashMap::new();
+        let mut is_looked_at = |merge: &&Merge| {
+            let count = fresh.entry(class_of.get(&merge.upper)).or_default();
+            let is_fresh = !tried.contains(&merge.link);
+            *count += usize::from(is_fresh);
+            !is_fresh || *count <= most
+        };
+        open.iter()
+            .filter(|merge| is_looked_at(merge))
+            .copied()
+            .collect()
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
@@ -181,31 +198,25 @@ impl Survey {
         }));
         // What some find the next ones need not verify.
         for some in starts.chunks(TOGETHER) {
-            let known = self.verified(problem);
+            let known = self.verified();
             let descents: Vec<Descent> = some
                 .par_iter()
                 .map(|(_, q)| descend_among(problem, q, &known))
                 .collect();
             for ((node, _), descent) in some.iter().zip(descents) {
                 let end = self.arrive(problem, &descent);
-                match (*node, end) {
-                    (Some(node), Some(end)) => {
-                        self.network
-                            .add_way(problem, node, end, descent.way, &settings.edge);
-                    }
-                    // A guess is not in the network yet.
-                    (None, Some(end)) if self.network.is_isolated(end) => {
-                        self.join(problem, end, settings);
-                    }
-                    _ => {}
+                // A guess is not in the network.
+                if let (Some(node), Some(end)) = (*node, end) {
+                    self.network
+                        .add_way(problem, node, end, descent.way, &settings.edge);
                 }
             }
         }
     }
 
     /// The minima found so far.
-    pub fn verified(&self, problem: &Problem) -> Verified {
-        Verified::new(problem, self.states.iter().map(|state| &state.minimum))
+    pub fn verified(&self) -> Verified {
+        Verified::new(self.states.iter().map(|state| &state.minimum))
     }
 
     /// The node in which a descent ended, made if need be.
@@ -222,17 +233,29 @@ impl Survey {
         }
     }
 
+    /// The node of a minimum. One that is new becomes a state with all its images.
     fn state_node(&mut self, problem: &Problem, minimum: &Stationary) -> usize {
         let q = minimum.point.q;
         if let Some(known) = self.state_at(problem, &q, SAME) {
             return self.states[known].node;
         }
-        let node = self.network.add_node(Some((q, minimum.point.energy)));
-        self.states.push(FoundState {
-            node,
-            minimum: minimum.clone(),
-        });
-        node
+        let class = self.states.len();
+        for symmetry in &problem.symmetries {
+            let image = minimum.image(problem, symmetry);
+            let q = image.point.q;
+            let copies = self.states[class..].iter();
+            let known = |copy: &FoundState| problem.space.distance(&copy.minimum.point.q, &q);
+            if copies.map(known).all(|distance| distance > SAME) {
+                let node = self.network.add_node(Some((q, image.point.energy)));
+                self.states.push(FoundState {
+                    node,
+                    minimum: image,
+                    class,
+                });
+            }
+        }
+        // The identity comes first.
+        self.states[class].node
     }
 
     /// The state within `tolerance` (m, metric of the space) of a configuration.
@@ -301,22 +324,40 @@ impl Survey {
                     .filter(|found| problem.is_free(&found.point.q))
             })
             .collect();
+        let images = |saddle: &Stationary| {
+            let image = |symmetry: &Symmetry| symmetry.apply(&saddle.point.q);
+            symmetries.iter().map(image).collect::<Vec<_>>()
+        };
+        let mut known: Vec<Configuration> =
+            self.transition_states.iter().map(|s| s.0.point.q).collect();
         let mut fresh: Vec<Stationary> = Vec::new();
         for found in found.into_iter().flatten() {
-            for q in symmetries.iter().map(|s| s.apply(&found.point.q)) {
-                let known = |s: &Stationary| problem.space.distance(&s.point.q, &q) <= SAME;
-                if !fresh.iter().any(known) && !self.transition_states.iter().any(|s| known(&s.0)) {
-                    fresh.push(found.image(problem, q));
-                }
+            let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
+            if !known.iter().any(is_same) {
+                known.extend(images(&found));
+                fresh.push(found);
             }
         }
-        let known = self.verified(problem);
+        let known = self.verified();
         let joined: Vec<[Option<Descent>; 2]> = fresh
             .par_iter()
             .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
             .collect();
         for (saddle, sides) in fresh.into_iter().zip(joined) {
-            self.add_transition_state(problem, saddle, sides, settings);
+            let [Some(first), Some(second)] = sides else {
+                continue;
+            };
+            let mut copies: Vec<Configuration> = Vec::new();
+            for symmetry in symmetries {
+                let image = saddle.image(problem, symmetry);
+                let q = image.point.q;
+                let is_same = |copy: &Configuration| problem.space.distance(copy, &q) <= SAME;
+                if !copies.iter().any(is_same) {
+                    copies.push(q);
+                    let sides = [&first, &second].map(|side| side.image(problem, symmetry));
+                    self.add_transition_state(problem, image, sides, settings);
+                }
+            }
         }
     }
 
@@ -324,12 +365,9 @@ impl Survey {
         &mut self,
         problem: &Problem,
         saddle: Stationary,
-        sides: [Option<Descent>; 2],
+        [first, second]: [Descent; 2],
         settings: &EdgeSettings,
     ) {
-        let [Some(first), Some(second)] = sides else {
-            return;
-        };
         let ends = [&first, &second].map(|side| self.arrive(problem, side));
         let [Some(from), Some(to)] = ends else {
             return;
