@@ -1,8 +1,14 @@
 //! The network that is asked for barriers: milestones, states and transition states as nodes, and
 //! the ways between them as links. It holds the roadmap and everything that was found by following
 //! the energy from it.
+//!
+//! A straight motion that the roadmap left unweighed costs at least what its ends tell: it peaks no
+//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that,
+//! weigh what they found, and search again until nothing unweighed is on what they find; then it is
+//! the best there is (Dellin and Srinivasa 2016, arXiv:1603.04341).
 
 use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
 
 use ordered_float::OrderedFloat;
 use petgraph::algo::astar;
@@ -12,10 +18,10 @@ use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
 use super::constrained::Point;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
-use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
-use crate::roadmap::{Edge, EdgeSettings, Roadmap};
+use crate::roadmap::edge::{EdgeCosts, costs, costs_of_energies};
+use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
 
 /// A way between two nodes.
 #[derive(Clone, Debug)]
@@ -28,14 +34,28 @@ pub enum Way {
     Same,
 }
 
-/// Nodes and links. A link takes 80 bytes, its part in the graph included; few have a way that is
+/// What joins two nodes.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// The node it leaves.
+    pub from: u32,
+    /// The node it reaches.
+    pub to: u32,
+    /// Of going from the one to the other, and back; empty until it is weighed.
+    costs: OnceLock<EdgeCosts>,
+}
+
+/// Nodes and links. A link takes 88 bytes, its part in the graph included; few have a way that is
 /// not straight.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Network {
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
-    /// What joins two nodes, with the costs of going from the one to the other.
-    pub links: Vec<Edge>,
+    /// What joins nodes.
+    pub links: Vec<Link>,
+    /// How links are weighed.
+    settings: EdgeSettings,
+    space: ConfigurationSpace,
     /// The ways of those links that are no straight motions.
     ways: HashMap<usize, Way>,
     /// Its edges have the numbers of the links.
@@ -77,19 +97,29 @@ pub enum Cost {
 }
 
 impl Network {
-    /// The milestones become nodes and the edges links of the same numbers.
-    pub fn new(roadmap: Roadmap) -> Self {
-        let mut network = Self::default();
-        let (nodes, links) = (roadmap.milestones.len(), roadmap.edges.len());
-        network.graph = UnGraph::with_capacity(nodes, links);
+    /// The milestones become nodes and the motions between them links, weighed ones first.
+    pub fn new(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
+        let (nodes, links) = (roadmap.milestones.len(), roadmap.motions());
+        let mut network = Self {
+            nodes: Vec::with_capacity(nodes),
+            links: Vec::with_capacity(links),
+            settings: *settings,
+            space: problem.space.clone(),
+            ways: HashMap::new(),
+            graph: UnGraph::with_capacity(nodes, links),
+            tree: Vec::new(),
+            spanned: 0,
+        };
         for milestone in &roadmap.milestones {
             network.add_node(Some((milestone.configuration, milestone.energy)));
         }
-        for edge in &roadmap.edges {
-            network.join(edge);
+        for Edge { from, to, costs } in roadmap.edges {
+            network.add_link(from, to, OnceLock::from(costs));
         }
-        network.links = roadmap.edges;
-        network.span();
+        for (from, to) in roadmap.unweighed {
+            network.add_link(from, to, OnceLock::new());
+        }
+        network.span(problem);
         network
     }
 
@@ -101,19 +131,53 @@ impl Network {
 
     /// Adds a straight motion.
     pub fn add_motion(&mut self, from: usize, to: usize, costs: EdgeCosts) -> usize {
-        let edge = Edge {
-            from: from as u32,
-            to: to as u32,
-            costs,
-        };
-        self.join(&edge);
-        self.links.push(edge);
+        self.add_link(from as u32, to as u32, OnceLock::from(costs))
+    }
+
+    fn add_link(&mut self, from: u32, to: u32, costs: OnceLock<EdgeCosts>) -> usize {
+        let ends = [from, to].map(|node| NodeIndex::new(node as usize));
+        self.graph.add_edge(ends[0], ends[1], ());
+        self.links.push(Link { from, to, costs });
         self.links.len() - 1
     }
 
-    fn join(&mut self, edge: &Edge) {
-        let [from, to] = [edge.from, edge.to].map(|node| NodeIndex::new(node as usize));
-        self.graph.add_edge(from, to, ());
+    /// What a link costs, or what it costs at least as long as it is not weighed.
+    pub fn costs(&self, link: usize) -> EdgeCosts {
+        let Link { from, to, costs } = &self.links[link];
+        costs.get().copied().unwrap_or_else(|| {
+            let ends = [*from, *to].map(|node| self.nodes[node as usize]);
+            let [Some((a, from)), Some((b, to))] = ends else {
+                return EdgeCosts::default();
+            };
+            EdgeCosts {
+                peak: from.max(to),
+                length: self.space.distance(&a, &b),
+                work: [(to - from).max(0.0), (from - to).max(0.0)],
+                ..EdgeCosts::default()
+            }
+        })
+    }
+
+    fn is_weighed(&self, link: usize) -> bool {
+        self.links[link].costs.get().is_some()
+    }
+
+    /// Weighs those of some links that are not; whether there were any.
+    fn weigh(&self, problem: &Problem, links: impl IntoIterator<Item = usize>) -> bool {
+        let open: Vec<&Link> = links
+            .into_iter()
+            .filter(|&number| !self.is_weighed(number))
+            .map(|number| &self.links[number])
+            .collect();
+        open.par_iter().for_each(|link| {
+            let ends = [link.from, link.to].map(|node| self.nodes[node as usize]);
+            if let [Some((a, _)), Some((b, _))] = ends {
+                let ends = [a, b].map(|q| Milestone::new(problem, q));
+                link.costs
+                    .get_or_init(|| costs(problem, ends.each_ref(), &self.settings));
+            }
+        });
+        !open.is_empty()
     }
 
     /// Adds a link that takes a far configuration, with its energy (J), and `free` for one.
@@ -162,12 +226,17 @@ impl Network {
         let mut lowest = vec![true; self.nodes.len()];
         for link in &self.links {
             let (from, to) = (link.from as usize, link.to as usize);
+            // Where one of its links leads down, one that spans the network does: it peaks at the
+            // node, as low as any.
+            let Some(costs) = link.costs.get() else {
+                continue;
+            };
             for (here, there) in [(from, to), (to, from)] {
                 let (Some((_, high)), Some((_, low))) = (self.nodes[here], self.nodes[there])
                 else {
                     continue;
                 };
-                if low < high && link.costs.peak <= high {
+                if low < high && costs.peak <= high {
                     lowest[here] = false;
                 }
             }
@@ -179,11 +248,11 @@ impl Network {
 
     /// Where the highest energy of a link is reached; `None` for a link without motion.
     pub fn peak_configuration(&self, link: usize) -> Option<Configuration> {
-        let Edge { from, to, costs } = &self.links[link];
+        let Link { from, to, .. } = &self.links[link];
         let [from, to] = [*from, *to].map(|node| self.nodes[node as usize].map(|n| n.0));
         match self.way(link) {
             Way::Same => from.or(to),
-            Way::Straight => Some(from?.interpolate(&to?, costs.peak_at)),
+            Way::Straight => Some(from?.interpolate(&to?, self.costs(link).peak_at)),
             Way::Points(points) => points
                 .iter()
                 .max_by_key(|p| OrderedFloat(p.energy))
@@ -191,10 +260,17 @@ impl Network {
         }
     }
 
-    /// Works out which links minimax paths use, so that merges need to look at later links only.
-    pub fn span(&mut self) {
-        self.tree = self.spanning_links();
-        self.spanned = self.links.len();
+    /// Works out which links minimax paths use, so that merges need to look at later links only, and
+    /// weighs them.
+    pub fn span(&mut self, problem: &Problem) {
+        loop {
+            let tree = self.spanning_links();
+            if !self.weigh(problem, tree.iter().map(|number| *number as usize)) {
+                self.tree = tree;
+                self.spanned = self.links.len();
+                return;
+            }
+        }
     }
 
     /// The minimum spanning forest by peak, ascending (Kruskal's algorithm): between any two nodes,
@@ -204,7 +280,7 @@ impl Network {
     fn spanning_links(&self) -> Vec<u32> {
         let later = self.spanned as u32..self.links.len() as u32;
         let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        let peak = |number: u32| OrderedFloat(self.links[number as usize].costs.peak);
+        let peak = |number: u32| OrderedFloat(self.costs(number as usize).peak);
         ascending.par_sort_unstable_by_key(|&number| (peak(number), number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
@@ -257,16 +333,18 @@ impl Network {
     }
 
     /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
-    /// algorithm, paths added up by their maximum.
+    /// algorithm, paths added up by their maximum. Links that are not weighed are on no such route,
+    /// once the network is spanned.
     pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            self.is_motion(edge.id().index(), from, goals)
+            let number = edge.id().index();
+            self.is_weighed(number) && self.is_motion(number, from, goals)
         });
         let (peak, _) = astar(
             &allowed,
             NodeIndex::new(from),
             |node| goals.contains(&node.index()),
-            |edge| Highest(self.links[edge.id().index()].costs.peak),
+            |edge| Highest(self.costs(edge.id().index()).peak),
             |_| Highest::default(),
         )?;
         Some(peak.0)
@@ -275,6 +353,23 @@ impl Network {
     /// The cheapest route from a node to any of the `goals`, by Dijkstra's algorithm: its end, its
     /// cost and its links.
     pub fn cheapest(
+        &self,
+        problem: &Problem,
+        from: usize,
+        goals: &HashSet<usize>,
+        cost: Cost,
+    ) -> Option<(usize, f64, Route)> {
+        loop {
+            let found = self.cheapest_at_best(from, goals, cost)?;
+            let links = found.2.iter().map(|(number, _)| *number);
+            if !self.weigh(problem, links) {
+                return Some(found);
+            }
+        }
+    }
+
+    /// The same, with what links cost at least where they are not weighed.
+    fn cheapest_at_best(
         &self,
         from: usize,
         goals: &HashSet<usize>,
@@ -286,7 +381,7 @@ impl Network {
         };
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
             let number = edge.id().index();
-            self.links[number].costs.peak <= highest && self.is_motion(number, from, goals)
+            self.costs(number).peak <= highest && self.is_motion(number, from, goals)
         });
         let (total, nodes) = astar(
             &allowed,
@@ -326,20 +421,18 @@ impl Network {
             .graph
             .edges_connecting(from, to)
             .map(|edge| edge.id().index())
-            .filter(|number| self.links[*number].costs.peak <= highest)
+            .filter(|number| self.costs(*number).peak <= highest)
             .min_by_key(|&number| (OrderedFloat(price(number)), number))?;
         Some((number, self.links[number].from as usize == from.index()))
     }
 
     fn cost(&self, number: usize, from: usize, cost: Cost) -> f64 {
-        let link = &self.links[number];
-        let direction = usize::from(link.from as usize != from);
+        let direction = usize::from(self.links[number].from as usize != from);
+        let costs = self.costs(number);
         match cost {
-            Cost::Work => link.costs.work[direction],
-            Cost::Probability => link.costs.minus_ln_probability[direction],
-            Cost::Below { per_metre, .. } => {
-                link.costs.work[direction] + per_metre * link.costs.length
-            }
+            Cost::Work => costs.work[direction],
+            Cost::Probability => costs.minus_ln_probability[direction],
+            Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
         }
     }
 }

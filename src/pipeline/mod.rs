@@ -114,12 +114,12 @@ pub(crate) fn survey(
         "neighbours" => 0.05,
         _ => 0.06,
     };
-    let built = Roadmap::build(problem, roadmap, &mut |name| {
+    let built = Roadmap::sparing(problem, roadmap, &mut |name| {
         clock.start(name, shares(name))
     });
     let counts = Counts {
         milestones: built.milestones.len(),
-        edges: built.edges.len(),
+        edges: built.motions(),
         ..Counts::default()
     };
     clock.start("states and transition states", 0.4);

@@ -109,7 +109,7 @@ impl<'a> Search<'a> {
             return Pathway::new();
         };
         let peaks = peaks(self.problem, &points);
-        let mut survey = Survey::of_roadmap(self.problem, Roadmap::default());
+        let mut survey = Survey::of_roadmap(self.problem, Roadmap::default(), &self.roadmap.edges);
         let from = self.attach(&mut survey, &self.query.from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),

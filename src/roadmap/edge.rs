@@ -56,6 +56,31 @@ pub fn edges(
     pairs: &[(u32, u32)],
     settings: &EdgeSettings,
 ) -> Vec<Edge> {
+    side_by_side(problem, milestones, pairs, |free| {
+        let ends = free.iter();
+        let ends = ends.map(|&(from, to)| [from, to].map(|end| &milestones[end as usize]));
+        let costs = weighed(problem, &ends.collect::<Vec<_>>(), settings);
+        let edge = |((from, to), costs)| Edge { from, to, costs };
+        free.into_iter().zip(costs).map(edge).collect()
+    })
+}
+
+/// Those of some pairs of milestones between which the straight motion is free.
+pub fn free_motions(
+    problem: &Problem,
+    milestones: &[Milestone],
+    pairs: &[(u32, u32)],
+) -> Vec<(u32, u32)> {
+    side_by_side(problem, milestones, pairs, |free| free)
+}
+
+/// What `each` makes of the free ones among some pairs, in the order given.
+fn side_by_side<T: Send>(
+    problem: &Problem,
+    milestones: &[Milestone],
+    pairs: &[(u32, u32)],
+    each: impl Fn(Vec<(u32, u32)>) -> Vec<T> + Sync,
+) -> Vec<T> {
     // Of every milestone once, not of every pair.
     let clearances: Vec<f64> = milestones
         .par_iter()
@@ -66,34 +91,30 @@ pub fn edges(
         let clearances = [from, to].map(|end| clearances[end as usize]);
         problem.known_motion_is_free(ends, clearances)
     };
-    let weighed = |some: &[(u32, u32)]| {
-        let free: Vec<(u32, u32)> = some.iter().copied().filter(is_free).collect();
-        let ends: Vec<[&Milestone; 2]> = free
-            .iter()
-            .map(|&(from, to)| [from, to].map(|end| &milestones[end as usize]))
-            .collect();
-        let profiles = Profile::of_many(problem, &ends, &settings.tolerance);
-        let costs = profiles.iter().zip(ends);
-        let costs = costs.map(|(profile, ends)| costs_of_profile(problem, profile, ends, settings));
-        let edge = |((from, to), costs)| Edge { from, to, costs };
-        free.into_iter().zip(costs).map(edge).collect::<Vec<_>>()
-    };
-    let mut edges = Vec::with_capacity(pairs.len());
+    let of_some = |some: &[(u32, u32)]| each(some.iter().copied().filter(is_free).collect());
+    let mut all = Vec::with_capacity(pairs.len());
     // In parts, as collecting in parallel takes twice the memory.
     for part in pairs.chunks(TOGETHER) {
-        let found: Vec<Edge> = part
+        let found: Vec<T> = part
             .par_chunks(SIDE_BY_SIDE)
-            .flat_map_iter(weighed)
+            .flat_map_iter(of_some)
             .collect();
-        edges.extend(found);
+        all.extend(found);
     }
-    edges
+    all
+}
+
+/// The costs of some straight motions, their energies asked together.
+fn weighed(problem: &Problem, ends: &[[&Milestone; 2]], settings: &EdgeSettings) -> Vec<EdgeCosts> {
+    let profiles = Profile::of_many(problem, ends, &settings.tolerance);
+    let costs = profiles.iter().zip(ends);
+    let costs = costs.map(|(profile, ends)| costs_of_profile(problem, profile, *ends, settings));
+    costs.collect()
 }
 
 /// The costs of the straight motion between two milestones.
-pub fn costs(problem: &Problem, [a, b]: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
-    let profile = Profile::new(problem, a, b, &settings.tolerance);
-    costs_of_profile(problem, &profile, [a, b], settings)
+pub fn costs(problem: &Problem, ends: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
+    weighed(problem, &[ends], settings)[0]
 }
 
 fn costs_of_profile(

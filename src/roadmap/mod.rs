@@ -47,6 +47,8 @@ pub struct Roadmap {
     pub milestones: Vec<Milestone>,
     /// Between milestones, by their numbers in `milestones`.
     pub edges: Vec<Edge>,
+    /// Free motions between milestones that were not weighed.
+    pub unweighed: Vec<(u32, u32)>,
 }
 
 /// All that decides a roadmap.
@@ -61,14 +63,14 @@ pub struct RoadmapSettings {
 }
 
 /// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 40 bytes
-/// a milestone and 64 + 16 an edge. Of the pairs of a milestone and one of its nearest neighbours
+/// a milestone and 72 + 16 an edge. Of the pairs of a milestone and one of its nearest neighbours
 /// about every other one is an edge, as most are neighbours of each other.
 ///
 /// Neighbours are by the PRM* rule where `None`.
 pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
     let neighbours = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones));
     let neighbours = neighbours.min(milestones.saturating_sub(1));
-    milestones as f64 * (56.0 + 40.0 + (64.0 + 16.0) * neighbours as f64 / 2.0)
+    milestones as f64 * (56.0 + 40.0 + (72.0 + 16.0) * neighbours as f64 / 2.0)
 }
 
 impl Roadmap {
@@ -78,12 +80,50 @@ impl Roadmap {
         settings: &RoadmapSettings,
         watch: &mut dyn FnMut(&'static str),
     ) -> Self {
-        watch("milestones");
-        let milestones = milestone::milestones(problem, &settings.milestones);
-        watch("neighbours");
-        let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, settings.neighbours);
-        watch("edges");
+        let (milestones, pairs) = drawn(problem, settings, watch);
         let edges = edge::edges(problem, &milestones, &pairs, &settings.edges);
-        Self { milestones, edges }
+        Self {
+            milestones,
+            edges,
+            unweighed: Vec::new(),
+        }
     }
+
+    /// The same, but where energies are dear, of very many magnets, the motions are left to be
+    /// weighed by who needs it ([`crate::landscape::network`]): of most, nobody ever asks.
+    pub fn sparing(
+        problem: &Problem,
+        settings: &RoadmapSettings,
+        watch: &mut dyn FnMut(&'static str),
+    ) -> Self {
+        if problem.potential().parts().is_none() {
+            return Self::build(problem, settings, watch);
+        }
+        let (milestones, pairs) = drawn(problem, settings, watch);
+        let unweighed = edge::free_motions(problem, &milestones, &pairs);
+        Self {
+            milestones,
+            edges: Vec::new(),
+            unweighed,
+        }
+    }
+
+    /// How many free motions there are, weighed or not.
+    pub fn motions(&self) -> usize {
+        self.edges.len() + self.unweighed.len()
+    }
+}
+
+/// Milestones, and the pairs of neighbours among them.
+fn drawn(
+    problem: &Problem,
+    settings: &RoadmapSettings,
+    watch: &mut dyn FnMut(&'static str),
+) -> (Vec<Milestone>, Vec<(u32, u32)>) {
+    watch("milestones");
+    let milestones = milestone::milestones(problem, &settings.milestones);
+    watch("neighbours");
+    let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, settings.neighbours);
+    watch("edges");
+    (milestones, pairs)
 }

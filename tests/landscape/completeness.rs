@@ -273,7 +273,11 @@ fn plant(number_of_traps: usize) {
             ..Settings::default()
         };
         let roadmap = settings.roadmap(&problem);
-        let survey = Survey::of_roadmap(&problem, Roadmap::build(&problem, &roadmap, &mut |_| {}));
+        let survey = Survey::of_roadmap(
+            &problem,
+            Roadmap::build(&problem, &roadmap, &mut |_| {}),
+            &roadmap.edges,
+        );
         let looked_for = CompletenessSettings {
             below: 0.3,
             escape: 0.15,

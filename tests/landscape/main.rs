@@ -12,6 +12,7 @@ mod inventory;
 mod meetings;
 mod minimum;
 mod neighbours;
+mod network;
 mod pathways;
 mod queries;
 mod ranking;

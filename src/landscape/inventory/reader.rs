@@ -269,7 +269,8 @@ impl Reader<'_> {
             PathwayCost::Work => Cost::Work,
             PathwayCost::Probability => Cost::Probability,
         };
-        let (_, cost, route) = network.cheapest(from.1, &HashSet::from([to.1]), cost)?;
+        let (_, cost, route) =
+            network.cheapest(self.problem, from.1, &HashSet::from([to.1]), cost)?;
         let depth = self.energy(0).abs();
         let pathway = pathway::along(self.problem, network, &route, None, 2e-3 * depth);
         (!pathway.is_empty()).then_some(Alternative {

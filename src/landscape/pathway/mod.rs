@@ -52,7 +52,7 @@ pub fn lowest(
         highest: limits.highest,
         per_metre: limits.per_metre,
     };
-    let (end, _, route) = network.cheapest(from, ends, cost)?;
+    let (end, _, route) = network.cheapest(problem, from, ends, cost)?;
     let peak = |way: &Pathway| highest_point(way).map_or(f64::INFINITY, |point| point.energy);
     let mut pathway = along(problem, network, &route, Some(&limits), bend);
     if peak(&pathway) > limits.highest + HIGHER * depth {

@@ -62,7 +62,7 @@ impl Survey {
             self.network
                 .add_way(problem, node, end, descent.way, settings);
         }
-        self.network.span();
+        self.network.span(problem);
     }
 
     fn most_followed(&self, problem: &Problem, state: usize) -> usize {

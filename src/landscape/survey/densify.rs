@@ -39,7 +39,7 @@ impl Survey {
             self.merges().into_iter().map(|m| (m.upper, m)).collect();
         for merge in &still {
             if let Some(now) = after.get(&merge.upper) {
-                let peak = |m: &Merge| self.network.links[m.link].costs.peak;
+                let peak = |m: &Merge| self.network.costs(m.link).peak;
                 self.unpolished.insert(now.link, peak(merge) - peak(now));
             }
         }
@@ -58,7 +58,7 @@ impl Survey {
         let place = Place {
             centre,
             radius: problem.space.length(along).clamp(2e-3, 0.03),
-            highest: self.network.links[merge.link].costs.peak,
+            highest: self.network.costs(merge.link).peak,
             number: (round << 32) + merge.link as u64,
         };
         self.densify_at(problem, &place, settings);

@@ -97,10 +97,10 @@ impl Survey {
         guesses: &[Configuration],
         settings: &SurveySettings,
     ) -> Self {
-        let mut survey = Self::of_roadmap(problem, roadmap);
+        let mut survey = Self::of_roadmap(problem, roadmap, &settings.edge);
         // Every configuration is as low as every other: none is a state.
         if problem.is_inert() {
-            survey.network.span();
+            survey.network.span(problem);
             return survey;
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
@@ -124,7 +124,7 @@ impl Survey {
     fn settle(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
         self.join_neighbours(problem, fresh, settings);
         self.withdraw(problem, settings);
-        self.network.span();
+        self.network.span(problem);
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
             self.rounds = round;
@@ -139,7 +139,7 @@ impl Survey {
             let looked_at = self.first_of_classes(&open, 1 << round, &tried);
             self.polish(problem, &looked_at, &mut tried, settings);
             self.densify(problem, &looked_at, round as u64, settings);
-            self.network.span();
+            self.network.span(problem);
         }
     }
 
@@ -162,8 +162,8 @@ impl Survey {
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
-    pub fn of_roadmap(problem: &Problem, roadmap: Roadmap) -> Self {
-        let mut network = Network::new(roadmap);
+    pub fn of_roadmap(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
+        let mut network = Network::new(problem, roadmap, settings);
         let free = network.add_node(None);
         for node in 0..free {
             let far = network.nodes[node].filter(|known| problem.space.is_far(&known.0));
@@ -280,12 +280,11 @@ impl Survey {
     }
 
     fn is_settled(&self, merge: &Merge, settings: &SurveySettings) -> bool {
-        let link = &self.network.links[merge.link];
         if self.transition_states.iter().any(|(_, l)| *l == merge.link) {
             return true;
         }
         let bottom = self.network.nodes[merge.upper].map_or(0.0, |n| n.1);
-        let allowed = settings.settled * (link.costs.peak - bottom);
+        let allowed = settings.settled * (self.network.costs(merge.link).peak - bottom);
         self.unpolished
             .get(&merge.link)
             .is_some_and(|moved| moved.abs() <= allowed)

@@ -1,0 +1,122 @@
+//! Networks: links that are weighed when they are asked for, and copies of which all is known that
+//! is known of one.
+
+use std::collections::HashSet;
+
+use tilebind::Settings;
+use tilebind::landscape::network::{Cost, Network};
+use tilebind::landscape::survey::{Survey, SurveySettings};
+use tilebind::problem::Problem;
+use tilebind::roadmap::{Roadmap, RoadmapSettings};
+
+use crate::designs;
+
+fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
+    let problem = designs::load("shapes/paper-tile.toml").problem();
+    let settings = Settings {
+        milestones,
+        ..Settings::default()
+    };
+    let roadmap = settings.roadmap(&problem);
+    (problem, roadmap)
+}
+
+#[test]
+fn what_is_weighed_when_asked_for_gives_the_same_routes() {
+    const MILESTONES: usize = 600;
+    let (problem, settings) = paper_tile(MILESTONES);
+    let start = problem.evaluations();
+    let built = Roadmap::build(&problem, &settings, &mut |_| {});
+    let all = problem.evaluations() - start;
+    let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
+    let left = Roadmap {
+        milestones: built.milestones.clone(),
+        edges: Vec::new(),
+        unweighed: ends.collect(),
+    };
+    let start = problem.evaluations();
+    let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
+    // Minimax paths need few.
+    let spanned = problem.evaluations() - start;
+    assert!(2 * spanned < all, "{spanned} of {all}");
+    let [weighed, asked] = &networks;
+    assert_eq!(weighed.local_minima(), asked.local_minima());
+    let labelled: Vec<(usize, f64)> = (0..MILESTONES)
+        .step_by(7)
+        .map(|node| (node, weighed.nodes[node].unwrap().1))
+        .collect();
+    assert_eq!(weighed.merges(&labelled), asked.merges(&labelled));
+    let depth = problem.depth();
+    let mut compared = 0;
+    for (from, to) in (0..MILESTONES)
+        .step_by(97)
+        .zip([11, 222, 333, 444, 555, 599, 5])
+    {
+        let goals = HashSet::from([to]);
+        let highest = weighed.minimax(from, &goals);
+        assert_eq!(highest, asked.minimax(from, &goals));
+        let Some(highest) = highest else { continue };
+        let below = Cost::Below {
+            highest: highest + 1e-3 * depth,
+            per_metre: 1e-3 * depth,
+        };
+        for cost in [Cost::Work, Cost::Probability, below] {
+            let found = |network: &Network| network.cheapest(&problem, from, &goals, cost).unwrap();
+            let [of_weighed, of_asked] = networks.each_ref().map(found);
+            assert_eq!(of_weighed.0, to);
+            assert!((of_weighed.1 - of_asked.1).abs() <= 1e-9 * of_weighed.1);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 9, "{compared}");
+}
+
+/// States and transition states come with all their images, and an image joins the images of what
+/// its original joins.
+#[test]
+fn what_is_found_once_is_known_of_all_copies() {
+    let (problem, roadmap) = paper_tile(400);
+    let settings = SurveySettings {
+        edge: roadmap.edges,
+        settled: 0.005,
+        added_milestones: 100,
+        most_rounds: 8,
+        seed: 1,
+    };
+    let built = Roadmap::build(&problem, &roadmap, &mut |_| {});
+    let survey = Survey::new(&problem, built, &[], &settings);
+    assert_eq!(problem.symmetries.len(), 16);
+    assert_eq!(survey.states.len() % 16, 0);
+    let class = |node: u32| {
+        let state = survey
+            .states
+            .iter()
+            .find(|state| state.node == node as usize);
+        state.map(|state| state.class)
+    };
+    for state in &survey.states {
+        for symmetry in &problem.symmetries {
+            let image = symmetry.apply(&state.minimum.point.q);
+            let copy = &survey.states[survey.state_at(&problem, &image, 1e-9).unwrap()];
+            assert_eq!(copy.class, state.class);
+            let energies = [copy, state].map(|state| state.minimum.point.energy);
+            assert!((energies[0] - energies[1]).abs() <= 1e-12 * energies[0].abs());
+        }
+    }
+    assert!(!survey.transition_states.is_empty());
+    for (saddle, link) in &survey.transition_states {
+        let joined = |link: usize| {
+            let link = &survey.network.links[link];
+            let mut classes = [link.from, link.to].map(class);
+            classes.sort_unstable();
+            classes
+        };
+        for symmetry in &problem.symmetries {
+            let image = symmetry.apply(&saddle.point.q);
+            let is_there = |q| problem.space.distance(q, &image) < 1e-9;
+            let mut copies = survey.transition_states.iter();
+            let copy = copies.find(|(copy, _)| is_there(&copy.point.q));
+            assert_eq!(joined(copy.expect("an image").1), joined(*link));
+        }
+    }
+}
