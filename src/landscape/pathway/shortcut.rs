@@ -30,6 +30,10 @@ const TRIED: usize = 200;
 /// A bypass is looked for where it may save as much as so many metres of the way.
 const WORTHWHILE: f64 = 0.1;
 
+/// So many places of a motion are asked before it is followed, in this order.
+const GLANCES: usize = 7;
+const COARSE_FIRST: [usize; GLANCES] = [4, 2, 6, 1, 3, 5, 7];
+
 /// What a shortcut has to keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -166,12 +170,9 @@ fn worst_detour(
     }
     pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let is_bypass = |&&(saved, from, to): &&(f64, usize, usize)| {
-        is_free(problem, &points[from], &points[to]) && {
-            let ends = [from, to].map(|k| Milestone::new(problem, points[k]));
-            let (peak, price) = motion(problem, [&ends[0], &ends[1]], limits);
-            let gain = prices[to] - prices[from] - price;
-            peak <= limits.highest && gain > 0.5 * saved
-        }
+        let ends = [from, to].map(|k| Milestone::new(problem, points[k]));
+        let most = prices[to] - prices[from] - 0.5 * saved;
+        is_motion_within(problem, ends.each_ref(), limits, most)
     };
     let found = pairs.iter().take(TRIED).find(is_bypass)?;
     Some((found.1, found.2))
@@ -188,10 +189,8 @@ fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Ve
     }
     let is_better = |from: usize, to: usize| {
         let ends = [&milestones[from], &milestones[to]];
-        is_free(problem, &points[from], &points[to]) && {
-            let (peak, price) = motion(problem, ends, limits);
-            peak <= limits.highest && price <= prices[to] - prices[from] + limits.tolerance
-        }
+        let most = prices[to] - prices[from] + limits.tolerance;
+        is_motion_within(problem, ends, limits, most)
     };
     let mut kept: Vec<Configuration> = points.first().copied().into_iter().collect();
     let mut here = 0;
@@ -204,6 +203,30 @@ fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Ve
         kept.push(points[here]);
     }
     kept
+}
+
+/// Whether a straight motion is free, keeps to the limits and costs no more than `most` (J). What a few
+/// places of it tell is asked first: of a rough landscape most motions end there.
+fn is_motion_within(problem: &Problem, ends: [&Milestone; 2], limits: &Limits, most: f64) -> bool {
+    let [a, b] = ends.map(|end| &end.configuration);
+    let mut energies = [0.0; GLANCES];
+    for k in COARSE_FIRST {
+        let q = a.interpolate(b, k as f64 / (GLANCES + 1) as f64);
+        energies[k - 1] = problem.energy(&q);
+        if energies[k - 1] > limits.highest {
+            return false;
+        }
+    }
+    let mut at_least = limits.per_metre * problem.space.distance(a, b);
+    let mut last = ends[0].energy;
+    for energy in energies.into_iter().chain([ends[1].energy]) {
+        at_least += (energy - last).max(0.0);
+        last = energy;
+    }
+    at_least <= most && is_free(problem, a, b) && {
+        let (peak, price) = motion(problem, ends, limits);
+        peak <= limits.highest && price <= most
+    }
 }
 
 /// The highest energy (J) on a straight motion, and what it costs (J).
