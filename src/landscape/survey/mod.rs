@@ -21,6 +21,7 @@ mod densify;
 mod guesses;
 mod siblings;
 mod slides;
+mod transitions;
 mod withdraw;
 
 use std::collections::{HashMap, HashSet};
@@ -28,22 +29,17 @@ use std::collections::{HashMap, HashSet};
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
-use nalgebra::Vector3;
-
-use super::constrained::{self, Point};
 use super::minimum::{Descent, Outcome, Verified, descend_among};
-use super::network::{Merge, Network, Way};
-use super::stationary::{self, Stationary};
+use super::network::{Merge, Network};
+use super::stationary::Stationary;
 use crate::configuration::Configuration;
-use crate::problem::{Problem, Symmetry};
+use crate::problem::Problem;
 use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
 /// Descents that are followed at once.
 const TOGETHER: usize = 64;
-/// How far (m, mass metric) from a transition state its descents start.
-const OFF_SADDLE: f64 = 2e-4;
 
 /// How closely the meeting places of basins are looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -289,122 +285,4 @@ impl Survey {
             .get(&merge.link)
             .is_some_and(|moved| moved.abs() <= allowed)
     }
-
-    /// Looks for the transition states of meeting places and adds those found, with their
-    /// symmetric images.
-    fn polish(
-        &mut self,
-        problem: &Problem,
-        open: &[Merge],
-        tried: &mut HashSet<usize>,
-        settings: &SurveySettings,
-    ) {
-        let places: Vec<(Configuration, Vector3<f64>)> = open
-            .iter()
-            .filter(|merge| tried.insert(merge.link))
-            .filter_map(|merge| self.meeting_place(merge.link))
-            .collect();
-        self.add_transition_states_near(problem, &places, &problem.symmetries, &settings.edge);
-    }
-
-    /// Looks for the transition states near some places, each given with the direction in which it
-    /// is to be passed, and adds those found, with what the symmetries make of them.
-    pub(crate) fn add_transition_states_near(
-        &mut self,
-        problem: &Problem,
-        places: &[(Configuration, Vector3<f64>)],
-        symmetries: &[Symmetry],
-        settings: &EdgeSettings,
-    ) {
-        let found: Vec<Option<Stationary>> = places
-            .par_iter()
-            .map(|(q, along)| {
-                stationary::transition_state(problem, q, along)
-                    .filter(|found| problem.is_free(&found.point.q))
-            })
-            .collect();
-        let images = |saddle: &Stationary| {
-            let image = |symmetry: &Symmetry| symmetry.apply(&saddle.point.q);
-            symmetries.iter().map(image).collect::<Vec<_>>()
-        };
-        let mut known: Vec<Configuration> =
-            self.transition_states.iter().map(|s| s.0.point.q).collect();
-        let mut fresh: Vec<Stationary> = Vec::new();
-        for found in found.into_iter().flatten() {
-            let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
-            if !known.iter().any(is_same) {
-                known.extend(images(&found));
-                fresh.push(found);
-            }
-        }
-        let known = self.verified();
-        let joined: Vec<[Option<Descent>; 2]> = fresh
-            .par_iter()
-            .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
-            .collect();
-        for (saddle, sides) in fresh.into_iter().zip(joined) {
-            let [Some(first), Some(second)] = sides else {
-                continue;
-            };
-            let mut copies: Vec<Configuration> = Vec::new();
-            for symmetry in symmetries {
-                let image = saddle.image(problem, symmetry);
-                let q = image.point.q;
-                let is_same = |copy: &Configuration| problem.space.distance(copy, &q) <= SAME;
-                if !copies.iter().any(is_same) {
-                    copies.push(q);
-                    let sides = [&first, &second].map(|side| side.image(problem, symmetry));
-                    self.add_transition_state(problem, image, sides, settings);
-                }
-            }
-        }
-    }
-
-    fn add_transition_state(
-        &mut self,
-        problem: &Problem,
-        saddle: Stationary,
-        [first, second]: [Descent; 2],
-        settings: &EdgeSettings,
-    ) {
-        let ends = [&first, &second].map(|side| self.arrive(problem, side));
-        let [Some(from), Some(to)] = ends else {
-            return;
-        };
-        let mut way: Vec<Point> = first.way;
-        way.reverse();
-        way.push(saddle.point);
-        way.extend(second.way);
-        let link = self.network.add_way(problem, from, to, way, settings);
-        self.transition_states.push((saddle, link));
-    }
-
-    /// The highest configuration of a link and the direction in which the link passes it.
-    fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
-        let q = self.network.peak_configuration(number)?;
-        let along = match self.network.way(number) {
-            Way::Same => return None,
-            Way::Straight => {
-                let link = &self.network.links[number];
-                let [a, b] = [link.from, link.to].map(|node| self.network.nodes[node as usize]);
-                a?.0.step_to(&b?.0)
-            }
-            Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
-        };
-        Some((q, along))
-    }
-}
-
-/// The descent from a transition state to one of its sides.
-fn off_saddle(
-    problem: &Problem,
-    saddle: &Stationary,
-    sign: f64,
-    known: &Verified,
-) -> Option<Descent> {
-    let unstable = saddle.modes.first()?.1;
-    let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
-    let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
-    let descent = descend_among(problem, &start, known);
-    (descent.way[0].energy <= saddle.point.energy).then_some(descent)
 }

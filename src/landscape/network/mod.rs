@@ -5,17 +5,22 @@
 //! A straight motion that the roadmap left unweighed costs at least what its ends tell: it peaks no
 //! lower than the higher one, and climbs no less than from the one to the other. Searches go by that,
 //! weigh what they found, and search again until nothing unweighed is on what they find; then it is
-//! the best there is (Dellin and Srinivasa 2016, arXiv:1603.04341).
+//! the best there is (Dellin and Srinivasa, *A unifying formalism for shortest path
+//! problems with expensive edge evaluations*, ICAPS 2016).
 
-use std::collections::{HashMap, HashSet};
+mod forest;
+mod routes;
+
+use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use ordered_float::OrderedFloat;
-use petgraph::algo::astar;
 use petgraph::graph::{NodeIndex, UnGraph};
-use petgraph::unionfind::UnionFind;
-use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
+use petgraph::visit::Dfs;
 use rayon::prelude::*;
+
+pub use forest::Merge;
+pub use routes::{Cost, Route};
 
 use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
@@ -63,37 +68,6 @@ pub struct Network {
     /// The links that minimax paths among the first `spanned` links use, ascending.
     tree: Vec<u32>,
     spanned: usize,
-}
-
-/// Two basins that meet, in ascending order of the energy at which they do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Merge {
-    /// The link that joins them.
-    pub link: usize,
-    /// The labelled node with the lowest energy in either basin: this one is the lower.
-    pub lower: usize,
-    /// The labelled node with the lowest energy in the other basin.
-    pub upper: usize,
-}
-
-/// A path through the network: links with the direction in which each is gone.
-pub type Route = Vec<(usize, bool)>;
-
-/// By which cost paths are compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cost {
-    /// Mechanical work against the energy (J).
-    Work,
-    /// -ln of the transition probabilities.
-    Probability,
-    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
-    /// exceed `highest` (J).
-    Below {
-        /// No link's peak on the path may exceed this (J).
-        highest: f64,
-        /// Energy (J) for each metre of the way.
-        per_metre: f64,
-    },
 }
 
 impl Network {
@@ -260,68 +234,6 @@ impl Network {
         }
     }
 
-    /// Works out which links minimax paths use, so that merges need to look at later links only, and
-    /// weighs them.
-    pub fn span(&mut self, problem: &Problem) {
-        loop {
-            let tree = self.spanning_links();
-            if !self.weigh(problem, tree.iter().map(|number| *number as usize)) {
-                self.tree = tree;
-                self.spanned = self.links.len();
-                return;
-            }
-        }
-    }
-
-    /// The minimum spanning forest by peak, ascending (Kruskal's algorithm): between any two nodes,
-    /// the path in it has the lowest possible highest peak. Links of equal peak are taken by their
-    /// numbers, so that there is one such forest only, and links that were not in it before are not
-    /// in it later.
-    fn spanning_links(&self) -> Vec<u32> {
-        let later = self.spanned as u32..self.links.len() as u32;
-        let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        let peak = |number: u32| OrderedFloat(self.costs(number as usize).peak);
-        ascending.par_sort_unstable_by_key(|&number| (peak(number), number));
-        let mut joined = UnionFind::<u32>::new(self.nodes.len());
-        ascending.retain(|number| {
-            let link = &self.links[*number as usize];
-            joined.union(link.from, link.to)
-        });
-        ascending
-    }
-
-    /// The merges of the basins of `labelled` nodes (with their energies, J), ascending: the merge
-    /// tree. Links join basins in the order of their peaks; each basin is known by its lowest
-    /// labelled node.
-    pub fn merges(&self, labelled: &[(usize, f64)]) -> Vec<Merge> {
-        let mut basins = UnionFind::<usize>::new(self.nodes.len());
-        let mut lowest: Vec<Option<(f64, usize)>> = vec![None; self.nodes.len()];
-        for &(node, energy) in labelled {
-            lowest[node] = Some((energy, node));
-        }
-        let mut merges = Vec::new();
-        for number in self.spanning_links() {
-            let link = &self.links[number as usize];
-            let [a, b] = [link.from, link.to].map(|node| basins.find(node as usize));
-            let (first, second) = (lowest[a], lowest[b]);
-            basins.union(a, b);
-            let joined = basins.find(a);
-            lowest[joined] = match (first, second) {
-                (Some(x), Some(y)) => {
-                    let (low, high) = if x <= y { (x, y) } else { (y, x) };
-                    merges.push(Merge {
-                        link: number as usize,
-                        lower: low.1,
-                        upper: high.1,
-                    });
-                    Some(low)
-                }
-                (x, y) => x.or(y),
-            };
-        }
-        merges
-    }
-
     /// For each node whether links lead there from `node`, over whatever others.
     pub fn joined_to(&self, node: usize) -> Vec<bool> {
         let mut joined = vec![false; self.nodes.len()];
@@ -330,128 +242,5 @@ impl Network {
             joined[node.index()] = true;
         }
         joined
-    }
-
-    /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
-    /// algorithm, paths added up by their maximum. Links that are not weighed are on no such route,
-    /// once the network is spanned.
-    pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
-        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            let number = edge.id().index();
-            self.is_weighed(number) && self.is_motion(number, from, goals)
-        });
-        let (peak, _) = astar(
-            &allowed,
-            NodeIndex::new(from),
-            |node| goals.contains(&node.index()),
-            |edge| Highest(self.costs(edge.id().index()).peak),
-            |_| Highest::default(),
-        )?;
-        Some(peak.0)
-    }
-
-    /// The cheapest route from a node to any of the `goals`, by Dijkstra's algorithm: its end, its
-    /// cost and its links.
-    pub fn cheapest(
-        &self,
-        problem: &Problem,
-        from: usize,
-        goals: &HashSet<usize>,
-        cost: Cost,
-    ) -> Option<(usize, f64, Route)> {
-        loop {
-            let found = self.cheapest_at_best(from, goals, cost)?;
-            let links = found.2.iter().map(|(number, _)| *number);
-            if !self.weigh(problem, links) {
-                return Some(found);
-            }
-        }
-    }
-
-    /// The same, with what links cost at least where they are not weighed.
-    fn cheapest_at_best(
-        &self,
-        from: usize,
-        goals: &HashSet<usize>,
-        cost: Cost,
-    ) -> Option<(usize, f64, Route)> {
-        let highest = match cost {
-            Cost::Below { highest, .. } => highest,
-            _ => f64::INFINITY,
-        };
-        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            let number = edge.id().index();
-            self.costs(number).peak <= highest && self.is_motion(number, from, goals)
-        });
-        let (total, nodes) = astar(
-            &allowed,
-            NodeIndex::new(from),
-            |node| goals.contains(&node.index()),
-            |edge| self.cost(edge.id().index(), edge.source().index(), cost),
-            |_| 0.0,
-        )?;
-        let route = nodes
-            .windows(2)
-            .filter_map(|pair| self.cheapest_link(pair[0], pair[1], highest, cost))
-            .collect();
-        Some((nodes.last()?.index(), total, route))
-    }
-
-    /// Whether a route between these ends may use a link: one without motion only where it starts
-    /// or ends at the node that stands for `free`. Far configurations are one place to come from
-    /// and to go to, but to pass from one to another takes a motion.
-    fn is_motion(&self, number: usize, from: usize, goals: &HashSet<usize>) -> bool {
-        let link = &self.links[number];
-        !matches!(self.way(number), Way::Same)
-            || [link.from as usize, link.to as usize]
-                .iter()
-                .filter(|&&node| self.nodes[node].is_none())
-                .any(|free| *free == from || goals.contains(free))
-    }
-
-    fn cheapest_link(
-        &self,
-        from: NodeIndex<u32>,
-        to: NodeIndex<u32>,
-        highest: f64,
-        cost: Cost,
-    ) -> Option<(usize, bool)> {
-        let price = |number: usize| self.cost(number, from.index(), cost);
-        let number = self
-            .graph
-            .edges_connecting(from, to)
-            .map(|edge| edge.id().index())
-            .filter(|number| self.costs(*number).peak <= highest)
-            .min_by_key(|&number| (OrderedFloat(price(number)), number))?;
-        Some((number, self.links[number].from as usize == from.index()))
-    }
-
-    fn cost(&self, number: usize, from: usize, cost: Cost) -> f64 {
-        let direction = usize::from(self.links[number].from as usize != from);
-        let costs = self.costs(number);
-        match cost {
-            Cost::Work => costs.work[direction],
-            Cost::Probability => costs.minus_ln_probability[direction],
-            Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
-        }
-    }
-}
-
-/// A highest energy (J): "adding" two of them gives the larger one, so that a shortest path is a
-/// minimax path. The neutral element is minus infinity, not 0: energies may be negative.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Highest(f64);
-
-impl Default for Highest {
-    fn default() -> Self {
-        Self(f64::NEG_INFINITY)
-    }
-}
-
-impl std::ops::Add for Highest {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0.max(other.0))
     }
 }
