@@ -39,7 +39,7 @@ mod wall;
 use rayon::prelude::*;
 
 use super::field::Field;
-use super::mesh::{Nodes, Profile, System, UNITS};
+use super::mesh::{Leaf, Nodes, Profile, System, UNITS};
 use super::sets::is_at_the_rim;
 use crate::configuration::Configuration;
 use piece::{Ground, Piece, Range};
@@ -51,6 +51,8 @@ use wall::Wall;
 const MARGIN: f64 = 1e-9;
 /// Divisions of the cells about a set's configuration, at most, until one lies in the set.
 const DIVISIONS: usize = 8;
+/// Halvings of a cell that tell whether rays through it have a length.
+const NARROW: usize = 6;
 /// Halvings of a cell that tell how low U gets in it.
 const HALVINGS: usize = 6;
 
@@ -163,6 +165,11 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     }
     let nodes = &Nodes::new(mesh);
     let rim = sets.len();
+    // Where contact reaches to where tiles are free, as at corners, both are done without.
+    let is_narrow = |(id, leaf): (usize, &Leaf)| {
+        leaf.live && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
+    };
+    let narrow: Vec<bool> = mesh.leaves.par_iter().enumerate().map(is_narrow).collect();
     // Dirichlet's side.
     let mut pins = vec![None; nodes.len()];
     let mut pin = |node: u32, set: usize| -> Option<()> {
@@ -178,7 +185,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let outer = mesh.chart.cells[0] * UNITS;
     for (id, leaf, _) in mesh.live() {
         for (number, &node) in nodes.corners[id].iter().enumerate() {
-            if leaf.corner(number)[0] == outer {
+            if narrow[id] || leaf.corner(number)[0] == outer {
                 pin(node, rim)?;
             }
             for set in (0..sets.len()).filter(|&set| cells[set].wide[id]) {
@@ -194,7 +201,8 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let trial = system.solve(&given, &none, &none).ok()?;
     // Thomson's.
     let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
-    let (network, profile) = field.network_between(nodes, &inside, rim, &trial)?;
+    let (network, profile) =
+        field.network_between(nodes, &inside, &|id| narrow[id], rim, &trial)?;
     let fluxes = network.fluxes();
     let flux = fluxes.from(0, &fluxes.potentials(nodes, &trial)).ok()?;
     let mut upwards = vec![None; mesh.leaves.len()];
@@ -284,6 +292,18 @@ fn range(
         .map(|half| range(ground, half, level, is_open, halved + 1));
     let [[a, b], [c, d]] = halves;
     [a.min(c).max(found[0]), b.max(d).min(found[1])]
+}
+
+/// Whether rays through a piece may have no length, looked at in so many halvings.
+fn is_narrow(ground: &Ground, piece: Piece, level: u8, halvings: usize) -> bool {
+    let place = ground.place(&piece, level);
+    let is_clear = place.as_ref().is_some_and(|place| !place.is_narrow());
+    if is_clear || halvings == 0 {
+        return !is_clear && place.is_some();
+    }
+    let axis = place.map_or(halvings % 3, |place| place.axis());
+    let mut halves = piece.halves(axis).into_iter();
+    halves.any(|half| is_narrow(ground, half, level, halvings - 1))
 }
 
 impl Cells {

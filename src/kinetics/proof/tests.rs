@@ -213,7 +213,9 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
     let trial = System::new(mesh, &nodes, &pinned);
     let trial = trial.solve(&given, &none, &none).unwrap();
     let inside = |id: usize| held.contains(&id).then_some(0);
-    let (network, profile) = field.network_between(&nodes, &inside, 1, &trial).unwrap();
+    let (network, profile) = field
+        .network_between(&nodes, &inside, &|_| false, 1, &trial)
+        .unwrap();
     let fluxes = network.fluxes();
     let flux = fluxes.from(0, &fluxes.potentials(&nodes, &trial)).unwrap();
     let mut roles: Vec<(Piece, Role)> = Vec::new();
