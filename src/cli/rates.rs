@@ -35,8 +35,9 @@ reflected where tiles touch. Mean exit times and committors solve the backward e
 sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
 all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
 estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
-the capacity of the well about the start and how often tiles set out from there for an end (not the
-mean exit time). Without --start: rates between the bond, the deepest traps and free tiles. The ends
+how often tiles set out from the well about the start for an end, or from each basin for another, and
+bounds of the mean time until they are there: near each other only where the well holds next to all
+that the ends do not, far below the passes. Without --start: rates between the bond, the deepest traps and free tiles. The ends
 are sets; without them no rate means anything, so they are printed beside every number.
 
 kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
@@ -48,7 +49,8 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
     --basin-energy -0.03 --free-at 0.75 --json
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove"
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove
+  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove"
 )]
 pub struct Rates {
     #[command(flatten)]
@@ -76,14 +78,15 @@ pub struct Rates {
     free_at: Option<f64>,
 
     /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
-    /// time, or those of the rates out of the bond and of the traps [default: 0.1, as far as it
-    /// comes within seconds]
+    /// time, or those of the rates out of the bond and of the traps and of all that make up a tenth
+    /// of these [default: 0.1, as far as it comes within seconds]
     #[arg(long, value_name = "REL", value_parser = input::positive)]
     certify: Option<f64>,
 
-    /// Prove how often tiles set out from the well about the start for an end, for tiles that are
-    /// convex about their centres of mass, of few corners
-    #[arg(long, requires = "start")]
+    /// Prove how often tiles set out from the well about the start, or from each basin, and bounds of
+    /// the mean time until they are at an end, for tiles that are convex about their centres of mass,
+    /// of few corners
+    #[arg(long)]
     prove: bool,
 
     /// Kinds of traps with rates, the deepest first
@@ -91,8 +94,8 @@ pub struct Rates {
           conflicts_with = "start")]
     traps: usize,
 
-    /// Folder for report.html, report.json, rates.csv, occupation.csv, over-kt.csv, committor.csv
-    /// and pictures/
+    /// Folder for report.html, report.json, rates.csv, occupation.csv, over-kt.csv, committor.csv,
+    /// pictures/ and, with --prove, proved.csv
     #[arg(long, value_name = "DIR", conflicts_with = "start")]
     out: Option<PathBuf>,
 
@@ -129,13 +132,8 @@ impl Rates {
         let problem = design.problem();
         let half = || half_bond(&problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
-        let certify = self.certify.map_or_else(Certify::of_exit, Certify::to);
         let asked = ExitSettings {
-            certify: Some(if self.prove {
-                certify.proved()
-            } else {
-                certify
-            }),
+            certify: Some(self.certified(Certify::of_exit)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
         let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {
@@ -160,6 +158,15 @@ impl Rates {
             let check = checked.map(|runs| report::check_summary(&motion, &found, &runs));
             text + &check.unwrap_or_default()
         })
+    }
+
+    /// How closely things are bounded, and whether that is proved.
+    fn certified(&self, usual: fn() -> Certify) -> Certify {
+        let certify = self.certify.map_or_else(usual, Certify::to);
+        match self.prove {
+            true => certify.proved(),
+            false => certify,
+        }
     }
 
     fn runs(&self, asked: &ExitSettings, runs: usize, mean: f64) -> ExitRunSettings {
@@ -208,7 +215,7 @@ impl Rates {
         let places = report::Place::held(&analysis, self.kt, self.traps, self.basin_energy);
         let basins = places.iter().map(report::Place::basin);
         let asked = RateSettings {
-            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
+            certify: Some(self.certified(Certify::default)),
             map: self.out.as_ref().map(|_| SQUARES),
             ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
         };

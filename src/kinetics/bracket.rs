@@ -37,18 +37,17 @@ pub(super) struct Asked<'a> {
 pub(super) struct Bracket {
     /// From below and from above, by places (rad).
     capacities: Vec<[f64; 2]>,
-    /// What flows between every two places (rad).
-    flows: Vec<Vec<Bounded>>,
-    /// The integrals of each committor times the load.
-    occupations: Vec<Bounded>,
-    /// The same of the functions on the mesh.
+    /// What flows between every two places (rad), as the mesh has it.
+    flows: Vec<Vec<f64>>,
+    /// The integrals of the functions on the mesh times the load.
     held: Vec<f64>,
-    /// For each place `<d - e, d' - e'>` and the square of `d' - e'` for the mean time.
-    times: Vec<[f64; 2]>,
-    /// What refining the cells may bring.
-    pub shares: Vec<f64>,
-    /// By how much capacities are off, relative, because basins are made of cells: an estimate.
-    pub of_rims: f64,
+    /// `<d - e, d' - e'>` of every two problems, the last of which is the mean time.
+    gaps: Vec<Vec<f64>>,
+    /// The same by cells.
+    by_cells: Vec<Vec<Vec<f64>>>,
+    /// What cells add to capacities, relative, because basins are made of cells, and in all: an
+    /// estimate.
+    of_rims: Vec<(Vec<(usize, f64)>, f64)>,
 }
 
 /// A figure and its bounds.
@@ -110,83 +109,54 @@ impl Bracket {
         let capacities: Vec<[f64; 2]> = (0..count)
             .map(|place| [found[place].capacity, energy(place)])
             .collect();
-        let mut squares: Vec<f64> = capacities
-            .iter()
-            .map(|[lower, upper]| upper - lower)
+        let by_cells: Vec<Vec<Vec<f64>>> = (0..=count)
+            .into_par_iter()
+            .map(|i| {
+                let with = |j| fluxes.products(mesh, nodes, &gap(i), &gap(j));
+                (0..=i).map(with).collect()
+            })
             .collect();
-        squares.push(found[count].cost - held(&values[count]));
-        let size = |place: usize| squares[place].max(0.0).sqrt();
-        // What is missing in a product of two problems.
-        let products = |i: usize, j: usize| fluxes.products(mesh, nodes, &gap(i), &gap(j));
-        let product = |i: usize, j: usize| products(i, j).iter().sum::<f64>();
-        let with_time: Vec<Vec<f64>> = (0..count).map(|place| products(place, count)).collect();
-        let times: Vec<[f64; 2]> = with_time
-            .iter()
-            .map(|products| [products.iter().sum(), squares[count].max(0.0)])
-            .collect();
-        let missing = |i: usize, j: usize| {
-            let known = if j == count {
-                times[i][0]
-            } else {
-                product(i, j)
+        // The squares from what is known more closely than cell by cell.
+        let square = |place: usize| match capacities.get(place) {
+            Some([lower, upper]) => upper - lower,
+            None => found[count].cost - held(&values[count]),
+        };
+        let gaps = (0..=count).map(|i| {
+            let with = |j: usize| match i == j {
+                true => square(i).max(0.0),
+                false => by_cells[i.max(j)][i.min(j)].iter().sum(),
             };
-            (0.5 * known, 0.5 * size(i) * size(j))
-        };
-        let around = |value: f64, (middle, off): (f64, f64)| Bounded {
-            value: (value + middle).max(0.0),
-            ends: [-off, off].map(|off| (value + middle + off).max(0.0)),
-        };
-        let occupations: Vec<Bounded> = (0..count)
-            .map(|place| around(held(&values[place]), missing(place, count)))
-            .collect();
+            (0..=count).map(with).collect()
+        });
         let flow = |i: usize, j: usize| {
             let out = system.fluxes(&values[i]);
             let into = pins.iter().zip(out).filter(|(pin, _)| **pin == Some(j));
-            around(-into.map(|(_, flux)| flux).sum::<f64>(), missing(i, j))
+            -into.map(|(_, flux)| flux).sum::<f64>()
         };
         let between = |i: usize, j: usize| match i == j {
-            true => Bounded::default(),
+            true => 0.0,
             false => flow(i.max(j), i.min(j)),
         };
-        let flows = (0..count)
-            .map(|i| (0..count).map(|j| between(i, j)).collect())
-            .collect();
-        // How far the bounds of occupation over capacity are apart, by cells.
-        let mut shares = vec![0.0; mesh.leaves.len()];
-        let relaxing = products(count, count);
-        for (place, with_time) in with_time.iter().enumerate() {
-            let held = held(&values[place]);
-            let time = held / energy(place);
-            let own = products(place, place);
-            let both = |cell: usize| {
-                relaxing[cell] + 2.0 * time * with_time[cell] + time * time * own[cell]
-            };
-            let whole: f64 = (0..own.len()).map(both).sum();
-            let ratio = (whole / squares[place].max(f64::MIN_POSITIVE))
-                .max(0.0)
-                .sqrt();
-            for (cell, share) in shares.iter_mut().enumerate() {
-                let other = if ratio > 0.0 { both(cell) / ratio } else { 0.0 };
-                *share += 0.5 * (own[cell].max(0.0) * ratio + other.max(0.0)) / held;
-            }
-        }
-        let mut of_rims: f64 = 0.0;
-        for values in &values[..count] {
-            let (errors, sum) = asked.rims.errors(field, nodes, values);
-            of_rims = of_rims.max(sum);
-            for (cell, error) in errors {
-                shares[cell] += error;
-            }
-        }
+        let of_rims = values[..count]
+            .iter()
+            .map(|values| asked.rims.errors(field, nodes, values));
+        let of_rims: Vec<_> = of_rims.collect();
         Ok(Self {
-            capacities,
-            flows,
-            occupations,
+            flows: (0..count)
+                .map(|i| (0..count).map(|j| between(i, j)).collect())
+                .collect(),
             held: (0..count).map(|place| held(&values[place])).collect(),
-            times,
-            shares,
+            gaps: gaps.collect(),
+            capacities,
+            by_cells,
             of_rims,
         })
+    }
+
+    /// What is missing in a product of two problems, and how far it may be off.
+    fn missing(&self, i: usize, j: usize) -> [f64; 2] {
+        let off = (self.gaps[i][i] * self.gaps[j][j]).sqrt();
+        [0.5 * self.gaps[i][j], 0.5 * off]
     }
 
     /// Bounds of the occupation and a known `rest` of it over the capacity: what is missing in
@@ -194,7 +164,7 @@ impl Bracket {
     /// difference, T is none. Nearer each other than the quotients of the ends.
     pub fn ratio(&self, place: usize, rest: f64) -> [f64; 2] {
         let [lower, upper] = self.capacities[place];
-        let [product, square] = self.times[place];
+        let (product, square) = (self.with_time(place), self.of_time());
         let (middle, gap) = (0.5 * (lower + upper), upper - lower);
         let held = self.held[place] + 0.5 * product + rest;
         // The roots of a T^2 - 2 b T + c.
@@ -213,13 +183,99 @@ impl Bracket {
         ]
     }
 
-    /// Bounds of what flows between two places (rad).
-    pub fn flow(&self, i: usize, j: usize) -> Bounded {
-        self.flows[i][j]
+    /// Bounds of what flows between two places over the occupation of the first and a known `rest`
+    /// of it: what is missing in `flow - k occupation` is `<e, e' - k e''>`, as in [`Self::ratio`].
+    pub fn rate(&self, from: usize, to: usize, rest: f64) -> [f64; 2] {
+        let gap = self.gaps[from][from];
+        let flow = self.flows[from][to] + 0.5 * self.gaps[from][to];
+        let held = self.held[from] + 0.5 * self.with_time(from) + rest;
+        // The roots of a k^2 - 2 b k + c.
+        let a = held * held - 0.25 * gap * self.of_time();
+        let b = flow * held - 0.25 * gap * self.with_time(to);
+        let c = flow * flow - 0.25 * gap * self.gaps[to][to];
+        let sum = b + (b * b - a * c).max(0.0).sqrt();
+        let is_known = |part: f64, whole: f64| part > 0.0 && whole > 0.0;
+        [
+            if is_known(flow, c) {
+                (c / sum).max(0.0)
+            } else {
+                0.0
+            },
+            if is_known(held, a) {
+                (sum / a).max(0.0)
+            } else {
+                f64::INFINITY
+            },
+        ]
+    }
+
+    /// `<d - e, d' - e'>` of a place and the mean time.
+    fn with_time(&self, place: usize) -> f64 {
+        self.gaps[place][self.held.len()]
+    }
+
+    /// The square of `d' - e'` of the mean time.
+    fn of_time(&self) -> f64 {
+        self.gaps[self.held.len()][self.held.len()]
+    }
+
+    /// What flows between two places (rad), midway between its bounds.
+    pub fn flow(&self, i: usize, j: usize) -> f64 {
+        (self.flows[i][j] + self.missing(i, j)[0]).max(0.0)
     }
 
     /// Bounds of the integral of a place's committor times the load.
     pub fn occupation(&self, place: usize) -> Bounded {
-        self.occupations[place]
+        let [middle, off] = self.missing(place, self.held.len());
+        let value = self.held[place] + middle;
+        Bounded {
+            value: value.max(0.0),
+            ends: [-off, off].map(|off| (value + off).max(0.0)),
+        }
+    }
+
+    /// What refining the cells may bring to the bounds of mean exit times and, for these pairs, of
+    /// rates: how far they are apart by cells, relative.
+    pub fn shares(&self, pairs: &[(usize, usize)]) -> Vec<f64> {
+        let count = self.held.len();
+        let cells = self.by_cells[0][0].len();
+        let by_cells = |i: usize, j: usize| &self.by_cells[i.max(j)][i.min(j)];
+        let mut shares = vec![0.0; cells];
+        // Of `|d - e| |d' - e' + factor (d'' - e'')| / 2`, relative to something of such a size.
+        let mut add = |place: usize, other: usize, factor: f64, third: usize, size: f64| {
+            let both = |cell: usize| {
+                by_cells(other, other)[cell]
+                    + 2.0 * factor * by_cells(other, third)[cell]
+                    + factor * factor * by_cells(third, third)[cell]
+            };
+            let whole: f64 = (0..cells).map(both).sum();
+            let ratio = whole / self.gaps[place][place].max(f64::MIN_POSITIVE);
+            let ratio = ratio.max(0.0).sqrt();
+            let own = by_cells(place, place);
+            for (cell, share) in shares.iter_mut().enumerate() {
+                let other = if ratio > 0.0 { both(cell) / ratio } else { 0.0 };
+                *share += 0.5 * (own[cell].max(0.0) * ratio + other.max(0.0)) / size;
+            }
+        };
+        for place in 0..count {
+            let held = self.held[place];
+            add(place, count, held / self.capacities[place][1], place, held);
+        }
+        for &(from, to) in pairs {
+            let (flow, held) = (self.flows[from][to], self.held[from]);
+            add(from, to, -flow / held, count, flow);
+        }
+        for (errors, _) in &self.of_rims {
+            for (cell, error) in errors {
+                shares[*cell] += error;
+            }
+        }
+        shares
+    }
+
+    /// By how much capacities are off, relative, because basins are made of cells: an estimate.
+    pub fn off_by_rims(&self) -> f64 {
+        let sums = self.of_rims.iter().map(|(_, sum)| *sum);
+        sums.fold(0.0, f64::max)
     }
 }

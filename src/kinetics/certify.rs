@@ -71,8 +71,8 @@ impl Certify {
 pub(super) struct Step {
     /// From below and above.
     pub bounds: Vec<[f64; 2]>,
-    /// How many of them, from the first on, should be narrow.
-    pub deciding: usize,
+    /// Those that should be narrow.
+    pub deciding: Vec<usize>,
     /// Corners of the mesh.
     pub unknowns: usize,
     /// What refining the cells may bring.
@@ -96,7 +96,7 @@ pub(super) fn narrowed<E>(
         let Some(found) = step(field)? else {
             return Ok(Vec::new());
         };
-        let deciding = found.bounds[..found.deciding].iter();
+        let deciding = found.deciding.iter().map(|&at| found.bounds[at]);
         let distances = deciding.map(|[lower, upper]| upper / lower - 1.0);
         // What is no number is far, too.
         let farthest = distances.fold(0.0, |far: f64, one| if one <= far { far } else { one });

@@ -232,9 +232,9 @@ impl Ends {
         let scale = ((field.level() - field.ground()) / field.kt).exp();
         Ok(Some(Step {
             bounds: vec![bracket.ratio(0, 0.0).map(|time| scale * time)],
-            deciding: 1,
+            deciding: vec![0],
             unknowns: nodes.len(),
-            shares: bracket.shares,
+            shares: bracket.shares(&[]),
             rates: None,
         }))
     }

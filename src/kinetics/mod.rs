@@ -29,11 +29,14 @@
 //! in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come of Gauss' rule. And a basin is
 //! made of the cells whose mean of U lies below its limit; by Hadamard's formula, what that shifts
 //! capacities by is estimated, stated with each mesh, and makes the mesh be refined there.
-//! The capacity of the well about an exit's start against its ends, and how often tiles set out from
-//! it for them, are *proved* where that is asked for: `proof` has integrals and sets enclosed by the
-//! energies' bounds over cells ([`crate::potential::CellBounds`]), see [`Capacity`]. That takes convex
-//! outlines of few corners about their centres of mass. The mean exit time itself, which counts what
-//! lies between well and ends as well, is not proved.
+//! The capacity of the well about an exit's start against its ends, or of each basin against the
+//! others and free tiles, and how often tiles set out from it for them, are *proved* where that is
+//! asked for: `proof` has integrals and sets enclosed by the energies' bounds over cells
+//! ([`crate::potential::CellBounds`]), see [`Capacity`]. That takes convex outlines of few corners
+//! about their centres of mass. The mean exit time counts what lies between well and ends as well,
+//! by the probability to come back from there, of which no more is proved than that it is at most 1:
+//! its proved bounds ([`Capacity::mean_exit`]) are near each other only where next to nothing lies
+//! there.
 //! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
 //! begins there, and there are bounds from one side only: Dirichlet's.
 //!

@@ -9,7 +9,9 @@ use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
 
 /// How far (in kT) below its lowest pass a well lies in equilibrium.
-const DEEP: f64 = 12.0;
+pub(super) const DEEP: f64 = 12.0;
+/// Rates that make up this share of all that leaves a basin are bounded as closely as it is asked.
+const MATTERS: f64 = 0.1;
 
 /// Which cell belongs to which basin.
 pub(super) struct Places {
@@ -295,19 +297,34 @@ impl Places {
                 }
             })
             .collect();
-        let over = |[lower, upper]: [f64; 2], place: usize| {
-            let [least, most] = held[place].ends;
-            [scale * lower / most, scale * upper / least]
+        let rest = |place: usize| match place + 1 == self.count {
+            true => beyond / copies,
+            false => 0.0,
         };
+        let value = |i: usize, j: usize| match i == j {
+            true => 0.0,
+            false => scale * bracket.flow(i, j) / held[i].value,
+        };
+        let rates: Vec<Vec<f64>> = places
+            .clone()
+            .map(|i| places.clone().map(|j| value(i, j)).collect())
+            .collect();
         let mut bounds: Vec<[f64; 2]> = places
             .clone()
             .map(|place| {
-                let rest = if place + 1 == self.count { beyond } else { 0.0 };
-                let [least, most] = bracket.ratio(place, rest / copies);
+                let [least, most] = bracket.ratio(place, rest(place));
                 [scale / copies / most, scale / copies / least]
             })
             .collect();
-        let mut shares = bracket.shares.clone();
+        let matters =
+            |&(i, j): &(usize, usize)| rates[i][j] >= MATTERS * rates[i].iter().sum::<f64>();
+        let wells = 0..self.count - 1;
+        let pairs: Vec<(usize, usize)> = wells
+            .clone()
+            .flat_map(|i| places.clone().filter(move |j| *j != i).map(move |j| (i, j)))
+            .filter(matters)
+            .collect();
+        let mut shares = bracket.shares(&pairs);
         if !self.shared.is_empty() {
             // Basins that the mesh does not tell apart.
             bounds[0] = [0.0, f64::INFINITY];
@@ -318,29 +335,29 @@ impl Places {
         let widest = |far: f64, [lower, upper]: &[f64; 2]| far.max(upper / lower - 1.0);
         let error = bounds[..self.count - 1].iter().fold(0.0, widest);
         let all: f64 = held.iter().map(|own| own.value).sum();
-        let rates = MeshRates {
-            rates: places
-                .clone()
-                .map(|i| {
-                    let rate = |j| scale * bracket.flow(i, j).value / held[i].value;
-                    places.clone().map(rate).collect()
-                })
-                .collect(),
-            occupation: held.iter().map(|own| own.value / all).collect(),
-            volumes: held.iter().map(|own| own.value).collect(),
-            unknowns: nodes.len(),
-            error,
-            of_rims: bracket.of_rims,
-        };
         for i in places.clone() {
-            bounds.extend(places.clone().map(|j| over(bracket.flow(i, j).ends, i)));
+            let rate = |j| {
+                bracket
+                    .rate(i, j, rest(i))
+                    .map(|rate| scale / copies * rate)
+            };
+            bounds.extend(places.clone().map(rate));
         }
+        let at = |&(i, j): &(usize, usize)| self.count * (i + 1) + j;
+        let deciding = wells.chain(pairs.iter().map(at)).collect();
         Ok(Step {
             bounds,
-            deciding: self.count - 1,
+            deciding,
             unknowns: nodes.len(),
             shares,
-            rates: Some(rates),
+            rates: Some(MeshRates {
+                rates,
+                occupation: held.iter().map(|own| own.value / all).collect(),
+                volumes: held.iter().map(|own| own.value).collect(),
+                unknowns: nodes.len(),
+                error,
+                of_rims: bracket.off_by_rims(),
+            }),
         })
     }
 }

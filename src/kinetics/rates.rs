@@ -7,7 +7,8 @@ use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
-use super::places::Places;
+use super::places::{DEEP, Places};
+use super::proof::{self, Capacity, Set};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -58,7 +59,9 @@ pub struct RateSettings {
     /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
     /// mesh's or more.
     pub unknowns: usize,
-    /// Relative distance of the bounds of the rates out of the basins that is asked for; without it none are found.
+    /// Relative distance that is asked for of the bounds of the rates out of the basins, and of those
+    /// between two places that make up a tenth of what leaves the first or more; without it none are
+    /// found.
     pub certify: Option<Certify>,
     /// Squares along x and y of a map of the committor from `free` to the first basin, if one is
     /// asked for.
@@ -123,6 +126,17 @@ pub struct Rates {
     pub inside: Vec<f64>,
     /// For each basin whether a way leads out of it to free tiles.
     pub ways: Vec<Way>,
+    /// For each basin what is proved of it, if that was asked for and can be had.
+    pub proved: Vec<Option<Leaving>>,
+}
+
+/// What is proved of how a basin is left for any other or free tiles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaving {
+    /// Its capacity against the others and free tiles.
+    pub capacity: Capacity,
+    /// Where the others' proofs say that this basin is reached: it lies below this (J).
+    pub end_below: f64,
 }
 
 /// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
@@ -239,14 +253,19 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = places.inside(&field, settings, beyond);
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
-            let (finest, bounds) = bounded(problem, settings, [ground, beyond])?.unzip();
-            meshes.extend(finest.flatten());
+            let found = bounded(problem, settings, [ground, beyond])?;
+            let (finest, bounds, proved) = found.unwrap_or_default();
+            meshes.extend(finest);
             return Ok(Rates {
                 meshes,
                 bounds: bounds.or(settings.certify.map(|_| upper)),
                 map,
                 inside,
                 ways,
+                proved: match proved.is_empty() {
+                    true => vec![None; settings.basins.len()],
+                    false => proved,
+                },
             });
         }
         for &(cell, _) in &places.shared {
@@ -262,13 +281,16 @@ pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
 }
 
+/// What a mesh with bounds says, these, and what is proved on it.
+type Certified = (Option<MeshRates>, Option<RateBounds>, Vec<Option<Leaving>>);
+
 /// What the finest of meshes that begin at contact says, and its bounds, if there are any. Energies
 /// are counted from `ground` (J), and `beyond` is the occupation of the table outside the mesh.
 fn bounded(
     problem: &Problem,
     settings: &RateSettings,
     [ground, beyond]: [f64; 2],
-) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
+) -> Result<Option<Certified>, RatesError> {
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
@@ -280,12 +302,46 @@ fn bounded(
         Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
     })?;
     let count = settings.basins.len() + 1;
+    let proved = proved(&mut field, settings);
     Ok(all.pop().map(|step| {
         let rates = step.bounds[count..].chunks(count);
         let bounds = RateBounds {
             leaving: step.bounds[..count].to_vec(),
             rates: rates.map(<[_]>::to_vec).collect(),
         };
-        (step.rates, bounds)
+        (step.rates, Some(bounds), proved)
     }))
+}
+
+/// What can be proved of how each basin is left, where that is asked for. Basins reach as high as on
+/// the mesh where they are reached, and below their limits where they are left.
+fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
+    let Some(asked) = settings.certify.and_then(|certify| certify.proof()) else {
+        return Vec::new();
+    };
+    let deep = field.level() - DEEP * field.kt;
+    let end = |basin: &Basin| Set {
+        at: basin.at,
+        below: basin.below.max(deep),
+        wide: basin.below.max(deep),
+    };
+    let basins = settings.basins.iter().enumerate();
+    basins
+        .map(|(own, basin)| {
+            let first = Set {
+                below: basin.below,
+                ..end(basin)
+            };
+            let others = settings.basins.iter().enumerate();
+            let others = others.filter(|(other, _)| *other != own);
+            let sets: Vec<Set> = [first]
+                .into_iter()
+                .chain(others.map(|(_, other)| end(other)))
+                .collect();
+            Some(Leaving {
+                capacity: proof::capacity(field, &sets, asked)?,
+                end_below: end(basin).below,
+            })
+        })
+        .collect()
 }

@@ -209,11 +209,16 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
             assert!(lower <= rate && rate <= upper, "{lower} {rate} {upper}");
         }
     }
-    let [time, _] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
-    assert!(
-        lies_within(1.0 / time, bounds.leaving[1]),
-        "{bounds:?} {time}"
-    );
+    let [time, bound] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
+    let [to_bond, to_free] = [bounds.rates[1][0], bounds.rates[1][2]];
+    for (part, ends) in [
+        (1.0, bounds.leaving[1]),
+        (bound, to_bond),
+        (1.0 - bound, to_free),
+    ] {
+        assert!(lies_within(part / time, ends), "{part} {ends:?} {time}");
+        assert!(ends[1] < 2.0 * ends[0], "{ends:?}");
+    }
 }
 
 /// Fluxes along contact are laid for convex outlines only: what is left are the bounds that trial

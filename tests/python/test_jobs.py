@@ -247,6 +247,20 @@ def test_shaken_tiles(design, analysis):
     assert held["ln_K"] == pytest.approx(held["bond_kT"] - held["docking_cost_kT"])
     with pytest.raises(ValueError, match="kt"):
         design.exits([0.43, -0.04, 0], kt=-1)
+    with pytest.raises(ValueError, match="certify"):
+        design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
+    lower, upper = left["mean_exit_bounds_s"]
+    assert lower < left["mean_exit_s"] < upper and left["proved"] is None
+    closely = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75, certify=0.6, prove=True)
+    least, most = closely["proved"]["mean_exit_s"]
+    assert least < lower and upper < most
+    # Of a well far below the passes next to all is in it: proved from both sides.
+    found = analysis.rates(3e-3, traps=0, certify=0.6, prove=True)
+    bond = found["places"][0]
+    least, most = bond["proved"]["mean_exit_s"]
+    assert least < 1 / bond["leaving_per_s"] < most < 3 * least
+    with pytest.raises(ValueError, match="certify"):
+        analysis.rates(3e-3, certify=-0.1)
     with pytest.raises(ValueError, match="coverage"):
         analysis.bond(3e-3, 30)
     with pytest.raises(ValueError, match="kt"):

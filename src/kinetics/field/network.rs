@@ -51,16 +51,18 @@ impl Field<'_> {
         Network::new(&self.mesh, nodes, pins, rim, profile, &costs.of)
     }
 
-    /// The same between places given by the cells that they are made of, with how fluxes are spread.
+    /// The same between places given by the cells that they are made of, through none of the cells
+    /// left out, with how fluxes are spread.
     pub fn network_between(
         &self,
         nodes: &Nodes,
         place: &dyn Fn(usize) -> Option<usize>,
+        is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
         like: &[f64],
     ) -> Option<(Network, Profile)> {
         let (profile, costs) = self.costs(nodes, like);
-        let network = Network::between(&self.mesh, place, rim, profile, &costs.of)?;
+        let network = Network::between(&self.mesh, place, is_left_out, rim, profile, &costs.of)?;
         Some((network, profile))
     }
 

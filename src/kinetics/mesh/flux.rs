@@ -66,13 +66,15 @@ impl Network {
             let first = places.next()??;
             places.all(|other| other == Some(first)).then_some(first)
         };
-        Self::between(mesh, &place, rim, profile, resistance)
+        Self::between(mesh, &place, &|_| false, rim, profile, resistance)
     }
 
-    /// Between places given by the cells that they are made of, and the rim.
+    /// Between places given by the cells that they are made of, and the rim, through none of the
+    /// cells that are left out.
     pub fn between(
         mesh: &Octree,
         place: &dyn Fn(usize) -> Option<usize>,
+        is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
         profile: Profile,
         resistance: &[Option<Box<Matrix6<f64>>>],
@@ -82,7 +84,7 @@ impl Network {
         }
         let (sides, mut ends) = sides(mesh, rim, &profile);
         let mut cells = Vec::new();
-        for (id, ..) in mesh.live() {
+        for (id, ..) in mesh.live().filter(|(id, ..)| !is_left_out(*id)) {
             let Some(place) = place(id) else {
                 cells.push(id);
                 continue;

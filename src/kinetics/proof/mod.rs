@@ -51,6 +51,8 @@ use wall::Wall;
 const MARGIN: f64 = 1e-9;
 /// Divisions of the cells about a set's configuration, at most, until one lies in the set.
 const DIVISIONS: usize = 8;
+/// Halvings of a cell that tell whether rays through it have a length.
+const NARROW: usize = 6;
 /// Halvings of a cell that tell how low U gets in it.
 const HALVINGS: usize = 6;
 
@@ -75,6 +77,8 @@ pub struct Capacity {
     pub capacity: [f64; 2],
     /// Bounds of the integral Z of e^(-U/kT) over the set (m^2 rad), so counted, too.
     pub held: [f64; 2],
+    /// A bound from above of the same integral over all that is neither in another set nor free.
+    pub around: f64,
 }
 
 impl Capacity {
@@ -84,6 +88,18 @@ impl Capacity {
         [
             self.capacity[0] / self.held[1],
             self.capacity[1] / self.held[0],
+        ]
+    }
+
+    /// Bounds of the mean time T, times D (m^2), until a tile that sets out where it leaves the set
+    /// for another or free ones, as often as it does so there, reaches these: T D is the integral of
+    /// h e^(-U/kT) over C, and h is 1 on the set and no greater elsewhere (Bovier, Eckhoff, Gayrard
+    /// and Klein 2004, doi:10.4171/JEMS/14). Near each other where this set holds next to all that no
+    /// other does; where most is held outside of them, the upper one says little.
+    pub fn mean_exit(&self) -> [f64; 2] {
+        [
+            self.held[0] / self.capacity[1],
+            self.around / self.capacity[0],
         ]
     }
 }
@@ -149,6 +165,11 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     }
     let nodes = &Nodes::new(mesh);
     let rim = sets.len();
+    // Where contact reaches to where tiles are free, as at corners, both are done without.
+    let is_narrow = |(id, leaf): (usize, &Leaf)| {
+        leaf.live && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
+    };
+    let narrow: Vec<bool> = mesh.leaves.par_iter().enumerate().map(is_narrow).collect();
     // Dirichlet's side.
     let mut pins = vec![None; nodes.len()];
     let mut pin = |node: u32, set: usize| -> Option<()> {
@@ -164,7 +185,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let outer = mesh.chart.cells[0] * UNITS;
     for (id, leaf, _) in mesh.live() {
         for (number, &node) in nodes.corners[id].iter().enumerate() {
-            if leaf.corner(number)[0] == outer {
+            if narrow[id] || leaf.corner(number)[0] == outer {
                 pin(node, rim)?;
             }
             for set in (0..sets.len()).filter(|&set| cells[set].wide[id]) {
@@ -180,29 +201,41 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let trial = system.solve(&given, &none, &none).ok()?;
     // Thomson's.
     let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
-    let (network, profile) = field.network_between(nodes, &inside, rim, &trial)?;
+    let (network, profile) =
+        field.network_between(nodes, &inside, &|id| narrow[id], rim, &trial)?;
     let fluxes = network.fluxes();
     let flux = fluxes.from(0, &fluxes.potentials(nodes, &trial)).ok()?;
     let mut upwards = vec![None; mesh.leaves.len()];
     for (cell, sides) in fluxes.upwards(&flux) {
         upwards[cell] = Some(sides);
     }
+    let is_others = |id: usize| cells[1..].iter().any(|cells| cells.inner[id]);
     let role = |id: usize| Role {
         values: Some(nodes.of(id, &trial)).filter(|it| it.iter().any(|value| *value != it[0])),
         fluxes: upwards[id].filter(|sides| sides.iter().any(|flux| *flux != 0.0)),
         load: cells[0].inner[id].then_some(Load::All),
+        around: !is_others(id),
     };
     let own = |id: usize| Piece::whole(id, &mesh.leaves[id]);
     let mut roles: Vec<(Piece, Role)> = mesh.live().map(|(id, ..)| (own(id), role(id))).collect();
     roles.extend(rim::pieces(mesh, &even, &cells[0], sets[0].below));
-    let held = |(id, leaf): (usize, &Leaf)| match &leaf.element {
-        Some(element) if cells[0].inner[id] => element.load.iter().sum(),
-        _ => 0.0,
+    let load = |is_asked: &dyn Fn(usize) -> bool| -> f64 {
+        let asked = mesh.live().filter(|(id, ..)| is_asked(*id));
+        let each = asked.map(|(.., element)| element.load.iter().sum::<f64>());
+        each.sum()
     };
-    let held: f64 = mesh.leaves.iter().enumerate().map(held).sum();
+    let held = load(&|id| cells[0].inner[id]);
+    let around = load(&|id| !is_others(id));
     let scale = ((field.ground() - level) / kt).exp();
-    let sizes = [field.energy(nodes, &trial), flux.cost, held / scale];
-    let [energy, cost, load] = bounded(&ground(profile), mesh, &roles, sizes, asked);
+    // Where the set holds little of what is around, that is of little use, and so is its closeness.
+    let of_use = (held / around).min(1.0);
+    let sizes = [
+        field.energy(nodes, &trial),
+        flux.cost,
+        held / scale,
+        around / scale / of_use,
+    ];
+    let [energy, cost, load, around] = bounded(&ground(profile), mesh, &roles, sizes, asked);
     let lower = flux.carried * flux.carried / cost[1];
     let least = scale * (1.0 - MARGIN);
     let most = scale * (1.0 + MARGIN);
@@ -210,6 +243,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
         below: sets[0].below,
         capacity: [least * lower, most * energy[1]],
         held: [least * load[0], most * load[1]],
+        around: most * around[1],
     };
     (found.capacity[1].is_finite() && found.held[0] > 0.0).then_some(found)
 }
@@ -258,6 +292,18 @@ fn range(
         .map(|half| range(ground, half, level, is_open, halved + 1));
     let [[a, b], [c, d]] = halves;
     [a.min(c).max(found[0]), b.max(d).min(found[1])]
+}
+
+/// Whether rays through a piece may have no length, looked at in so many halvings.
+fn is_narrow(ground: &Ground, piece: Piece, level: u8, halvings: usize) -> bool {
+    let place = ground.place(&piece, level);
+    let is_clear = place.as_ref().is_some_and(|place| !place.is_narrow());
+    if is_clear || halvings == 0 {
+        return !is_clear && place.is_some();
+    }
+    let axis = place.map_or(halvings % 3, |place| place.axis());
+    let mut halves = piece.halves(axis).into_iter();
+    halves.any(|half| is_narrow(ground, half, level, halvings - 1))
 }
 
 impl Cells {

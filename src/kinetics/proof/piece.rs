@@ -265,6 +265,11 @@ impl Place {
         [level - kt * most, level - kt * least]
     }
 
+    /// Whether rays may have no length: contact may reach to where tiles are free.
+    pub fn is_narrow(&self) -> bool {
+        self.length.range()[0] <= 0.0
+    }
+
     /// The axis along which the piece is halved: its longest.
     pub fn axis(&self) -> usize {
         let longest = |a: &usize, b: &usize| self.edges[*a].total_cmp(&self.edges[*b]);

@@ -27,10 +27,12 @@ pub(super) struct Role {
     pub fluxes: Option<[f64; 6]>,
     /// Whether its load is asked.
     pub load: Option<Load>,
+    /// Whether its load is asked as one of all that lies outside other sets.
+    pub around: bool,
 }
 
-/// Of energies, costs and loads.
-pub(super) const SUMS: usize = 3;
+/// Of energies, costs, loads and loads outside other sets.
+pub(super) const SUMS: usize = 4;
 
 /// How closely sums are asked for, and how many pieces of cells there may be.
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +93,7 @@ pub(super) fn bounded(
             }
             _ => [0.0; 2],
         };
+        let around = |place: &Place| ground.load(place, &piece, leaf);
         let longest = (0..3).max_by(|a, b| piece.size[*a].total_cmp(&piece.size[*b]));
         Part {
             role: number,
@@ -98,6 +101,7 @@ pub(super) fn bounded(
                 of(role.values.is_some(), &energy),
                 of(role.fluxes.is_some(), &cost),
                 of(role.load.is_some(), &load),
+                of(role.around, &around),
             ],
             axis: place.as_ref().map_or(longest.unwrap_or(0), Place::axis),
             piece,
@@ -121,7 +125,7 @@ pub(super) fn bounded(
                 end == 1 || !matches!(roles[part.role].1.load, Some(Load::Below(_)))
             };
             let sum = |k: usize, end: usize| -> f64 {
-                let own = parts.iter().filter(|part| k < 2 || counts(part, end));
+                let own = parts.iter().filter(|part| k != 2 || counts(part, end));
                 own.map(|part| part.sums[k][end]).sum()
             };
             return std::array::from_fn(|k| {

@@ -159,14 +159,29 @@ fn a_linear_well_within_a_circle_is_left_as_its_quadrature_says() {
     };
     let barrier = sum(reach, radius, &|r| (slope * r / kt).exp() / r);
     let part = (TAU / TURNS as f64).powi(2);
-    let held = part * sum(hole, reach, &|r| (-slope * r / kt).exp() * r);
+    let weight = |r: f64| (-slope * r / kt).exp() * r;
+    let held = part * sum(hole, reach, &weight);
+    let around = part * sum(hole, radius, &weight);
     for (exact, [low, high], most) in [
         (part / barrier, found.capacity, 1.2),
         (held, found.held, 1.1),
+        (around, [held, found.around], 1.1 * around / held),
     ] {
         assert!(low <= exact && exact <= high, "{exact} {low} {high}");
         assert!(high < most * low, "{low} {high}");
     }
+    // From the set's rim to the circle.
+    let step = (radius - reach) / 20_000.0;
+    let (mut below, mut time) = (held / part, 0.0);
+    for k in 0..20_000 {
+        let own = weight(reach + step * (f64::from(k) + 0.5));
+        below += 0.5 * step * own;
+        time += step * below / own;
+        below += 0.5 * step * own;
+    }
+    let [least, most] = found.mean_exit();
+    assert!(least <= time && time <= most, "{time} {least} {most}");
+    assert!(most < 1.3 * least * around / held, "{least} {most}");
 }
 
 #[test]
@@ -198,7 +213,9 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
     let trial = System::new(mesh, &nodes, &pinned);
     let trial = trial.solve(&given, &none, &none).unwrap();
     let inside = |id: usize| held.contains(&id).then_some(0);
-    let (network, profile) = field.network_between(&nodes, &inside, 1, &trial).unwrap();
+    let (network, profile) = field
+        .network_between(&nodes, &inside, &|_| false, 1, &trial)
+        .unwrap();
     let fluxes = network.fluxes();
     let flux = fluxes.from(0, &fluxes.potentials(&nodes, &trial)).unwrap();
     let mut roles: Vec<(Piece, Role)> = Vec::new();
@@ -207,22 +224,22 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
             values: Some(nodes.of(cell, &trial)),
             fluxes: Some(sides),
             load: Some(Load::All),
+            around: true,
         };
         roles.push((Piece::whole(cell, &mesh.leaves[cell]), role));
     }
     let scale = (field.level() / kt).exp();
     let known = |id: usize| mesh.leaves[id].element.as_ref().unwrap();
+    let load = |(piece, _): &(Piece, Role)| known(piece.cell).load.iter().sum::<f64>();
+    let load = scale * roles.iter().map(load).sum::<f64>();
     let sizes = [
         roles
             .iter()
             .map(|(piece, role)| known(piece.cell).energy(&role.values.unwrap()))
             .sum(),
         flux.cost,
-        scale
-            * roles
-                .iter()
-                .map(|(piece, _)| known(piece.cell).load.iter().sum::<f64>())
-                .sum::<f64>(),
+        load,
+        load,
     ];
     let wall = Wall::new(problem.contact.as_ref(), 0.0).unwrap();
     let ground = Ground {

@@ -25,13 +25,26 @@ pub struct Asked {
     pub basin_energy: Option<f64>,
     /// It is free where the centres are so far apart (m).
     pub free_at: Option<f64>,
+    /// Relative distance of the bounds.
+    pub certify: Option<f64>,
+    /// Whether what can be proved is.
+    pub prove: bool,
 }
 
 impl Asked {
     fn check(&self) -> PyResult<()> {
         fault::positive("kt", Some(self.kt))?;
         fault::positive("drag", Some(self.drag))?;
+        fault::positive("certify", self.certify)?;
         fault::positive("free_at", self.free_at)
+    }
+
+    fn certify(&self, usual: fn() -> Certify) -> Certify {
+        let certify = self.certify.map_or_else(usual, Certify::to);
+        match self.prove {
+            true => certify.proved(),
+            false => certify,
+        }
     }
 
     fn free_at(&self, design: &Design) -> f64 {
@@ -53,7 +66,10 @@ pub fn exits<'py>(
         .basin_energy
         .unwrap_or_else(|| half_bond(problem, bound));
     let free_at = asked.free_at(design);
-    let settings = ExitSettings::new(asked.kt, start, basin, free_at);
+    let settings = ExitSettings {
+        certify: Some(asked.certify(Certify::of_exit)),
+        ..ExitSettings::new(asked.kt, start, basin, free_at)
+    };
     let found = job::quietly(py, || exit(problem, bound, &settings))?;
     let found = found.map_err(|error| match error {
         ExitError::Unsolved(_) => fault::run(error),
@@ -70,15 +86,13 @@ pub fn rates<'py>(
     (design, analysis): (&Design, &Analysis),
     asked: &Asked,
     traps: usize,
-    certify: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     asked.check()?;
-    fault::positive("certify", certify)?;
     let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
     let basins = places.iter().map(report::Place::basin).collect();
     let free_at = asked.free_at(design);
     let settings = RateSettings {
-        certify: Some(certify.map_or_else(Certify::default, Certify::to)),
+        certify: Some(asked.certify(Certify::default)),
         ..RateSettings::new(asked.kt, basins, free_at)
     };
     let found = job::quietly(py, || solved(&analysis.problem, &settings))?;

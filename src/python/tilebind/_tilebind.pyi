@@ -115,6 +115,8 @@ class Design:
         drag: float = 50.0,
         basin_energy: float | None = None,
         free_at: float | None = None,
+        certify: float | None = None,
+        prove: bool = False,
     ) -> dict[str, Any]: ...
     def yields(
         self,
@@ -170,6 +172,7 @@ class Analysis:
         basin_energy: float | None = None,
         free_at: float | None = None,
         certify: float | None = None,
+        prove: bool = False,
     ) -> dict[str, Any]: ...
     def bond(self, kt: float, coverage: float) -> dict[str, Any]: ...
     def disconnectivity(self) -> _Table: ...

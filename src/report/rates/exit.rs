@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::{
     Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, area,
-    finite, proved_entry, proved_words,
+    finite, leaving_set, mean_exit_words, proved_entry, proved_words,
 };
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
@@ -113,9 +113,11 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         Some(proved) => writeln!(
             text,
             "  {PROVED}:\n  while it is in the well about the start, U < {}, a tile sets out for an end, not \
-             to\n  come back before, {}",
+             to\n  come back before, {};\n  from where it last \
+             leaves the well the mean exit time is {}",
             si(proved.below, "J", 4),
-            proved_words(motion, proved),
+            proved_words(leaving_set(motion, proved)),
+            mean_exit_words(motion, proved),
         ),
         None if is_asked => writeln!(text, "  {NOT_PROVED}"),
         None => Ok(()),

@@ -47,6 +47,9 @@ pub fn files(table: &Table, over_kt: &[AtKt]) -> Vec<(String, Vec<u8>)> {
             courses(table, over_kt).into_bytes(),
         ),
     ];
+    if let Some(proved) = table.proved_csv() {
+        files.push(("proved.csv".to_owned(), proved.into_bytes()));
+    }
     if let Some(map) = &table.found.map {
         files.push(("committor.csv".to_owned(), squares(map).into_bytes()));
     }

@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 
 use crate::design::Design;
 use crate::kinetics::Capacity;
+use crate::units::si;
 
 /// Overdamped motion on an air table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +63,7 @@ fn proved_entry(motion: &Motion, proved: Option<&Capacity>) -> Value {
             "capacity_rad": proved.capacity,
             "held_m2_rad": proved.held,
             "leaving_set_per_s": leaving_set(motion, proved),
+            "mean_exit_s": mean_exit(motion, proved).map(finite),
         })
     })
 }
@@ -71,9 +73,13 @@ fn leaving_set(motion: &Motion, proved: &Capacity) -> [f64; 2] {
     proved.leaving().map(|end| end * motion.diffusion)
 }
 
-/// The same in words, rounded outwards.
-fn proved_words(motion: &Motion, proved: &Capacity) -> String {
-    let [lower, upper] = leaving_set(motion, proved);
+/// Proved bounds (s) of the mean time until a tile that leaves the set for an end is there.
+fn mean_exit(motion: &Motion, proved: &Capacity) -> [f64; 2] {
+    proved.mean_exit().map(|end| end / motion.diffusion)
+}
+
+/// Proved bounds in words, rounded outwards: how often per second.
+fn proved_words([lower, upper]: [f64; 2]) -> String {
     let order = upper.log10().floor() as i32;
     let unit = 10f64.powi(order - 2);
     let [low, high] = [(lower / unit).floor() * unit, (upper / unit).ceil() * unit];
@@ -83,6 +89,27 @@ fn proved_words(motion: &Motion, proved: &Capacity) -> String {
             format!("{low:.places$} to {high:.places$} times per second ({apart} apart)")
         }
         _ => format!("{low:.2e} to {high:.2e} times per second ({apart} apart)"),
+    }
+}
+
+/// Bounds that are farther apart than so many times say nothing worth telling.
+const FAR: f64 = 10.0;
+
+/// Proved bounds of a mean exit time in words, rounded outwards.
+fn mean_exit_words(motion: &Motion, proved: &Capacity) -> String {
+    let [least, most] = mean_exit(motion, proved);
+    let rounded = |time: f64, whole: fn(f64) -> f64| {
+        let unit = 10f64.powi(time.log10().floor() as i32 - 2);
+        si(whole(time / unit) * unit, "s", 3)
+    };
+    match most < FAR * least {
+        true => format!(
+            "{} to {} ({} apart)",
+            rounded(least, f64::floor),
+            rounded(most, f64::ceil),
+            apart([least, most])
+        ),
+        false => format!("{} at least", rounded(least, f64::floor)),
     }
 }
 

@@ -6,12 +6,13 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::{
-    Motion, NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, Place, SCOPE, apart, finite, per_second,
+    Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, Place, SCOPE,
+    apart, finite, leaving_set, mean_exit, mean_exit_words, per_second, proved_entry,
 };
 use crate::design::Design;
 use crate::kinetics::Way;
 use crate::kinetics::chain::Chain;
-use crate::kinetics::rates::{RateSettings, Rates};
+use crate::kinetics::rates::{Leaving, RateSettings, Rates};
 use crate::report::terminal::write_table;
 use crate::report::values;
 use crate::units::si;
@@ -107,6 +108,7 @@ impl Table<'_> {
                 "mean_exit_s": finite(1.0 / self.rate_out(number)),
                 "leaving_per_s": finite(self.rate_out(number)),
                 "leaving_bounds_per_s": self.bounds_out(number),
+                "proved": own.map(|_| self.proved_entry(number)),
             })
         };
         let rate = |(from, to): (usize, usize)| {
@@ -137,6 +139,58 @@ impl Table<'_> {
                 "error": finite(self.found.error()),
             },
         })
+    }
+
+    /// What is proved of how a basin is left.
+    fn proved(&self, place: usize) -> Option<&Leaving> {
+        self.found.proved[place].as_ref()
+    }
+
+    fn proved_entry(&self, place: usize) -> Value {
+        let proved = self.proved(place);
+        let mut entry = proved_entry(self.motion, proved.map(|proved| &proved.capacity));
+        if let Some(proved) = proved {
+            entry["end_below_J"] = json!(proved.end_below);
+        }
+        entry
+    }
+
+    /// Whether a proof was asked for.
+    fn is_to_be_proved(&self) -> bool {
+        let certify = self.asked.certify;
+        certify.is_some_and(|certify| certify.pieces > 0)
+    }
+
+    /// proved.csv, where a proof was asked for: bounds of how each basin is left for any other or
+    /// free tiles; empty where there are none.
+    pub fn proved_csv(&self) -> Option<String> {
+        if !self.is_to_be_proved() {
+            return None;
+        }
+        let mut text =
+            "from,set_below_J,others_below_J,free_at_m,mean_exit_lower_s,mean_exit_upper_s,\
+                        sets_out_lower_per_s,sets_out_upper_per_s\n"
+                .to_owned();
+        for (number, place) in self.places.iter().enumerate() {
+            let Some(proved) = self.proved(number) else {
+                let _ = writeln!(text, "{},,,{},,,,", place.name, self.asked.free_at);
+                continue;
+            };
+            let shown = |end: f64| finite(end).map_or(String::new(), |end| format!("{end:.9e}"));
+            let others = (0..self.places.len()).filter(|other| *other != number);
+            let others = others.filter_map(|other| Some(shown(self.proved(other)?.end_below)));
+            let [least, most] = mean_exit(self.motion, &proved.capacity).map(shown);
+            let [lower, upper] = leaving_set(self.motion, &proved.capacity).map(shown);
+            let _ = writeln!(
+                text,
+                "{},{:.9e},{},{},{least},{most},{lower},{upper}",
+                place.name,
+                proved.capacity.below,
+                others.collect::<Vec<_>>().join(" "),
+                self.asked.free_at,
+            );
+        }
+        Some(text)
     }
 
     /// rates.csv: bounds are empty where none are known.
@@ -273,6 +327,7 @@ impl Table<'_> {
             });
             let told = told.collect::<Vec<_>>().join(", ");
             let _ = writeln!(text, "  left: {told};\n  {ONE_SIDED};\n  {ON_THE_MESH}");
+            self.tell_proved(&mut text);
             text.push_str(SCOPE);
             return text;
         }
@@ -283,7 +338,39 @@ impl Table<'_> {
             "  bounds of the rates out are apart by: {}; of every rate in rates.csv;\n  {ON_THE_MESH}",
             told.collect::<Vec<_>>().join(", "),
         );
+        self.tell_proved(&mut text);
         text.push_str(SCOPE);
         text
+    }
+
+    /// What is proved, if that was asked for.
+    fn tell_proved(&self, text: &mut String) {
+        if !self.is_to_be_proved() {
+            return;
+        }
+        let known = |number: usize| Some((&self.places[number], self.proved(number)?));
+        let known: Vec<_> = (0..self.places.len()).filter_map(known).collect();
+        if known.is_empty() {
+            let _ = writeln!(text, "  {NOT_PROVED}");
+            return;
+        }
+        let _ = writeln!(
+            text,
+            "  {PROVED}: mean time until a tile that leaves a basin\n  for another or free tiles is \
+             there:"
+        );
+        for (place, proved) in &known {
+            let _ = writeln!(
+                text,
+                "    {} (U < {}; as an end U < {}): {}",
+                place.name,
+                si(proved.capacity.below, "J", 4),
+                si(proved.end_below, "J", 4),
+                mean_exit_words(self.motion, &proved.capacity),
+            );
+        }
+        if known.len() < self.places.len() {
+            let _ = writeln!(text, "    of the others nothing");
+        }
     }
 }

@@ -102,6 +102,7 @@ fn rates_between_the_states_balance_in_detail() {
         "1",
         "--certify",
         "0.9",
+        "--prove",
         "--out",
         out.to_str().unwrap(),
         "--json",
@@ -118,6 +119,14 @@ fn rates_between_the_states_balance_in_detail() {
     };
     let all: f64 = places.iter().map(|place| share(&place["name"])).sum();
     assert!((all - 1.0).abs() < 1e-9);
+    // Next to all that is in no other basin lies in the bond's: proved from both sides, on a circle of
+    // free tiles that contact reaches at corners.
+    let bond = &places[0];
+    let proved = |end: usize| bond["proved"]["mean_exit_s"][end].as_f64().unwrap();
+    let mean = bond["mean_exit_s"].as_f64().unwrap();
+    assert!(proved(0) < mean && mean < proved(1) && proved(1) < 3.0 * proved(0));
+    let table = std::fs::read_to_string(out.join("proved.csv")).unwrap();
+    assert_eq!(table.lines().count(), 3);
     let rates = entry["rates"].as_array().unwrap();
     assert_eq!(rates.len(), 6);
     let flow =

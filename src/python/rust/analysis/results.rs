@@ -198,7 +198,11 @@ impl Analysis {
     /// free_at : float, optional
     ///     Tiles are free where the centres are so far apart (m).
     /// certify : float, optional
-    ///     Refine until the bounds of the rates are apart by this share at most.
+    ///     Refine until the bounds of the rates out of the bond and the traps, and of all that make
+    ///     up a tenth of these, are apart by this share at most.
+    /// prove : bool, optional
+    ///     Prove how often tiles set out from each basin, and bounds of the mean time until they are
+    ///     in another or free: for tiles that are convex about their centres of mass.
     ///
     /// Returns
     /// -------
@@ -206,7 +210,7 @@ impl Analysis {
     ///     As ``tilebind rates --json``: basins, rates with their bounds, occupation, first-passage
     ///     times.
     #[pyo3(signature = (kt, *, drag = 50.0, traps = 3, basin_energy = None, free_at = None,
-                        certify = None))]
+                        certify = None, prove = false))]
     #[allow(clippy::too_many_arguments)]
     fn rates<'py>(
         &self,
@@ -217,15 +221,18 @@ impl Analysis {
         basin_energy: Option<f64>,
         free_at: Option<f64>,
         certify: Option<f64>,
+        prove: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = kinetics::Asked {
             kt,
             drag,
             basin_energy,
             free_at,
+            certify,
+            prove,
         };
         let found = (&self.content.design, &self.found);
-        kinetics::rates(py, found, &asked, traps, certify)
+        kinetics::rates(py, found, &asked, traps)
     }
 
     /// Which kinds of states merge at which energy.

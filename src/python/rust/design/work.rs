@@ -132,13 +132,22 @@ impl Design {
     ///     its copies; half the bond's by default.
     /// free_at : float, optional
     ///     It is free where the centres are so far apart (m).
+    /// certify : float, optional
+    ///     Refine until the bounds of the mean exit time are apart by this share at most; 0.1 by
+    ///     default, as far as it comes within seconds.
+    /// prove : bool, optional
+    ///     Prove how often tiles set out from the well about the start, and bounds of the mean time
+    ///     until they are at an end: for tiles that are convex about their centres of mass.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     `mean_exit_s`, `exits` (shares that are first bound and free), `diffusion_m2_s`, `mesh`
-    ///     (how far the two finest meshes differ).
-    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None))]
+    ///     As ``tilebind rates --start --json``: `mean_exit_s` and `mean_exit_bounds_s`, `exits`
+    ///     (shares that are first bound and free), `diffusion_m2_s`, `proved` (None where nothing
+    ///     is), `mesh` (how far the two finest meshes differ).
+    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None,
+                        certify = None, prove = false))]
+    #[allow(clippy::too_many_arguments)]
     fn exits<'py>(
         &self,
         py: Python<'py>,
@@ -147,12 +156,16 @@ impl Design {
         drag: f64,
         basin_energy: Option<f64>,
         free_at: Option<f64>,
+        certify: Option<f64>,
+        prove: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = kinetics::Asked {
             kt,
             drag,
             basin_energy,
             free_at,
+            certify,
+            prove,
         };
         let posed = (&self.content.design, &**self.content.problem(None));
         kinetics::exits(py, posed, start, &asked)
