@@ -5,9 +5,13 @@
 //!
 //! `cargo bench --bench barrier`
 
+mod ratio;
+
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
+
+use ratio::ratio;
 
 const SEEDS: u64 = 10;
 /// The barrier (J) from the slid state to the bond.
@@ -19,22 +23,31 @@ fn main() {
         return eprintln!("the path of the shipped designs is not UTF-8");
     };
     println!("{:32} {:>9} {:>9}", "", "median", "longest");
-    for (name, share) in [("barrier to 1 %", 1e-2), ("barrier to 0.1 %", 1e-3)] {
-        let tolerance = (share * BARRIER).to_string();
-        report(name, |seed| {
-            let seed = seed.to_string();
-            let to = ["--from", "0.43,0.04,0", "--to", "0.43,0,0"];
-            let how = ["--tolerance", &tolerance, "--seed", &seed];
-            seconds(&[["barrier", design].as_slice(), &to, &how].concat())
-        });
+    let barrier = |share: f64, seed: u64| {
+        let (tolerance, seed) = ((share * BARRIER).to_string(), seed.to_string());
+        let to = ["--from", "0.43,0.04,0", "--to", "0.43,0,0"];
+        let how = ["--tolerance", &tolerance, "--seed", &seed];
+        seconds(&[["barrier", design].as_slice(), &to, &how].concat())
+    };
+    let rounds: Vec<[f64; 3]> = (1..=SEEDS)
+        .map(|seed| {
+            let pose = ["energy", design, "--pose", "0.43,0.04,0"];
+            [barrier(1e-2, seed), barrier(1e-3, seed), seconds(&pose)]
+        })
+        .collect();
+    for (i, name) in ["barrier to 1 %", "barrier to 0.1 %", "energy of one pose"]
+        .into_iter()
+        .enumerate()
+    {
+        report(name, rounds.iter().map(|round| round[i]).collect());
     }
-    report("energy of one pose", |_| {
-        seconds(&["energy", design, "--pose", "0.43,0.04,0"])
-    });
+    ratio(
+        "barrier-to-0.1%-over-1%",
+        rounds.iter().map(|round| round[1] / round[0]),
+    );
 }
 
-fn report(name: &str, run: impl Fn(u64) -> f64) {
-    let mut times: Vec<f64> = (1..=SEEDS).map(run).collect();
+fn report(name: &str, mut times: Vec<f64>) {
     times.sort_by(f64::total_cmp);
     println!(
         "{name:32} {:6.0} ms {:6.0} ms",

@@ -7,6 +7,7 @@
 
 #[path = "../shared/designs.rs"]
 mod designs;
+mod ratio;
 
 use std::time::Instant;
 
@@ -17,11 +18,17 @@ use tilebind::landscape::certificate::{Certifier, Effort, End};
 use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, Shields};
 
+use ratio::ratio;
+
+/// Rounds of the ratios: in each the three kinds of magnets take turns.
+const ROUNDS: usize = 9;
+
 fn main() {
     let design = designs::load("shapes/paper-tile.toml");
     let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
     println!("point dipoles");
-    measure(&design, &DipoleBounds::new(fixed, moving), 65.47e-3);
+    let dipoles = DipoleBounds::new(fixed, moving);
+    measure(&design, &dipoles, 65.47e-3);
     let shield = Shield {
         attenuation: 0.8,
         length: 0.03,
@@ -34,10 +41,46 @@ fn main() {
         ..Shields::default()
     };
     println!("\npoint dipoles behind shields");
-    let bounds = ShieldedBounds::new(fixed, moving, &shields);
-    measure(&design, &bounds, 65.47e-3);
+    let shielded = ShieldedBounds::new(fixed, moving, &shields);
+    measure(&design, &shielded, 65.47e-3);
     println!("\nblocks");
-    measure(&design, &CuboidBounds::new(fixed, moving), 118.64e-3);
+    let blocks = CuboidBounds::new(fixed, moving);
+    measure(&design, &blocks, 118.64e-3);
+    println!();
+    let rounds: Vec<[f64; 3]> = (0..ROUNDS)
+        .map(|_| {
+            [
+                seconds_per_cell(&design, &dipoles, 65.47e-3),
+                seconds_per_cell(&design, &shielded, 65.47e-3),
+                seconds_per_cell(&design, &blocks, 118.64e-3),
+            ]
+        })
+        .collect();
+    for (i, name) in [
+        (1, "shielded-cell-over-dipoles"),
+        (2, "block-cell-over-dipoles"),
+    ] {
+        ratio(name, rounds.iter().map(|round| round[i] / round[0]));
+    }
+}
+
+/// Time (s) of a cell of the barrier from the slid state to the bond, to 0.1 % of the bond's depth
+/// (J).
+fn seconds_per_cell(design: &Design, bounds: &dyn CellBounds, depth: f64) -> f64 {
+    let contact = Contact::new(&design.pair.fixed.outline, &design.pair.moving.outline);
+    let space = design.space();
+    let start = Instant::now();
+    let mut certifier = Certifier::new(bounds, Some(&contact), &space);
+    let effort = Effort {
+        tolerance: 1e-3 * depth,
+        cells: 5_000_000,
+        time: None,
+    };
+    let from = Configuration::new(0.43, 0.04, 0.0);
+    match certifier.bracket(&from, &End::At(design.pair.bound), &[], &effort) {
+        Ok(_) => start.elapsed().as_secs_f64() / certifier.assessed() as f64,
+        Err(_) => f64::NAN,
+    }
 }
 
 /// Brackets several barriers to shares of the bond's depth (J).

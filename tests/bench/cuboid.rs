@@ -5,11 +5,14 @@
 //!
 //! `cargo bench --bench cuboid`
 
+mod ratio;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Vector2;
+use ratio::ratio;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
 use tilebind::potential::dipole::dipoles;
@@ -22,7 +25,9 @@ const CONFIGURATIONS: usize = 512;
 
 fn main() {
     println!("ns a configuration, 16 x 16 magnets, one core; in brackets times the dipoles'\n");
+    let mut last = Vec::new();
     for level in Level::available() {
+        last.clear();
         let (fixed, moving) = (magnets("NNNS"), magnets("NSSS"));
         let dipole = DipolePotential::with_level(&dipoles(&fixed), &dipoles(&moving), level);
         let cuboid = CuboidPotential::with_level(&fixed, &moving, level);
@@ -32,7 +37,10 @@ fn main() {
         );
         println!("{:24} {:^26} {:^26}", "", "energy", "and gradient");
         for (name, qs) in poses() {
-            let [a, b, c, d] = measure(&dipole, &cuboid, &qs);
+            let rounds = measure(&dipole, &cuboid, &qs);
+            let least = |i: usize| rounds.iter().map(|r| r[i]).fold(f64::INFINITY, f64::min);
+            let [a, b, c, d] = [0, 1, 2, 3].map(least);
+            last.push((name, rounds));
             println!(
                 "{name:24} {a:9.0} {b:9.0} ({:4.1}) {c:9.0} {d:9.0} ({:4.1})",
                 b / a,
@@ -40,6 +48,15 @@ fn main() {
             );
         }
         println!();
+    }
+    // Of the widest instructions.
+    for (name, rounds) in last {
+        let short = match name {
+            "touching, aligned" => "blocks-over-dipoles-touching",
+            "0.6 to 1 m away" => "blocks-over-dipoles-far",
+            _ => continue,
+        };
+        ratio(short, rounds.iter().map(|round| round[1] / round[0]));
     }
 }
 
@@ -112,12 +129,15 @@ fn poses() -> Vec<(&'static str, Vec<Configuration>)> {
     ]
 }
 
-/// The least time (ns) a configuration takes: energies of dipoles and blocks, and the same with
-/// gradients.
-fn measure(dipole: &DipolePotential, cuboid: &CuboidPotential, qs: &[Configuration]) -> [f64; 4] {
-    let mut best = [f64::INFINITY; 4];
-    for _ in 0..ROUNDS {
-        for (i, best) in best.iter_mut().enumerate() {
+/// The time (ns) a configuration takes in each round: energies of dipoles and blocks, and the same
+/// with gradients.
+fn measure(
+    dipole: &DipolePotential,
+    cuboid: &CuboidPotential,
+    qs: &[Configuration],
+) -> Vec<[f64; 4]> {
+    let round = |_| {
+        [0, 1, 2, 3].map(|i| {
             let potential: &dyn Potential = if i % 2 == 0 { dipole } else { cuboid };
             let start = Instant::now();
             for q in qs {
@@ -127,8 +147,8 @@ fn measure(dipole: &DipolePotential, cuboid: &CuboidPotential, qs: &[Configurati
                     black_box(potential.energy_and_gradient(black_box(q)));
                 }
             }
-            *best = best.min(start.elapsed().as_nanos() as f64 / qs.len() as f64);
-        }
-    }
-    best
+            start.elapsed().as_nanos() as f64 / qs.len() as f64
+        })
+    };
+    (0..ROUNDS).map(round).collect()
 }

@@ -9,6 +9,7 @@
 //! `cargo bench --bench kernel`
 
 mod operations;
+mod ratio;
 
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
@@ -16,6 +17,7 @@ use std::time::Instant;
 
 use nalgebra::{Vector2, Vector3};
 use operations::Operations;
+use ratio::ratio;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
 use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
@@ -31,10 +33,22 @@ fn main() {
     println!("16 x 16 dipoles, {CONFIGURATIONS} configurations, one core");
     let scalar = ScalarDipoles::new(&tile, &tile);
     report("scalar formula", &mut kernels(&scalar, &qs), None);
+    let mut best = Vec::new();
+    let mut best_level = None;
     for level in Level::available() {
         let potential = DipolePotential::with_level(&tile, &tile, level);
         let name = format!("{level}, {} lanes", level.width());
-        report(&name, &mut kernels(&potential, &qs), Some(level));
+        best = report(&name, &mut kernels(&potential, &qs), Some(level));
+        best_level = Some(level);
+    }
+    if let Some(level) = best_level {
+        println!("\ninstructions {level}");
+    }
+    for (name, shares) in ["energies-of-ceiling", "gradients-of-ceiling"]
+        .into_iter()
+        .zip(best)
+    {
+        ratio(name, shares.into_iter());
     }
 }
 
@@ -240,7 +254,9 @@ fn ceilings(level: Level) -> Vec<Work<'static>> {
     ]
 }
 
-fn report(name: &str, kernels: &mut Vec<Work>, level: Option<Level>) {
+/// Returns the shares of the ceiling that `energies` and `energies_and_gradients` reach in each
+/// round; none without a level.
+fn report(name: &str, kernels: &mut Vec<Work>, level: Option<Level>) -> Vec<Vec<f64>> {
     let mut works = level.map_or(vec![], ceilings);
     let first = works.len();
     works.append(kernels);
@@ -278,4 +294,11 @@ fn report(name: &str, kernels: &mut Vec<Work>, level: Option<Level>) {
             256.0 / time
         );
     }
+    let share = |pair: usize| {
+        let rounds = rounds.iter();
+        rounds
+            .map(|round| 256.0 * round[pair] / round[first + pair])
+            .collect()
+    };
+    level.map_or(vec![], |_| vec![share(0), share(1)])
 }

@@ -13,10 +13,13 @@
 #[path = "../../shared/designs.rs"]
 mod designs;
 mod figure;
+#[path = "../ratio.rs"]
+mod ratio;
 
 use std::path::Path;
 use std::time::Instant;
 
+use ratio::ratio;
 use rayon::prelude::*;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
@@ -51,10 +54,10 @@ fn main() {
     }
 }
 
-/// One roadmap: wall times (s) of its three stages and of the edges' contact tests alone, its size
-/// and its energies.
+/// One roadmap: wall times (s) of its three stages, of the edges' contact tests alone, and of the
+/// milestones' energies in one batch; its size and its energies.
 struct Built {
-    seconds: [f64; 4],
+    seconds: [f64; 5],
     milestones: usize,
     edges: usize,
     /// Energies of the edges' profiles.
@@ -88,15 +91,19 @@ fn build(problem: &Problem, depth: f64, count: usize, neighbours: Option<usize>)
         probability_step: 5e-3,
     };
     let edges = edge::edges(problem, &milestones, &pairs, &settings);
+    let energies = problem.evaluations() - before;
     times.push(Instant::now());
     let free = free_motions(problem, &milestones, &pairs);
     times.push(Instant::now());
     assert_eq!(free, edges.len());
+    let places: Vec<_> = milestones.iter().map(|m| m.configuration).collect();
+    std::hint::black_box(problem.energies(&places));
+    times.push(Instant::now());
     Built {
-        seconds: [0, 1, 2, 3].map(|i| (times[i + 1] - times[i]).as_secs_f64()),
+        seconds: [0, 1, 2, 3, 4].map(|i| (times[i + 1] - times[i]).as_secs_f64()),
         milestones: milestones.len(),
         edges: edges.len(),
-        energies: problem.evaluations() - before,
+        energies,
     }
 }
 
@@ -154,19 +161,24 @@ fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
             100.0 * median(built.iter().map(|b| b.seconds[3] / b.seconds[2]).collect()),
         );
     }
-    let speedup = |stage: usize| {
+    println!("{all} threads over one:");
+    for (stage, name) in ["milestones-threads", "neighbours-threads", "edges-threads"]
+        .into_iter()
+        .enumerate()
+    {
         let pairs = rounds[0].iter().zip(&rounds[1]);
-        median(
-            pairs
-                .map(|(a, b)| a.seconds[stage] / b.seconds[stage])
-                .collect(),
-        )
-    };
-    println!(
-        "{all} threads over one: milestones {:.2}, neighbours {:.2}, edges {:.2}",
-        speedup(0),
-        speedup(1),
-        speedup(2)
+        ratio(
+            name,
+            pairs.map(|(a, b)| a.seconds[stage] / b.seconds[stage]),
+        );
+    }
+    // Energies a second of edges, contact and all, over those of one batch.
+    ratio(
+        "edges-of-kernel",
+        rounds[0].iter().map(|built| {
+            let of_edges = built.energies as f64 / built.seconds[2];
+            of_edges * built.seconds[4] / built.milestones as f64
+        }),
     );
 }
 
@@ -188,7 +200,7 @@ fn scale(
             "default"
         };
         let built = build(problem, depth, count, neighbours);
-        let [milestones, found, edges, _] = built.seconds;
+        let [milestones, found, edges, ..] = built.seconds;
         println!(
             "{k} {kind},{},{},{milestones:.3},{found:.3},{edges:.3},{:.2},{}",
             built.milestones,
