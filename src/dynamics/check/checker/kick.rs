@@ -25,35 +25,42 @@ impl Checker<'_> {
     /// The least kick along the pathway's beginning that leads to its end.
     pub(super) fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
         let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
-        let kicked: Vec<Fated> = (0..KICKS.len() * AIMS)
-            .into_par_iter()
-            .map(|k| {
-                let mut rng = stream(self.settings.seed, k % AIMS);
-                let aside = self.direction(lossless, &first, &mut rng);
-                let energy = |v| lossless.body().kinetic_energy(v);
-                let aside = aside * (energy(&direction) / energy(&aside)).sqrt();
-                // The first aim is the pathway's own direction.
-                let aim = direction + aside * (ASIDE * (k % AIMS) as f64);
-                let energy = KICKS[k / AIMS] * self.climb;
-                let start = moving(lossless, first, aim, energy);
-                // As below the barrier: lifted by the integration's error, it proves nothing.
-                let ceiling = if energy < self.climb {
-                    self.ceiling
-                } else {
-                    f64::INFINITY
-                };
-                self.fate(
-                    lossless,
-                    &start,
-                    PATIENCE * self.duration,
-                    ceiling,
-                    &mut rng,
-                )
-            })
-            .collect();
-        *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
-        let least = kicked.iter().position(|kick| kick.0 == Fate::Crossed)?;
-        Some(KICKS[least / AIMS] * self.climb)
+        for share in KICKS {
+            let energy = share * self.climb;
+            let one = |aim| self.kicked(lossless, first, direction, aim, energy);
+            let kicked: Vec<Fated> = (0..AIMS).into_par_iter().map(one).collect();
+            *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
+            // The least is asked for.
+            if kicked.iter().any(|kick| kick.0 == Fate::Crossed) {
+                return Some(energy);
+            }
+        }
+        None
+    }
+
+    /// What a kick with an energy (J) comes to; the first aim is the pathway's own direction.
+    fn kicked(
+        &self,
+        lossless: &Simulation,
+        first: Configuration,
+        direction: Vector3<f64>,
+        aim: usize,
+        energy: f64,
+    ) -> Fated {
+        let mut rng = stream(self.settings.seed, aim);
+        let aside = self.direction(lossless, &first, &mut rng);
+        let kinetic = |v| lossless.body().kinetic_energy(v);
+        let aside = aside * (kinetic(&direction) / kinetic(&aside)).sqrt();
+        let aimed = direction + aside * (ASIDE * aim as f64);
+        let start = moving(lossless, first, aimed, energy);
+        // As below the barrier: lifted by the integration's error, it proves nothing.
+        let ceiling = if energy < self.climb {
+            self.ceiling
+        } else {
+            f64::INFINITY
+        };
+        let duration = PATIENCE * self.duration;
+        self.fate(lossless, &start, duration, ceiling, &mut rng)
     }
 
     /// Where the pathway begins, and the direction of the body's motion along it.

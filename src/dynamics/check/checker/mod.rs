@@ -262,9 +262,13 @@ impl<'a> Checker<'a> {
                     None => space.is_far(q),
                 }
         });
+        let has_crossed = || match self.barrier.to {
+            Place::Free => space.is_far(&run.last.motion.configuration),
+            Place::State(_) => self.place_below(&run.last) == Some(self.barrier.to),
+        };
         let fate = if spoilt {
             Fate::Spoilt
-        } else if self.place_below(&run.last) == Some(self.barrier.to) {
+        } else if has_crossed() {
             Fate::Crossed
         } else {
             Fate::Stayed
