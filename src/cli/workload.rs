@@ -15,10 +15,10 @@ use tilebind::{Design, Settings};
 use super::tell;
 
 /// Motions that are followed for each milestone and each of its neighbours, and for each state that
-/// is joined to the roadmap, about; energies for each far start: so that squares with 32 magnets a
+/// is joined to the roadmap, about; energies for each far start: so that squares with 64 magnets a
 /// face in random order take what they did.
-const FOR_A_NEIGHBOUR: f64 = 0.4;
-const FOR_A_STATE: f64 = 700.0;
+const FOR_A_NEIGHBOUR: f64 = 0.15;
+const FOR_A_STATE: f64 = 170.0;
 const FOR_A_FAR_START: f64 = 150.0;
 /// What comes after, of what these take.
 const AFTER: f64 = 1.4;
@@ -123,7 +123,7 @@ fn of_a_motion(problem: &Problem, roadmap: &RoadmapSettings, some: &[Milestone])
     time / f64::from(count.max(1))
 }
 
-/// How many states there are, within a factor of two: 144, 448, 353 and 1330 were found of squares
+/// How many states there are, within a factor of two: 144, 464, 368 and 1440 were found of squares
 /// with 4, 16, 32 and 64 magnets a face, 1.3 times the magnets for each two faces.
 fn states([fixed, moving]: [&Tile; 2]) -> f64 {
     let counts = |tile: &Tile| -> Vec<f64> {

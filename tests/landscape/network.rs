@@ -71,8 +71,8 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
     assert!(compared >= 9, "{compared}");
 }
 
-/// States and transition states come with all their images, and an image joins the images of what
-/// its original joins.
+/// States and transition states come with all their images, an image joins the images of what its
+/// original joins, and the ways out of all copies of a state are as low.
 #[test]
 fn what_is_found_once_is_known_of_all_copies() {
     let (problem, roadmap) = paper_tile(400);
@@ -102,6 +102,20 @@ fn what_is_found_once_is_known_of_all_copies() {
             let energies = [copy, state].map(|state| state.minimum.point.energy);
             assert!((energies[0] - energies[1]).abs() <= 1e-12 * energies[0].abs());
         }
+    }
+    let free = HashSet::from([survey.free]);
+    let out = |state: usize| {
+        survey
+            .network
+            .minimax(survey.states[state].node, &free)
+            .unwrap()
+    };
+    for (number, state) in survey.states.iter().enumerate() {
+        let [own, first] = [number, state.class].map(out);
+        assert!(
+            (own - first).abs() <= 1e-8 * state.minimum.point.energy.abs(),
+            "{own} {first}"
+        );
     }
     assert!(!survey.transition_states.is_empty());
     for (saddle, link) in &survey.transition_states {

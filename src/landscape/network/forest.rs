@@ -1,10 +1,16 @@
 //! Which links minimax paths use, and where basins meet.
 
+use std::collections::HashSet;
+
+use fixedbitset::FixedBitSet;
 use ordered_float::OrderedFloat;
+use petgraph::algo::astar;
+use petgraph::graph::NodeIndex;
 use petgraph::unionfind::UnionFind;
+use petgraph::visit::{EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
-use super::Network;
+use super::{Network, Route};
 use crate::problem::Problem;
 
 /// Two basins that meet, in ascending order of the energy at which they do.
@@ -47,6 +53,31 @@ impl Network {
             joined.union(link.from, link.to)
         });
         ascending
+    }
+
+    /// The way from a node to another through the links that minimax paths use, or to `free` where it
+    /// leads there before. Empty where there is none. Later links count from when the network is
+    /// spanned again.
+    pub fn spanning_route(&self, from: usize, to: usize, free: usize) -> Route {
+        let mut spans = FixedBitSet::with_capacity(self.links.len());
+        spans.extend(self.tree.iter().map(|number| *number as usize));
+        let goals = HashSet::from([to, free]);
+        let spanning = EdgeFiltered::from_fn(&self.graph, |edge| spans.contains(edge.id().index()));
+        let found = astar(
+            &spanning,
+            NodeIndex::new(from),
+            |node| goals.contains(&node.index()),
+            |_| 1usize,
+            |_| 0,
+        );
+        let nodes = found.map_or_else(Vec::new, |found| found.1);
+        let link = |pair: &[NodeIndex<u32>]| {
+            let between = self.graph.edges_connecting(pair[0], pair[1]);
+            let mut numbers = between.map(|edge| edge.id().index());
+            let number = numbers.find(|number| spans.contains(*number))?;
+            Some((number, self.links[number].from as usize == pair[0].index()))
+        };
+        nodes.windows(2).filter_map(link).collect()
     }
 
     /// The merges of the basins of `labelled` nodes (with their energies, J), ascending: the merge

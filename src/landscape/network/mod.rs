@@ -24,7 +24,7 @@ pub use routes::{Cost, Route};
 
 use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::problem::Problem;
+use crate::problem::{Problem, Symmetry};
 use crate::roadmap::edge::{EdgeCosts, costs, costs_of_energies};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
 
@@ -113,6 +113,20 @@ impl Network {
         self.graph.add_edge(ends[0], ends[1], ());
         self.links.push(Link { from, to, costs });
         self.links.len() - 1
+    }
+
+    /// Adds what a symmetry makes of a link between two nodes, the images of its own.
+    pub fn add_image(&mut self, link: usize, [from, to]: [usize; 2], symmetry: &Symmetry) {
+        let costs = self.links[link].costs.clone();
+        let number = self.add_link(from as u32, to as u32, costs);
+        let image = match self.way(link) {
+            Way::Straight => return,
+            Way::Same => Way::Same,
+            Way::Points(points) => {
+                Way::Points(points.iter().map(|point| point.image(symmetry)).collect())
+            }
+        };
+        self.ways.insert(number, image);
     }
 
     /// What a link costs, or what it costs at least as long as it is not weighed.

@@ -15,8 +15,11 @@
 //!
 //! What is found once is known of all copies that the problem's symmetries make of it: every state
 //! is a node together with its images, and so is every transition state with the ways on its sides.
+//! So where two basins meet is looked at for one of the copies, that from which the lowest way is
+//! known, and at last its way is led out of all others.
 
 mod arrivals;
+mod copies;
 mod densify;
 mod guesses;
 mod siblings;
@@ -125,36 +128,18 @@ impl Survey {
         for round in 0..settings.most_rounds {
             self.rounds = round;
             let open: Vec<Merge> = self
-                .merges()
+                .lowest_merges()
                 .into_iter()
                 .filter(|merge| !self.is_settled(merge, settings))
                 .collect();
             if open.is_empty() {
                 break;
             }
-            let looked_at = self.first_of_classes(&open, 1 << round, &tried);
-            self.polish(problem, &looked_at, &mut tried, settings);
-            self.densify(problem, &looked_at, round as u64, settings);
+            self.polish(problem, &open, &mut tried, settings);
+            self.densify(problem, &open, round as u64, settings);
             self.network.span(problem);
         }
-    }
-
-    /// Of each class of states that merge upwards the lowest few merges, and those looked at before:
-    /// what is found there is found for the others, or they have their turn in a later round.
-    fn first_of_classes(&self, open: &[Merge], most: usize, tried: &HashSet<usize>) -> Vec<Merge> {
-        let class_of: HashMap<usize, usize> =
-            self.states.iter().map(|s| (s.node, s.class)).collect();
-        let mut fresh: HashMap<Option<&usize>, usize> = HashMap::new();
-        let mut is_looked_at = |merge: &&Merge| {
-            let count = fresh.entry(class_of.get(&merge.upper)).or_default();
-            let is_fresh = !tried.contains(&merge.link);
-            *count += usize::from(is_fresh);
-            !is_fresh || *count <= most
-        };
-        open.iter()
-            .filter(|merge| is_looked_at(merge))
-            .copied()
-            .collect()
+        self.share(problem);
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.

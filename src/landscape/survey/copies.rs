@@ -1,0 +1,102 @@
+//! What is known of one of a class of states, for the others of the class.
+
+use std::collections::HashMap;
+
+use super::Survey;
+use crate::landscape::network::{Merge, Route};
+use crate::problem::{Problem, Symmetry};
+
+/// A way that is no lower than this share of its energy is as low as another one.
+const AS_LOW: f64 = 1e-9;
+
+impl Survey {
+    /// Of each class of states the lowest merge with another state of the class, and the lowest with
+    /// any other or `free`, ascending.
+    pub(super) fn lowest_merges(&self) -> Vec<Merge> {
+        let class_of = self.classes();
+        let mut seen: HashMap<(Option<usize>, bool), ()> = HashMap::new();
+        let mut merges = self.merges();
+        merges.retain(|merge| seen.insert(kind(&class_of, merge), ()).is_none());
+        merges
+    }
+
+    /// Leads out of all states of a class as low as out of the one from which the lowest way is known:
+    /// along its images.
+    pub(super) fn share(&mut self, problem: &Problem) {
+        if problem.symmetries.len() < 2 {
+            return;
+        }
+        let class_of = self.classes();
+        let peak = |merge: &Merge| self.network.costs(merge.link).peak;
+        let merges = self.merges();
+        let own: HashMap<(usize, bool), f64> = merges
+            .iter()
+            .map(|merge| ((merge.upper, kind(&class_of, merge).1), peak(merge)))
+            .collect();
+        let lowest: Vec<(Merge, f64, Route)> = self
+            .lowest_merges()
+            .into_iter()
+            .map(|merge| {
+                let route = self
+                    .network
+                    .spanning_route(merge.upper, merge.lower, self.free);
+                (merge, peak(&merge), route)
+            })
+            .collect();
+        for (merge, peak, route) in lowest {
+            let is_sideways = kind(&class_of, &merge).1;
+            for symmetry in &problem.symmetries[1..] {
+                let copy = self.image_node(problem, merge.upper, symmetry);
+                let is_as_low = |own: &f64| *own <= peak + AS_LOW * peak.abs();
+                if !own.get(&(copy, is_sideways)).is_some_and(is_as_low) {
+                    self.add_image(problem, copy, &route, symmetry);
+                }
+            }
+        }
+        self.network.span(problem);
+    }
+
+    /// The class of each state's node.
+    fn classes(&self) -> HashMap<usize, usize> {
+        let states = self.states.iter();
+        states.map(|state| (state.node, state.class)).collect()
+    }
+
+    /// Adds the image of a route, from the image of its first node.
+    fn add_image(
+        &mut self,
+        problem: &Problem,
+        mut here: usize,
+        route: &Route,
+        symmetry: &Symmetry,
+    ) {
+        for &(number, forwards) in route {
+            let link = &self.network.links[number];
+            let next = if forwards { link.to } else { link.from };
+            let next = self.image_node(problem, next as usize, symmetry);
+            let ends = if forwards { [here, next] } else { [next, here] };
+            self.network.add_image(number, ends, symmetry);
+            here = next;
+        }
+    }
+
+    /// The image of a node: that of a state is a state's, others are new.
+    fn image_node(&mut self, problem: &Problem, node: usize, symmetry: &Symmetry) -> usize {
+        let Some((q, energy)) = self.network.nodes[node] else {
+            return node;
+        };
+        let q = symmetry.apply(&q);
+        let is_state = self.states.iter().any(|state| state.node == node);
+        let state = is_state.then(|| self.state_at(problem, &q, super::SAME));
+        match state.flatten() {
+            Some(state) => self.states[state].node,
+            None => self.network.add_node(Some((q, energy))),
+        }
+    }
+}
+
+/// The class that merges upwards, and whether with itself.
+fn kind(class_of: &HashMap<usize, usize>, merge: &Merge) -> (Option<usize>, bool) {
+    let [upper, lower] = [merge.upper, merge.lower].map(|node| class_of.get(&node).copied());
+    (upper, upper == lower)
+}
