@@ -47,12 +47,13 @@ impl Stationary {
         self.modes.iter().filter(|mode| mode.0 < 0.0).count()
     }
 
-    /// What a symmetry of the problem makes of it: contacts and modes are determined anew there.
+    /// What a symmetry of the problem makes of it: energy, contacts and modes are determined anew
+    /// there.
     pub fn image(&self, problem: &Problem, symmetry: &Symmetry) -> Self {
         if *symmetry == Symmetry::IDENTITY {
             return self.clone();
         }
-        let point = self.point.image(symmetry);
+        let point = Point::new(problem, symmetry.apply(&self.point.q));
         let surface = Surface::pressing(problem, &point);
         let modes = surface
             .modes(&point, &surface.tangent(&point.q))

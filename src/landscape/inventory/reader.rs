@@ -20,6 +20,9 @@ use crate::problem::Problem;
 /// bond may settle a little beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
+/// Places a micrometre apart can be told from each other (1/m).
+const TELLABLE: f64 = 1e6;
+
 pub(super) struct Reader<'a> {
     pub problem: &'a Problem,
     pub survey: &'a Survey,
@@ -103,6 +106,18 @@ impl Reader<'_> {
             let energy = OrderedFloat(self.energy(class[0]));
             (distance >= BOUND, energy, OrderedFloat(distance))
         });
+        // What rounding makes of the energies of twins is no order.
+        let as_deep = |a: &Class, b: &Class| {
+            let [a, b] = [a, b].map(|class| self.energy(class[0]));
+            (a - b).abs() <= SAME_ENERGY * a.abs()
+        };
+        for twins in classes.chunk_by_mut(as_deep) {
+            twins.sort_by_key(|class| {
+                let Configuration { x, y, theta } = self.configuration(class[0]);
+                let place = [self.distance_to_bound(class[0]), y, x, theta];
+                place.map(|length| (length * TELLABLE).round() as i64)
+            });
+        }
         (classes, count - kept)
     }
 

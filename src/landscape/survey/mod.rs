@@ -127,15 +127,13 @@ impl Survey {
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
             self.rounds = round;
-            let open: Vec<Merge> = self
-                .lowest_merges()
-                .into_iter()
-                .filter(|merge| !self.is_settled(merge, settings))
-                .collect();
+            // A transition state that is found from one copy only is found for all.
+            let places = self.unsettled(self.merges(), settings);
+            self.polish(problem, &places, &mut tried, settings);
+            let open = self.unsettled(self.lowest_merges(), settings);
             if open.is_empty() {
                 break;
             }
-            self.polish(problem, &open, &mut tried, settings);
             self.densify(problem, &open, round as u64, settings);
             self.network.span(problem);
         }
@@ -258,6 +256,11 @@ impl Survey {
             .collect();
         labelled.push((self.free, f64::NEG_INFINITY));
         self.network.merges(&labelled)
+    }
+
+    fn unsettled(&self, mut merges: Vec<Merge>, settings: &SurveySettings) -> Vec<Merge> {
+        merges.retain(|merge| !self.is_settled(merge, settings));
+        merges
     }
 
     fn is_settled(&self, merge: &Merge, settings: &SurveySettings) -> bool {
