@@ -16,6 +16,31 @@ use crate::problem::Problem;
 use crate::roadmap::{Milestone, edge};
 
 impl Survey {
+    /// Joins a state's node to the network by milestones around it, where none of its copies is
+    /// joined. Where energies are dear, of very many magnets, straight motions to other states and to
+    /// `free` have to do.
+    pub(super) fn join(&mut self, problem: &Problem, node: usize, settings: &SurveySettings) {
+        let Some((centre, energy)) = self.network.nodes[node] else {
+            return;
+        };
+        let class = self.states.iter().find(|state| state.node == node);
+        let class = class.map(|state| state.class);
+        let mut copies = self.states.iter().filter(|copy| Some(copy.class) == class);
+        let is_dear = problem.potential().parts().is_some();
+        if is_dear || copies.any(|copy| !self.network.is_isolated(copy.node)) {
+            return;
+        }
+        for radius in [1e-3, 1e-2, 3e-2] {
+            let place = Place {
+                centre,
+                radius,
+                highest: energy.abs() + settings.edge.tolerance.absolute,
+                number: node as u64,
+            };
+            self.densify_at(problem, &place, settings);
+        }
+    }
+
     /// Adds milestones around the meeting places that are still no transition states, and notes
     /// how far that has moved them.
     pub(super) fn densify(

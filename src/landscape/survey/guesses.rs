@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::{Survey, siblings, slides};
+use super::{Survey, SurveySettings, siblings, slides};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Descent, descend_among};
@@ -19,7 +19,12 @@ const HELD: f64 = 1e-3;
 impl Survey {
     /// Looks for minima where those known so far, but for the first few, would be on other pairs of
     /// faces or in the mirror, until there are no more.
-    pub(super) fn find_siblings(&mut self, problem: &Problem, mut known: usize) {
+    pub(super) fn find_siblings(
+        &mut self,
+        problem: &Problem,
+        mut known: usize,
+        settings: &SurveySettings,
+    ) {
         while known < self.states.len() {
             let fresh = self.states[known..].iter().map(|state| {
                 let Point { q, energy, .. } = state.minimum.point;
@@ -27,24 +32,29 @@ impl Survey {
             });
             let fresh: Vec<(Configuration, f64)> = fresh.collect();
             known = self.states.len();
-            self.look_near(problem, siblings::siblings(problem, &fresh));
+            self.look_near(problem, siblings::siblings(problem, &fresh), settings);
         }
     }
 
     /// Looks for minima where faces slide along each other, and where the outlines lie on each other
     /// along much of their length, on faces or elsewhere.
-    pub(super) fn find_meetings(&mut self, problem: &Problem) {
+    pub(super) fn find_meetings(&mut self, problem: &Problem, settings: &SurveySettings) {
         let known = self.states.len();
         let held = -HELD * problem.depth();
         let slid = slides::slid_meetings(problem);
         let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
         let places = places.filter(|q| problem.energy(q) < held && problem.is_free(q));
-        self.look_near(problem, places.collect());
-        self.find_siblings(problem, known);
+        self.look_near(problem, places.collect(), settings);
+        self.find_siblings(problem, known, settings);
     }
 
     /// Follows the energy down from places that are not near known minima.
-    fn look_near(&mut self, problem: &Problem, places: Vec<Configuration>) {
+    fn look_near(
+        &mut self,
+        problem: &Problem,
+        places: Vec<Configuration>,
+        settings: &SurveySettings,
+    ) {
         let places: Vec<Configuration> = places
             .into_iter()
             .filter(|q| self.state_at(problem, q, KNOWN).is_none())
@@ -55,7 +65,9 @@ impl Survey {
             .map(|q| descend_among(problem, q, &verified))
             .collect();
         for descent in &descents {
-            self.arrive(problem, descent);
+            if let Some(end) = self.arrive(problem, descent) {
+                self.join(problem, end, settings);
+            }
         }
     }
 }

@@ -104,8 +104,8 @@ impl Survey {
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
         survey.find_states(problem, &guesses, settings);
-        survey.find_siblings(problem, 0);
-        survey.find_meetings(problem);
+        survey.find_siblings(problem, 0, settings);
+        survey.find_meetings(problem, settings);
         survey.settle(problem, 0, settings);
         survey
     }
@@ -114,7 +114,8 @@ impl Survey {
     pub fn add(&mut self, problem: &Problem, minima: &[Stationary], settings: &SurveySettings) {
         let fresh = self.states.len();
         for minimum in minima {
-            self.state_node(problem, minimum);
+            let node = self.state_node(problem, minimum);
+            self.join(problem, node, settings);
         }
         self.settle(problem, fresh, settings);
     }
@@ -184,10 +185,14 @@ impl Survey {
                 .collect();
             for ((node, _), descent) in some.iter().zip(descents) {
                 let end = self.arrive(problem, &descent);
-                // A guess is not in the network.
-                if let (Some(node), Some(end)) = (*node, end) {
-                    self.network
-                        .add_way(problem, node, end, descent.way, &settings.edge);
+                match (*node, end) {
+                    (Some(node), Some(end)) => {
+                        self.network
+                            .add_way(problem, node, end, descent.way, &settings.edge);
+                    }
+                    // A guess is not in the network yet.
+                    (None, Some(end)) => self.join(problem, end, settings),
+                    _ => {}
                 }
             }
         }
