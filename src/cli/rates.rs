@@ -37,8 +37,9 @@ all; what the mesh's integrals and basins made of whole cells are off by is not 
 estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
 how often tiles set out from the well about the start for an end, or from each basin for another, and
 bounds of the mean time until they are there: near each other only where the well holds next to all
-that the ends do not, far below the passes. Without --start: rates between the bond, the deepest traps and free tiles. The ends
-are sets; without them no rate means anything, so they are printed beside every number.
+that the ends do not, far below the passes. Without --start: rates between the bond, the deepest traps
+and free tiles. The ends are sets; without them no rate means anything, so they are printed beside
+every number.
 
 kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
 energy; tiles that glide far between knocks, or whose knocks take what shaking does not give back,

@@ -41,7 +41,7 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     let far_starts = settings.far_starts();
     let ends = capture::ends(&problem, &far_starts, &survey.verified());
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
-    survey.add_arrivals(&problem, &arrivals, &roadmap.edges);
+    survey.add_arrivals(&problem, &arrivals);
     clock.start("states and barriers", 0.7);
     let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
     for repeat in 1..settings.repeats as u64 {

@@ -67,7 +67,7 @@ impl<'a> Search<'a> {
             let ends = capture::ends(self.problem, &far_starts, &known);
             capture::arrivals(self.problem, &far_starts, &ends)
         });
-        survey.add_arrivals(self.problem, arrivals, &self.roadmap.edges);
+        survey.add_arrivals(self.problem, arrivals);
     }
 
     /// The minimax pathway that a roadmap holds; empty where it holds none.
@@ -119,15 +119,8 @@ impl<'a> Search<'a> {
                 node
             }
         };
-        survey
-            .network
-            .add_way(self.problem, from, to, points, &self.roadmap.edges);
-        survey.add_transition_states_near(
-            self.problem,
-            &peaks,
-            &[Symmetry::IDENTITY],
-            &self.roadmap.edges,
-        );
+        survey.network.add_way(self.problem, from, to, points);
+        survey.add_transition_states_near(self.problem, &peaks, &[Symmetry::IDENTITY]);
         self.add_arrivals(&mut survey);
         let goal = match self.query.to {
             End::At(_) => to,
@@ -172,9 +165,7 @@ impl<'a> Search<'a> {
         }
         let descent = descend(problem, q);
         if let Some(end) = survey.arrive(problem, &descent) {
-            survey
-                .network
-                .add_way(problem, node, end, descent.way, &self.roadmap.edges);
+            survey.network.add_way(problem, node, end, descent.way);
         }
         node
     }

@@ -196,14 +196,13 @@ impl Network {
         from: usize,
         to: usize,
         points: Vec<Point>,
-        settings: &EdgeSettings,
     ) -> usize {
         let energies: Vec<f64> = points.iter().map(|p| p.energy).collect();
         let lengths: Vec<f64> = points
             .windows(2)
             .map(|pair| problem.space.distance(&pair[0].q, &pair[1].q))
             .collect();
-        let costs = costs_of_energies(&energies, &lengths, settings);
+        let costs = costs_of_energies(&energies, &lengths, &self.settings);
         let number = self.add_motion(from, to, costs);
         self.ways.insert(number, Way::Points(points));
         number

@@ -145,14 +145,14 @@ fn worst_detour(
     points: &[Configuration],
     limits: &Limits,
 ) -> Option<(usize, usize)> {
-    let energies: Vec<f64> = points.iter().map(|q| problem.energy(q)).collect();
+    let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
     let price = |from: usize, to: usize, climb: f64| {
         let length = problem.space.distance(&points[from], &points[to]);
         climb.max(0.0) + limits.per_metre * length
     };
     let mut prices = vec![0.0];
     for k in 1..points.len() {
-        let step = price(k - 1, k, energies[k] - energies[k - 1]);
+        let step = price(k - 1, k, milestones[k].energy - milestones[k - 1].energy);
         prices.push(prices[k - 1] + step);
     }
     let stride = points.len().div_ceil(LOOKED_AT).max(1);
@@ -161,7 +161,7 @@ fn worst_detour(
     for (k, &from) in looked_at.iter().enumerate() {
         for &to in &looked_at[k + 1..] {
             // At best.
-            let direct = price(from, to, energies[to] - energies[from]);
+            let direct = price(from, to, milestones[to].energy - milestones[from].energy);
             let saved = prices[to] - prices[from] - direct;
             if saved > WORTHWHILE * limits.per_metre {
                 pairs.push((saved, from, to));
@@ -170,9 +170,9 @@ fn worst_detour(
     }
     pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let is_bypass = |&&(saved, from, to): &&(f64, usize, usize)| {
-        let ends = [from, to].map(|k| Milestone::new(problem, points[k]));
+        let ends = [&milestones[from], &milestones[to]];
         let most = prices[to] - prices[from] - 0.5 * saved;
-        is_motion_within(problem, ends.each_ref(), limits, most)
+        is_motion_within(problem, ends, limits, most)
     };
     let found = pairs.iter().take(TRIED).find(is_bypass)?;
     Some((found.1, found.2))

@@ -9,7 +9,6 @@ use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Outcome, approach};
 use crate::problem::Problem;
-use crate::roadmap::EdgeSettings;
 
 /// Ways that are followed into one state.
 const FOLLOWED: usize = 3;
@@ -23,12 +22,7 @@ const BOUND: f64 = 5e-3;
 impl Survey {
     /// Adds the descents of some far starts to the network, each given with where it is known to
     /// end: the first ones of those that end in a state.
-    pub fn add_arrivals(
-        &mut self,
-        problem: &Problem,
-        far: &[(Configuration, Configuration)],
-        settings: &EdgeSettings,
-    ) {
+    pub fn add_arrivals(&mut self, problem: &Problem, far: &[(Configuration, Configuration)]) {
         let mut followed: HashMap<usize, usize> = HashMap::new();
         let wanted = |(_, end): &&(Configuration, Configuration)| {
             let Some(state) = self.state_at(problem, end, SAME) else {
@@ -59,8 +53,7 @@ impl Survey {
             let first = descent.way[0];
             let node = self.network.add_node(Some((first.q, first.energy)));
             self.network.add_same(node, self.free, first.energy);
-            self.network
-                .add_way(problem, node, end, descent.way, settings);
+            self.network.add_way(problem, node, end, descent.way);
         }
         self.network.span(problem);
     }

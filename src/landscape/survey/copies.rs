@@ -1,8 +1,9 @@
 //! What is known of one of a class of states, for the others of the class.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::Survey;
+use super::{SAME, Survey};
+use crate::configuration::Configuration;
 use crate::landscape::network::{Merge, Route};
 use crate::problem::{Problem, Symmetry};
 
@@ -13,11 +14,7 @@ impl Survey {
     /// Of each class of states the lowest merge with another state of the class, and the lowest with
     /// any other or `free`, ascending.
     pub(super) fn lowest_merges(&self) -> Vec<Merge> {
-        let class_of = self.classes();
-        let mut seen: HashMap<(Option<usize>, bool), ()> = HashMap::new();
-        let mut merges = self.merges();
-        merges.retain(|merge| seen.insert(kind(&class_of, merge), ()).is_none());
-        merges
+        lowest_of(self.merges(), &self.classes())
     }
 
     /// Leads out of all states of a class as low as out of the one from which the lowest way is known:
@@ -33,8 +30,7 @@ impl Survey {
             .iter()
             .map(|merge| ((merge.upper, kind(&class_of, merge).1), peak(merge)))
             .collect();
-        let lowest: Vec<(Merge, f64, Route)> = self
-            .lowest_merges()
+        let lowest: Vec<(Merge, f64, Route)> = lowest_of(merges, &class_of)
             .into_iter()
             .map(|merge| {
                 let route = self
@@ -87,12 +83,36 @@ impl Survey {
         };
         let q = symmetry.apply(&q);
         let is_state = self.states.iter().any(|state| state.node == node);
-        let state = is_state.then(|| self.state_at(problem, &q, super::SAME));
+        let state = is_state.then(|| self.state_at(problem, &q, SAME));
         match state.flatten() {
             Some(state) => self.states[state].node,
             None => self.network.add_node(Some((q, energy))),
         }
     }
+}
+
+/// Those of some symmetries that make different configurations of one.
+pub(super) fn distinct<'a>(
+    problem: &Problem,
+    symmetries: &'a [Symmetry],
+    q: &Configuration,
+) -> Vec<&'a Symmetry> {
+    let mut images: Vec<Configuration> = Vec::new();
+    let is_new = |symmetry: &&Symmetry| {
+        let image = symmetry.apply(q);
+        let is_same = |other: &Configuration| problem.space.distance(other, &image) <= SAME;
+        let is_new = !images.iter().any(is_same);
+        images.push(image);
+        is_new
+    };
+    symmetries.iter().filter(is_new).collect()
+}
+
+/// Of merges, ascending, the first of each kind.
+fn lowest_of(mut merges: Vec<Merge>, class_of: &HashMap<usize, usize>) -> Vec<Merge> {
+    let mut seen = HashSet::new();
+    merges.retain(|merge| seen.insert(kind(class_of, merge)));
+    merges
 }
 
 /// The class that merges upwards, and whether with itself.

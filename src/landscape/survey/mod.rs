@@ -130,7 +130,7 @@ impl Survey {
             self.rounds = round;
             // A transition state that is found from one copy only is found for all.
             let places = self.unsettled(self.merges(), settings);
-            self.polish(problem, &places, &mut tried, settings);
+            self.polish(problem, &places, &mut tried);
             let open = self.unsettled(self.lowest_merges(), settings);
             if open.is_empty() {
                 break;
@@ -187,8 +187,7 @@ impl Survey {
                 let end = self.arrive(problem, &descent);
                 match (*node, end) {
                     (Some(node), Some(end)) => {
-                        self.network
-                            .add_way(problem, node, end, descent.way, &settings.edge);
+                        self.network.add_way(problem, node, end, descent.way);
                     }
                     // A guess is not in the network yet.
                     (None, Some(end)) => self.join(problem, end, settings),
@@ -224,19 +223,15 @@ impl Survey {
             return self.states[known].node;
         }
         let class = self.states.len();
-        for symmetry in &problem.symmetries {
-            let image = minimum.image(problem, symmetry);
-            let q = image.point.q;
-            let copies = self.states[class..].iter();
-            let known = |copy: &FoundState| problem.space.distance(&copy.minimum.point.q, &q);
-            if copies.map(known).all(|distance| distance > SAME) {
-                let node = self.network.add_node(Some((q, image.point.energy)));
-                self.states.push(FoundState {
-                    node,
-                    minimum: image,
-                    class,
-                });
-            }
+        for symmetry in copies::distinct(problem, &problem.symmetries, &q) {
+            let minimum = minimum.image(problem, symmetry);
+            let (q, energy) = (minimum.point.q, minimum.point.energy);
+            let node = self.network.add_node(Some((q, energy)));
+            self.states.push(FoundState {
+                node,
+                minimum,
+                class,
+            });
         }
         // The identity comes first.
         self.states[class].node

@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::{SAME, Survey, SurveySettings};
+use super::copies::distinct;
+use super::{SAME, Survey};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::{self, Point};
 use crate::landscape::minimum::{Descent, Verified, descend_among};
 use crate::landscape::network::{Merge, Way};
 use crate::landscape::stationary::{self, Stationary};
 use crate::problem::{Problem, Symmetry};
-use crate::roadmap::EdgeSettings;
 
 /// How far (m, mass metric) from a transition state its descents start.
 const OFF_SADDLE: f64 = 2e-4;
@@ -20,19 +20,13 @@ const OFF_SADDLE: f64 = 2e-4;
 impl Survey {
     /// Looks for the transition states of meeting places and adds those found, with their
     /// symmetric images.
-    pub(super) fn polish(
-        &mut self,
-        problem: &Problem,
-        open: &[Merge],
-        tried: &mut HashSet<usize>,
-        settings: &SurveySettings,
-    ) {
+    pub(super) fn polish(&mut self, problem: &Problem, open: &[Merge], tried: &mut HashSet<usize>) {
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
-        self.add_transition_states_near(problem, &places, &problem.symmetries, &settings.edge);
+        self.add_transition_states_near(problem, &places, &problem.symmetries);
     }
 
     /// Looks for the transition states near some places, each given with the direction in which it
@@ -42,7 +36,6 @@ impl Survey {
         problem: &Problem,
         places: &[(Configuration, Vector3<f64>)],
         symmetries: &[Symmetry],
-        settings: &EdgeSettings,
     ) {
         let found: Vec<Option<Stationary>> = places
             .par_iter()
@@ -51,17 +44,13 @@ impl Survey {
                     .filter(|found| problem.is_free(&found.point.q))
             })
             .collect();
-        let images = |saddle: &Stationary| {
-            let image = |symmetry: &Symmetry| symmetry.apply(&saddle.point.q);
-            symmetries.iter().map(image).collect::<Vec<_>>()
-        };
         let mut known: Vec<Configuration> =
             self.transition_states.iter().map(|s| s.0.point.q).collect();
         let mut fresh: Vec<Stationary> = Vec::new();
         for found in found.into_iter().flatten() {
             let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
             if !known.iter().any(is_same) {
-                known.extend(images(&found));
+                known.extend(symmetries.iter().map(|s| s.apply(&found.point.q)));
                 fresh.push(found);
             }
         }
@@ -74,16 +63,9 @@ impl Survey {
             let [Some(first), Some(second)] = sides else {
                 continue;
             };
-            let mut copies: Vec<Configuration> = Vec::new();
-            for symmetry in symmetries {
-                let image = saddle.image(problem, symmetry);
-                let q = image.point.q;
-                let is_same = |copy: &Configuration| problem.space.distance(copy, &q) <= SAME;
-                if !copies.iter().any(is_same) {
-                    copies.push(q);
-                    let sides = [&first, &second].map(|side| side.image(problem, symmetry));
-                    self.add_transition_state(problem, image, sides, settings);
-                }
+            for symmetry in distinct(problem, symmetries, &saddle.point.q) {
+                let sides = [&first, &second].map(|side| side.image(problem, symmetry));
+                self.add_transition_state(problem, saddle.image(problem, symmetry), sides);
             }
         }
     }
@@ -93,7 +75,6 @@ impl Survey {
         problem: &Problem,
         saddle: Stationary,
         [first, second]: [Descent; 2],
-        settings: &EdgeSettings,
     ) {
         let ends = [&first, &second].map(|side| self.arrive(problem, side));
         let [Some(from), Some(to)] = ends else {
@@ -103,7 +84,7 @@ impl Survey {
         way.reverse();
         way.push(saddle.point);
         way.extend(second.way);
-        let link = self.network.add_way(problem, from, to, way, settings);
+        let link = self.network.add_way(problem, from, to, way);
         self.transition_states.push((saddle, link));
     }
 
