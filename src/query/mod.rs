@@ -11,7 +11,6 @@ use crate::landscape::certificate::{Certifier, Effort, End};
 use crate::landscape::{Barrier, Place, Uncertified, certification};
 use crate::observer::Observer;
 use crate::pipeline::Settings;
-use crate::potential::CellBounds;
 use crate::problem::Problem;
 use ways::Search;
 
@@ -87,11 +86,10 @@ pub fn barrier(
     }
     let mut barrier = unknown_barrier(&problem, query);
     let search = Search::new(&problem, query);
-    let bounds = bounds(&problem, query);
-    let uncertified = bounds.as_ref().err().copied();
-    match bounds {
-        Ok(bounds) => {
-            let mut certificate = Certificate::new(&problem, bounds, query, &search);
+    let certificate = Certificate::new(&problem, query, &search);
+    let uncertified = certificate.as_ref().err().copied();
+    match certificate {
+        Ok(mut certificate) => {
             observer.stage("certificate", 0.0);
             let mut is_searched = false;
             for width in certification::widths(problem.depth(), certificate.tolerance) {
@@ -143,14 +141,6 @@ fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
     Ok(())
 }
 
-/// The bounds over cells for a query's certificate, if it is to have one.
-fn bounds<'a>(problem: &'a Problem, query: &Query) -> Result<&'a dyn CellBounds, Uncertified> {
-    if query.certify.is_zero() {
-        return Err(Uncertified::NoTime);
-    }
-    Ok(problem.bounds()?)
-}
-
 /// The certificate of one query.
 struct Certificate<'a> {
     certifier: Certifier<'a>,
@@ -163,18 +153,21 @@ struct Certificate<'a> {
 impl<'a> Certificate<'a> {
     fn new(
         problem: &'a Problem,
-        bounds: &'a dyn CellBounds,
         query: &'a Query,
         search: &'a Search<'a>,
-    ) -> Self {
+    ) -> Result<Self, Uncertified> {
+        if query.certify.is_zero() {
+            return Err(Uncertified::NoTime);
+        }
         let since = Instant::now();
-        Self {
-            certifier: Certifier::new(bounds, problem.contact.as_ref(), &problem.space),
+        let (contact, space) = (problem.contact.as_ref(), &problem.space);
+        Ok(Self {
+            certifier: Certifier::within(problem.bounds()?, contact, space, query.certify)?,
             query,
             search,
             tolerance: query.tolerance.unwrap_or(0.01 * problem.depth()),
             since,
-        }
+        })
     }
 
     /// Narrows the bounds to a width (J), until about so many cells have been assessed altogether,

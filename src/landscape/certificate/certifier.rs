@@ -1,5 +1,7 @@
 //! The certifier: one subdivision of the configuration space that serves many queries.
 
+use std::time::{Duration, Instant};
+
 use rayon::prelude::*;
 
 use super::ends::Ends;
@@ -11,6 +13,7 @@ use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::interruption;
+use crate::landscape::Uncertified;
 use crate::potential::bounds::CellBounds;
 
 /// Halvings of a leaf, one after the other, in one round.
@@ -33,6 +36,35 @@ impl<'a> Certifier<'a> {
         contact: Option<&'a Contact>,
         space: &'a ConfigurationSpace,
     ) -> Self {
+        Self::started(bounds, contact, space, || false)
+    }
+
+    /// The same, unless it takes longer than a time: of very many magnets bounds over the first,
+    /// large cells may.
+    ///
+    /// # Errors
+    /// [`Uncertified::TimeOver`].
+    pub fn within(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+        time: Duration,
+    ) -> Result<Self, Uncertified> {
+        let since = Instant::now();
+        let certifier = Self::started(bounds, contact, space, || since.elapsed() >= time);
+        if since.elapsed() >= time {
+            return Err(Uncertified::TimeOver);
+        }
+        Ok(certifier)
+    }
+
+    /// With bounds over the first cells, unless it is to give up, when it is good for nothing.
+    fn started(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+        gives_up: impl Fn() -> bool + Sync,
+    ) -> Self {
         let landscape = Landscape::new(bounds, contact, space);
         let mut store = Store::new(space);
         let keys = Store::first_keys();
@@ -41,6 +73,9 @@ impl<'a> Certifier<'a> {
             .into_par_iter()
             .filter_map(|key| {
                 interruption::check();
+                if gives_up() {
+                    return None;
+                }
                 Some((key, landscape.assess(&store.cell(&key))?))
             })
             .collect();

@@ -65,6 +65,9 @@ pub enum Uncertified {
     /// None was asked for.
     #[error("no time was given to the proof")]
     NoTime,
+    /// It took longer.
+    #[error("the time given to the proof ended before the first bounds")]
+    TimeOver,
     /// None can be.
     #[error(transparent)]
     Unbounded(#[from] Unbounded),
@@ -93,8 +96,9 @@ pub fn certify(
         return Err(Uncertified::NoTime);
     }
     let depth = problem.depth();
-    let mut certifier = Certifier::new(bounds, problem.contact.as_ref(), &problem.space);
     let since = Instant::now();
+    let contact = problem.contact.as_ref();
+    let mut certifier = Certifier::within(bounds, contact, &problem.space, limit)?;
     let mut left: Vec<usize> = vec![settings.cells; inventory.barriers.len()];
     let mut rounds = VecDeque::from(schedule::rounds(inventory, settings, depth));
     let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
@@ -164,6 +168,7 @@ fn narrow(
     {
         known.push(to);
     }
+    let since = Instant::now();
     let escape = escapes::bracket(problem, certifier, inventory, (barrier, &known), effort);
     let barrier = &mut inventory.barriers[number];
     let mut cells = 0;
@@ -189,7 +194,9 @@ fn narrow(
             way => beside = way,
         }
     }
-    if let Ok(bracket) = certifier.bracket(&start, &to, &known, effort) {
+    let time = effort.time.map(|time| time.saturating_sub(since.elapsed()));
+    let rest = Effort { time, ..*effort };
+    if let Ok(bracket) = certifier.bracket(&start, &to, &known, &rest) {
         cells += bracket.cells;
         take_over(problem, barrier, &bracket, bend);
     }
