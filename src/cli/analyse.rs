@@ -4,13 +4,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use tilebind::Settings;
 use tilebind::dynamics::check::BarrierCheck;
 use tilebind::landscape::CompletenessSettings;
 use tilebind::observer::Observer;
 use tilebind::pipeline;
 use tilebind::report::summary;
 use tilebind::report::writer::{self, Contents, Extent, WriteError};
+use tilebind::{Design, Settings};
 
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
@@ -70,14 +70,14 @@ pub struct Analyse {
     tolerance: Option<f64>,
 
     /// Seconds after which the certificate keeps the bounds it has; 0 for no certificate
-    #[arg(long, value_name = "S", default_value_t = Settings::default().certify_seconds,
-          value_parser = input::not_negative)]
-    certify_seconds: f64,
+    /// [default: 60; of very many magnets 0]
+    #[arg(long, value_name = "S", value_parser = input::not_negative)]
+    certify_seconds: Option<f64>,
 
     /// Seconds given to the proof that no state is missing from the list; 0 for no proof
-    #[arg(long, value_name = "S", default_value_t = Settings::default().completeness.seconds,
-          value_parser = input::not_negative)]
-    complete_seconds: f64,
+    /// [default: 60; of very many magnets 0]
+    #[arg(long, value_name = "S", value_parser = input::not_negative)]
+    complete_seconds: Option<f64>,
 
     /// Traps are looked for below this share of the bond's energy
     #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.below,
@@ -114,17 +114,13 @@ impl Analyse {
         let design = self.design.load()?;
         self.check_out()?;
         let sheet = self.figures.sheet()?;
-        memory::check(self.survey.milestones, self.survey.neighbours, 1)?;
+        let settings = self.settings(&design);
+        memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
-        let survey = workload::Survey {
-            milestones: self.survey.milestones,
-            far_starts: self.survey.far_starts,
-            states: true,
-        };
-        workload::tell_of(&design, survey, self.work.threads());
+        workload::tell_of(&design, &settings);
 
         let progress = self.print.progress();
-        let analysis = pipeline::analyse(&design, &self.settings(), &progress);
+        let analysis = pipeline::analyse(&design, &settings, &progress);
         progress.stage("pictures", 0.95);
         let contents = Contents {
             extent: if self.compact {
@@ -163,26 +159,29 @@ impl Analyse {
         Ok(())
     }
 
-    fn settings(&self) -> Settings {
+    fn settings(&self, design: &Design) -> Settings {
+        let default = Settings::of([design]);
+        let complete = default.completeness;
         Settings {
             seed: self.work.seed,
-            milestones: self.survey.milestones,
+            milestones: self.survey.milestones.unwrap_or(default.milestones),
             neighbours: self.survey.neighbours,
             boltzmann: self.boltzmann,
             thermal_energy: self.thermal_energy,
             settled: self.survey.settled,
-            far_starts: self.survey.far_starts,
+            far_starts: self.survey.far_starts.unwrap_or(default.far_starts),
+            most_kinds: self.survey.kinds.or(default.most_kinds),
             repeats: self.repeats,
             tolerance: self.tolerance,
-            certify_seconds: self.certify_seconds,
+            certify_seconds: self.certify_seconds.unwrap_or(default.certify_seconds),
             completeness: CompletenessSettings {
                 below: self.complete_below,
                 escape: self.complete_escape,
-                seconds: self.complete_seconds,
-                ..Settings::default().completeness
+                seconds: self.complete_seconds.unwrap_or(complete.seconds),
+                ..complete
             },
             dynamics_runs: self.survey.dynamics_runs(),
-            ..Settings::default()
+            ..default
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Options of the commands that assess designs.
 
 use clap::Args;
+use tilebind::Design;
 use tilebind::comparison::AssessmentSettings;
 
 use super::input;
@@ -23,27 +24,33 @@ pub struct AssessmentOptions {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 
-    /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds
-    #[arg(long, value_name = "N", default_value_t = AssessmentSettings::default().certify_cells,
-          value_parser = input::count_or_none)]
-    certify_cells: usize,
+    /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds [default: 200000; of
+    /// very many magnets 0]
+    #[arg(long, value_name = "N", value_parser = input::count_or_none)]
+    certify_cells: Option<usize>,
 
     /// Cells spent on the search for states that the survey missed, at most; 0 for no search
-    #[arg(long, value_name = "N", default_value_t = AssessmentSettings::default().complete_cells,
-          value_parser = input::count_or_none)]
-    complete_cells: usize,
+    /// [default: 300000; of very many magnets 0]
+    #[arg(long, value_name = "N", value_parser = input::count_or_none)]
+    complete_cells: Option<usize>,
 }
 
 impl AssessmentOptions {
-    pub fn settings(&self) -> AssessmentSettings {
+    /// The settings for designs, the same for all.
+    pub fn settings<'a>(
+        &self,
+        designs: impl IntoIterator<Item = &'a Design>,
+    ) -> AssessmentSettings {
+        let default = AssessmentSettings::of(designs);
         AssessmentSettings {
-            milestones: self.survey.milestones,
+            milestones: self.survey.milestones.unwrap_or(default.milestones),
             neighbours: self.survey.neighbours,
             settled: self.survey.settled,
-            far_starts: self.survey.far_starts,
+            far_starts: self.survey.far_starts.unwrap_or(default.far_starts),
+            most_kinds: self.survey.kinds.or(default.most_kinds),
             tolerance: self.tolerance,
-            certify_cells: self.certify_cells,
-            complete_cells: self.complete_cells,
+            certify_cells: self.certify_cells.unwrap_or(default.certify_cells),
+            complete_cells: self.complete_cells.unwrap_or(default.complete_cells),
             dynamics_runs: self.survey.dynamics_runs(),
         }
     }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
-use tilebind::{Configuration, Settings};
+use tilebind::{Configuration, Design, Settings};
 
 use super::options::{DesignOptions, WorkOptions};
 use super::progress::Progress;
@@ -48,10 +48,9 @@ pub struct Barrier {
           value_parser = input::not_negative)]
     certify_seconds: f64,
 
-    /// Milestones of the roadmap
-    #[arg(long, value_name = "N", default_value_t = Settings::default().milestones,
-          value_parser = input::count)]
-    milestones: usize,
+    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
+    #[arg(long, value_name = "N", value_parser = input::count)]
+    milestones: Option<usize>,
 
     /// File for the pathway (CSV); from line to line the motion is straight in x, y and theta, the
     /// shorter way round
@@ -77,16 +76,12 @@ impl Barrier {
         if let Some(file) = &self.pathway {
             input::check_file(file)?;
         }
-        memory::check(self.milestones, None, 1)?;
+        let query = self.query(&design);
+        memory::check(query.settings.milestones, None, 1)?;
         self.work.use_threads()?;
-        let survey = workload::Survey {
-            milestones: self.milestones,
-            far_starts: 0,
-            states: false,
-        };
-        workload::tell_of(&design, survey, self.work.threads());
+        workload::tell_of(&design, &query.settings);
         let progress = Progress::new(self.quiet);
-        let answer = query::barrier(&design, &self.query(), &progress).map_err(|error| {
+        let answer = query::barrier(&design, &query, &progress).map_err(|error| {
             let message = error.to_string();
             match error {
                 QueryError::NoWay => Failure::Run(message),
@@ -101,14 +96,17 @@ impl Barrier {
         print(&json::text(&self.entry(&answer)))
     }
 
-    fn query(&self) -> Query {
+    fn query(&self, design: &Design) -> Query {
+        let default = Settings::of([design]);
         Query {
             from: self.from,
             to: self.to,
             settings: Settings {
                 seed: self.work.seed,
-                milestones: self.milestones,
-                ..Settings::default()
+                milestones: self.milestones.unwrap_or(default.milestones),
+                far_starts: 0,
+                most_kinds: None,
+                ..default
             },
             tolerance: self.tolerance,
             certify: Duration::from_secs_f64(self.certify_seconds.min(1e9)),

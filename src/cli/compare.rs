@@ -73,16 +73,11 @@ impl Compare {
         let designs = self.load()?;
         input::check_folder(&self.out)?;
         let sheet = self.figures.sheet()?;
-        let settings = self.options.settings();
+        let settings = self.options.settings(&designs);
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
         for design in &designs {
-            let survey = workload::Survey {
-                milestones: settings.milestones,
-                far_starts: settings.far_starts,
-                states: true,
-            };
-            workload::tell_of(design, survey, self.work.threads());
+            workload::tell_of(design, &settings.settings(self.work.seed));
         }
 
         let progress = self.print.progress();

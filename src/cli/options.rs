@@ -46,10 +46,9 @@ impl DesignOptions {
 /// How thoroughly the landscape is surveyed.
 #[derive(Args)]
 pub struct SurveyOptions {
-    /// Milestones of the roadmap
-    #[arg(long, value_name = "N", default_value_t = Settings::default().milestones,
-          value_parser = input::count)]
-    pub milestones: usize,
+    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
+    #[arg(long, value_name = "N", value_parser = input::count)]
+    pub milestones: Option<usize>,
 
     /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
     #[arg(long, value_name = "K", value_parser = input::count)]
@@ -60,10 +59,14 @@ pub struct SurveyOptions {
           value_parser = input::fraction)]
     pub settled: f64,
 
-    /// Far starts from which capture shares are counted
-    #[arg(long, value_name = "N", default_value_t = Settings::default().far_starts,
-          value_parser = input::runs_or_none)]
-    pub far_starts: usize,
+    /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
+    /// fewer]
+    #[arg(long, value_name = "N", value_parser = input::count)]
+    pub kinds: Option<usize>,
+
+    /// Far starts from which capture shares are counted [default: 1000; of very many magnets fewer]
+    #[arg(long, value_name = "N", value_parser = input::runs_or_none)]
+    pub far_starts: Option<usize>,
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,

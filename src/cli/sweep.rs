@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
+use tilebind::Design;
 use tilebind::report::json;
 use tilebind::report::page::Page;
 use tilebind::report::plots::curve_data;
@@ -133,13 +134,15 @@ impl Sweep {
             return self.work(&plan, &folder, shard);
         }
         // Doubts about the designs as they stand are told here.
-        for design in &self.designs {
-            input::load(design)?;
-        }
+        let designs: Vec<Design> = self
+            .designs
+            .iter()
+            .map(|design| input::load(design))
+            .collect::<Result<_, _>>()?;
         let plan = Plan::new(
             &self.designs,
             self.vary.clone(),
-            self.options.settings(),
+            self.options.settings(&designs),
             self.work.seed,
         )
         .map_err(usage)?;

@@ -44,6 +44,9 @@ pub struct AssessmentSettings {
     pub settled: f64,
     /// Number of far starts from which capture shares are counted.
     pub far_starts: usize,
+    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub most_kinds: Option<usize>,
     /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the
     /// bond or a twentieth of the barrier, whichever is less.
     #[serde(rename = "tolerance_J")]
@@ -65,21 +68,31 @@ fn is_zero(runs: &usize) -> bool {
 
 impl Default for AssessmentSettings {
     fn default() -> Self {
-        let settings = Settings::default();
+        Self::like(Settings::default())
+    }
+}
+
+impl AssessmentSettings {
+    /// Defaults for designs, the same for all of them: see [`Settings::of`].
+    pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
+        Self::like(Settings::of(designs))
+    }
+
+    fn like(settings: Settings) -> Self {
+        let cells = |seconds: f64, usual: usize| if seconds > 0.0 { usual } else { 0 };
         Self {
             milestones: settings.milestones,
             neighbours: settings.neighbours,
             settled: settings.settled,
             far_starts: settings.far_starts,
+            most_kinds: settings.most_kinds,
             tolerance: settings.tolerance,
-            certify_cells: 200_000,
-            complete_cells: 300_000,
+            certify_cells: cells(settings.certify_seconds, 200_000),
+            complete_cells: cells(settings.completeness.seconds, 300_000),
             dynamics_runs: 0,
         }
     }
-}
 
-impl AssessmentSettings {
     /// The settings of the main job.
     pub fn settings(&self, seed: u64) -> Settings {
         Settings {
@@ -88,6 +101,7 @@ impl AssessmentSettings {
             neighbours: self.neighbours,
             settled: self.settled,
             far_starts: self.far_starts,
+            most_kinds: self.most_kinds,
             tolerance: self.tolerance,
             certify_cells: self.certify_cells,
             certify_seconds: if self.certify_cells > 0 {

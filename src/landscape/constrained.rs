@@ -1,6 +1,6 @@
 //! Motion along contact: steps that never push the tiles into each other.
 
-use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
@@ -57,8 +57,7 @@ impl Point {
         Self {
             q: symmetry.apply(&self.q),
             energy: self.energy,
-            gradient: Rotation3::from_axis_angle(&Vector3::z_axis(), symmetry.fixed)
-                * self.gradient,
+            gradient: symmetry.turned(&self.gradient),
         }
     }
 }

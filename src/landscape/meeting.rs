@@ -8,6 +8,7 @@ use crate::contact::{Contact, EdgeOf, Touch};
 use crate::potential::dipole::{dipoles, pair};
 use crate::tile::outline::distance_to_segment;
 use crate::tile::{Outline, Tile};
+use crate::units::MU0_OVER_4PI;
 
 /// Gaps below this (m) count as touching.
 const TOUCHING: f64 = 1e-6;
@@ -82,24 +83,24 @@ fn face_of_vertex(tile: &Tile, vertex: usize, pose: &Configuration, normal: Vect
 /// tenth of the strongest pair's.
 pub fn magnet_pairs(fixed: &Tile, moving: &Tile, q: &Configuration) -> (usize, usize) {
     let rotation = q.rotation();
-    let energies: Vec<f64> = dipoles(&moving.magnets)
-        .iter()
-        .flat_map(|second| {
-            let position = q.transform(second.position);
-            dipoles(&fixed.magnets)
-                .into_iter()
-                .map(move |first| {
-                    pair(
-                        first.moment,
-                        rotation * second.moment,
-                        position - first.position,
-                    )
-                    .0
-                })
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    let strongest = energies.iter().map(|u| u.abs()).fold(0.0, f64::max);
+    let of_fixed = dipoles(&fixed.magnets);
+    let mut strongest = 0.0f64;
+    let mut energies: Vec<f64> = Vec::new();
+    for second in dipoles(&moving.magnets) {
+        let position = q.transform(second.position);
+        let moment = rotation * second.moment;
+        for first in &of_fixed {
+            let way = position - first.position;
+            // No more than twice the moments' product over the cube of the distance.
+            let most = 2.0 * MU0_OVER_4PI * (first.moment.norm() * moment.norm());
+            if most < COUNTED * strongest * way.norm().powi(3) {
+                continue;
+            }
+            let energy = pair(first.moment, moment, way).0;
+            strongest = strongest.max(energy.abs());
+            energies.push(energy);
+        }
+    }
     let count = |sign: f64| {
         energies
             .iter()

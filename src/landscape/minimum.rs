@@ -47,9 +47,9 @@ pub struct Descent {
 
 impl Descent {
     /// What a symmetry makes of it.
-    pub fn image(&self, problem: &Problem, symmetry: &Symmetry) -> Self {
+    pub fn image(&self, symmetry: &Symmetry) -> Self {
         let outcome = match &self.outcome {
-            Outcome::Minimum(found) => Outcome::Minimum(Box::new(found.image(problem, symmetry))),
+            Outcome::Minimum(found) => Outcome::Minimum(Box::new(found.image(symmetry))),
             Outcome::Free => Outcome::Free,
             Outcome::Stuck(q) => Outcome::Stuck(symmetry.apply(q)),
         };

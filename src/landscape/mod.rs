@@ -25,3 +25,4 @@ pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
     State, StateKind, Uncaptured, highest_point, work,
 };
+pub use survey::LeftOut;

@@ -34,8 +34,6 @@ const UNBALANCED: f64 = 1e-5;
 pub struct Stationary {
     /// Where it is, with its energy and gradient.
     pub point: Point,
-    /// Contacts held closed.
-    pub touching: Vec<Touch>,
     /// Eigenvalues of the reduced Hessian (J/m^2), ascending, and their directions, of length 1
     /// in the mass metric.
     pub modes: Vec<(f64, Vector3<f64>)>,
@@ -47,21 +45,15 @@ impl Stationary {
         self.modes.iter().filter(|mode| mode.0 < 0.0).count()
     }
 
-    /// What a symmetry of the problem makes of it: energy, contacts and modes are determined anew
-    /// there.
-    pub fn image(&self, problem: &Problem, symmetry: &Symmetry) -> Self {
-        if *symmetry == Symmetry::IDENTITY {
-            return self.clone();
-        }
-        let point = Point::new(problem, symmetry.apply(&self.point.q));
-        let surface = Surface::pressing(problem, &point);
-        let modes = surface
-            .modes(&point, &surface.tangent(&point.q))
-            .unwrap_or_default();
+    /// What a symmetry of the problem makes of it.
+    pub fn image(&self, symmetry: &Symmetry) -> Self {
         Self {
-            point,
-            touching: surface.closed,
-            modes,
+            point: self.point.image(symmetry),
+            modes: self
+                .modes
+                .iter()
+                .map(|(curvature, direction)| (*curvature, symmetry.turned(direction)))
+                .collect(),
         }
     }
 }
@@ -117,11 +109,7 @@ fn search(
         let metric = problem.mass_metric(point.q.theta);
         let size = length(&step, &metric);
         if size <= CONVERGED {
-            return Some(Stationary {
-                point,
-                touching: surface.closed,
-                modes,
-            });
+            return Some(Stationary { point, modes });
         }
         // Steps that overshoot make the slope grow: shorten them.
         longest = if slope_size > last_slope {

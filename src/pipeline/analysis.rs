@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Settings;
 use crate::configuration::Configuration;
 use crate::dynamics::check::BarrierCheck;
-use crate::landscape::{Barrier, Completeness, Inventory, Uncaptured, Uncertified};
+use crate::landscape::{Barrier, Completeness, Inventory, LeftOut, Uncaptured, Uncertified};
 use crate::problem::Problem;
 use crate::roadmap::RoadmapSettings;
 
@@ -59,7 +59,7 @@ impl Analysis {
 }
 
 /// How much was done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Counts {
     /// Milestones of the roadmap.
     pub milestones: usize,
@@ -67,6 +67,9 @@ pub struct Counts {
     pub edges: usize,
     /// Transition states found, copies counted one by one.
     pub transition_states: usize,
+    /// Kinds of states that were found and are not listed, as so many are asked for only.
+    #[serde(default)]
+    pub left_out: Option<LeftOut>,
     /// Energies computed, with their gradients or without.
     pub energy_evaluations: u64,
     /// Cells of the certificate.

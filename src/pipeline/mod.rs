@@ -11,6 +11,8 @@ pub(crate) use clock::Clock;
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Body;
@@ -40,6 +42,8 @@ pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) ->
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
     let ends = capture::ends(&problem, &far_starts, &survey.verified());
+    let shallow = -settings.least_depth * problem.depth();
+    survey.add_rests(&problem, &ends, shallow, &settings.survey(&roadmap));
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
     survey.add_arrivals(&problem, &arrivals);
     clock.start("states and barriers", 0.7);
@@ -127,6 +131,7 @@ pub(crate) fn survey(
     let transition_states = survey.transition_states.len();
     let counts = Counts {
         transition_states,
+        left_out: survey.left_out,
         ..counts
     };
     (survey, counts)
@@ -145,9 +150,13 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     let blocks = blocks
         .between(&design.pair.fixed, &design.pair.moving)
         .potential;
-    for state in &mut inventory.states {
-        state.block_energy = Some(blocks.energy(&state.configuration));
-    }
+    let kinds = inventory.states.par_chunk_by_mut(|a, b| a.class == b.class);
+    kinds.for_each(|copies| {
+        let energy = blocks.energy(&copies[0].configuration);
+        for state in copies {
+            state.block_energy = Some(energy);
+        }
+    });
 }
 
 /// What moving tiles say of the barriers that are claimed, if they are asked.

@@ -1,5 +1,6 @@
 //! What the main job is asked for, and what that means for each of its stages.
 
+use crate::design::Design;
 use crate::dynamics::check::CheckSettings;
 use crate::landscape::capture::FarStarts;
 use crate::landscape::certification::CertificationSettings;
@@ -25,8 +26,12 @@ pub struct Settings {
     pub thermal_energy: Option<f64>,
     /// A barrier is settled when it moves by less than this fraction.
     pub settled: f64,
+    /// Milestones added in each round around a meeting place of basins that is not settled.
+    pub added_milestones: usize,
     /// Minima are left out whose escape barrier is below this fraction of the deepest energy.
     pub least_depth: f64,
+    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    pub most_kinds: Option<usize>,
     /// Number of far starts.
     pub far_starts: usize,
     /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the bond or a
@@ -56,7 +61,9 @@ impl Default for Settings {
             boltzmann: None,
             thermal_energy: None,
             settled: 0.005,
+            added_milestones: 100,
             least_depth: 1e-4,
+            most_kinds: None,
             far_starts: 1000,
             tolerance: None,
             certify_seconds: 60.0,
@@ -74,7 +81,47 @@ impl Default for Settings {
     }
 }
 
+/// From so many pairs of magnets on there is less of everything, ...
+const MANY_PAIRS: f64 = 16_384.0;
+/// ... by this power of their number: energies, of far groups, take less than all pairs would.
+const THINNED: f64 = 2.0 / 3.0;
+/// Kinds of states that are looked at of so many pairs.
+const KINDS_OF_MANY: f64 = 800.0;
+/// Far starts that there are at least: none of 60 still says less than 7 %.
+const FEWEST_STARTS: f64 = 60.0;
+/// From so many pairs on a minute's proof comes to nothing: of squares with 100 magnets a face ...
+const HOPELESS_PAIRS: f64 = 500_000.0;
+
 impl Settings {
+    /// Defaults for designs: of very many magnets less of everything, so that a result comes within
+    /// minutes; all of them the same, those that the one with the most pairs of magnets needs.
+    pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
+        let pairs = |design: &Design| {
+            let tiles = [&design.pair.fixed, &design.pair.moving];
+            tiles.map(|tile| tile.magnets.len() as f64).iter().product()
+        };
+        let pairs = designs.into_iter().map(pairs).fold(0.0, f64::max);
+        let default = Self::default();
+        if pairs <= MANY_PAIRS {
+            return default;
+        }
+        let thinned = (pairs / MANY_PAIRS).powf(THINNED);
+        let fewer = |count: usize| count as f64 / thinned;
+        let seconds = |usual: f64| if pairs < HOPELESS_PAIRS { usual } else { 0.0 };
+        Self {
+            milestones: fewer(default.milestones) as usize,
+            added_milestones: fewer(default.added_milestones) as usize,
+            most_kinds: Some((KINDS_OF_MANY / thinned) as usize),
+            far_starts: fewer(default.far_starts).max(FEWEST_STARTS) as usize,
+            certify_seconds: seconds(default.certify_seconds),
+            completeness: CompletenessSettings {
+                seconds: seconds(default.completeness.seconds),
+                ..default.completeness
+            },
+            ..default
+        }
+    }
+
     /// For states and barriers without proofs and capture shares, as kinetics needs them.
     pub fn without_proofs(seed: u64) -> Self {
         let default = Self::default();
@@ -123,7 +170,8 @@ impl Settings {
         SurveySettings {
             edge: roadmap.edges,
             settled: self.settled,
-            added_milestones: 100,
+            most_kinds: self.most_kinds,
+            added_milestones: self.added_milestones,
             most_rounds: 8,
             seed: roadmap.milestones.seed,
         }

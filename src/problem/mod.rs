@@ -154,6 +154,11 @@ impl Problem {
         })
     }
 
+    /// Whether an energy takes so long, of very many magnets, that as few as possible are to be asked.
+    pub fn is_dear(&self) -> bool {
+        self.potential().parts().is_some()
+    }
+
     /// How far (m) the moving tile has to go in a direction until the tiles do not overlap.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
         self.contact

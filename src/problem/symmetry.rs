@@ -1,5 +1,7 @@
 //! Symmetries of a pair of tiles as maps of configurations.
 
+use nalgebra::{Rotation3, Vector3};
+
 use crate::configuration::{Configuration, wrap_angle};
 use crate::potential::shielding::{Shield, Shields};
 use crate::tile::symmetry::{rotations, turned_faces};
@@ -42,6 +44,12 @@ impl Symmetry {
             turned.y,
             wrap_angle(q.theta + self.fixed - self.moving),
         )
+    }
+
+    /// What becomes of a direction in (x, y, theta), of a step or of a gradient: the turn of the fixed
+    /// tile's plane.
+    pub fn turned(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        Rotation3::from_axis_angle(&Vector3::z_axis(), self.fixed) * direction
     }
 }
 

@@ -72,6 +72,19 @@ pub fn summary(
 
 /// Whether states may be missing from the list.
 fn write_completeness(text: &mut String, analysis: &Analysis) {
+    if let Some(left) = analysis.counts.left_out {
+        let _ = writeln!(
+            text,
+            "{} more {} found, {} at the lowest, and not looked at (--kinds N: the N deepest)",
+            left.kinds,
+            if left.kinds == 1 {
+                "kind of trap was"
+            } else {
+                "kinds of trap were"
+            },
+            si(left.lowest, "J", 4)
+        );
+    }
     let known = match &analysis.completeness {
         Ok(known) => known,
         Err(why) => {

@@ -96,7 +96,7 @@ impl Roadmap {
         settings: &RoadmapSettings,
         watch: &mut dyn FnMut(&'static str),
     ) -> Self {
-        if problem.potential().parts().is_none() {
+        if !problem.is_dear() {
             return Self::build(problem, settings, watch);
         }
         let (milestones, pairs) = drawn(problem, settings, watch);

@@ -78,6 +78,7 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey 
     let settings = SurveySettings {
         edge,
         settled: SETTLED,
+        most_kinds: None,
         added_milestones: 100,
         most_rounds: 8,
         seed,

@@ -32,6 +32,7 @@ fn survey(problem: &Problem, milestones: usize) -> (Survey, SurveySettings) {
     let settings = SurveySettings {
         edge: roadmap.edges,
         settled: settings.settled,
+        most_kinds: None,
         added_milestones: 100,
         most_rounds: 8,
         seed: 1,

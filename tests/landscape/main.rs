@@ -9,6 +9,7 @@ mod counts;
 #[path = "../shared/designs.rs"]
 mod designs;
 mod inventory;
+mod many_magnets;
 mod meetings;
 mod minimum;
 mod neighbours;

@@ -79,6 +79,7 @@ fn what_is_found_once_is_known_of_all_copies() {
     let settings = SurveySettings {
         edge: roadmap.edges,
         settled: 0.005,
+        most_kinds: None,
         added_milestones: 100,
         most_rounds: 8,
         seed: 1,

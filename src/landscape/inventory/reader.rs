@@ -47,12 +47,8 @@ impl Reader<'_> {
             .collect();
         let bound = order.first().copied();
         let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
-        let firsts = classes.iter().flat_map(|class| vec![class[0]; class.len()]);
-        let members: Vec<(usize, usize)> = order.iter().copied().zip(firsts).collect();
-        let state = |(id, &(found, first)): (usize, &(usize, usize))| {
-            self.state(found, id, ids[&self.node(first)], bound == Some(first))
-        };
-        let states: Vec<State> = members.par_iter().enumerate().map(state).collect();
+        let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
+        let states: Vec<State> = classes.par_iter().flat_map_iter(of_class).collect();
         Inventory {
             barriers: self.barriers(&classes, &ids, bound),
             alternatives: self.alternatives(&states, &order, bound),
@@ -158,39 +154,51 @@ impl Reader<'_> {
             .then_some(sideways)
     }
 
-    fn state(&self, found: usize, id: usize, class: usize, is_bound: bool) -> State {
-        let configuration = self.configuration(found);
+    /// The states of a class. What symmetries keep is the first one's.
+    fn states(&self, class: &Class, ids: &Ids, is_bound: bool) -> Vec<State> {
+        let first = class[0];
         let pair = self.problem.pair.as_deref();
         let (attracting, repelling) = pair.map_or((0, 0), |pair| {
-            magnet_pairs(&pair.fixed, &pair.moving, &configuration)
+            magnet_pairs(&pair.fixed, &pair.moving, &self.configuration(first))
         });
-        let faces = pair.zip(self.problem.contact.as_ref());
-        let faces = faces.map(|(pair, contact)| {
-            touching_faces(contact, &pair.fixed, &pair.moving, &configuration)
-        });
-        State {
-            id,
+        let state = |&found: &usize| State {
+            id: ids[&self.node(found)],
             kind: if is_bound {
                 StateKind::Bond
             } else {
                 StateKind::Trap
             },
-            configuration,
+            configuration: self.configuration(found),
             energy: self.energy(found),
-            class,
-            faces: faces.unwrap_or_default(),
+            class: ids[&self.node(first)],
+            faces: self.faces(found),
             attracting,
             repelling,
             block_energy: None,
             capture: None,
-            sideways: (id == class).then(|| self.sideways(found)).flatten(),
-        }
+            sideways: (found == first).then(|| self.sideways(found)).flatten(),
+        };
+        class.iter().map(state).collect()
+    }
+
+    /// The pairs of faces that touch.
+    fn faces(&self, found: usize) -> Vec<(usize, usize)> {
+        let q = self.configuration(found);
+        let pair = self.problem.pair.as_deref();
+        let pair = pair.zip(self.problem.contact.as_ref());
+        pair.map(|(pair, contact)| touching_faces(contact, &pair.fixed, &pair.moving, &q))
+            .unwrap_or_default()
     }
 
     /// The barrier from a state to the nearest of some nodes.
     fn barrier_to(&self, found: usize, goals: &HashSet<usize>, ids: &Ids) -> Option<Barrier> {
         let node = self.node(found);
-        let depth = self.energy(found).abs();
+        let own = self.energy(found).abs();
+        let depth = if self.problem.is_dear() {
+            own.max(self.problem.depth())
+        } else {
+            own
+        };
         let is_reported = |goal: &usize| *goal == self.survey.free || ids.contains_key(goal);
         let reported: HashSet<usize> = goals.iter().copied().filter(is_reported).collect();
         let Lowest { end, pathway } = pathway::lowest(
@@ -198,7 +206,7 @@ impl Reader<'_> {
             &self.survey.network,
             node,
             [goals, &reported],
-            [depth, 2e-3 * depth],
+            [depth, 2e-3 * own],
         )?;
         let to = place(end, ids);
         let to_energy = match to {

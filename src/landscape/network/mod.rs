@@ -108,6 +108,11 @@ impl Network {
         self.add_link(from as u32, to as u32, OnceLock::from(costs))
     }
 
+    /// Adds a straight motion that is weighed when it is asked for.
+    pub fn add_unweighed(&mut self, from: usize, to: usize) -> usize {
+        self.add_link(from as u32, to as u32, OnceLock::new())
+    }
+
     fn add_link(&mut self, from: u32, to: u32, costs: OnceLock<EdgeCosts>) -> usize {
         let ends = [from, to].map(|node| NodeIndex::new(node as usize));
         self.graph.add_edge(ends[0], ends[1], ());

@@ -27,6 +27,8 @@ const DEEPEST: u32 = 16;
 const PUSHED: u32 = 5;
 /// How closely the energy is followed along a leg, as a fraction of `bend`.
 const CLOSELY: f64 = 1e-3;
+/// The same of very many magnets, as a fraction of the bond's depth.
+const DEARLY: f64 = 1e-5;
 /// A dip that is less deep than this fraction of `bend` is left out: where tiles turn in contact
 /// each leg has one, as it cuts into the surface.
 const SHALLOW: f64 = 0.05;
@@ -116,7 +118,7 @@ fn add_leg(
     };
     let tolerance = ProfileTolerance {
         relative: 0.0,
-        absolute: CLOSELY * bend,
+        absolute: closeness(problem, bend),
     };
     let knots = Profile::new(problem, a, b, &tolerance).knots;
     let mut last = (a.configuration, a.energy);
@@ -137,6 +139,17 @@ fn add_leg(
         }
     }
     leg.refine(pathway, last, (b.configuration, b.energy));
+}
+
+/// How closely (J) the energy is followed along a leg: of very many magnets as closely as along the
+/// motions of a roadmap.
+fn closeness(problem: &Problem, bend: f64) -> f64 {
+    let closely = CLOSELY * bend;
+    if problem.is_dear() {
+        closely.max(DEARLY * problem.depth())
+    } else {
+        closely
+    }
 }
 
 /// A straight motion that is free.

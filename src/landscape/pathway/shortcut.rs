@@ -65,6 +65,9 @@ pub fn shortened(
     limits: &Limits,
 ) -> Vec<Configuration> {
     let mut points = points.to_vec();
+    if points.len() <= 2 {
+        return points;
+    }
     for _ in 0..PASSES {
         points = cut_short(problem, &subdivided(problem, &points), limits);
     }

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use super::Survey;
+use super::{Survey, SurveySettings};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
-use crate::landscape::minimum::{Outcome, approach};
+use crate::landscape::minimum::{Outcome, approach, descend_among};
+use crate::landscape::stationary::Stationary;
 use crate::problem::Problem;
 
 /// Ways that are followed into one state.
@@ -20,6 +21,30 @@ const SAME: f64 = 1e-4;
 const BOUND: f64 = 5e-3;
 
 impl Survey {
+    /// Adds the minima that far starts are known to come to rest in, below an energy (J), and that
+    /// are no states yet.
+    pub fn add_rests(
+        &mut self,
+        problem: &Problem,
+        ends: &[Option<Configuration>],
+        below: f64,
+        settings: &SurveySettings,
+    ) {
+        let is_new = |end: &&Configuration| self.state_at(problem, end, SAME).is_none();
+        let new: Vec<&Configuration> = ends.iter().flatten().filter(is_new).collect();
+        let known = self.verified();
+        let found: Vec<Stationary> = new
+            .into_par_iter()
+            .filter_map(|end| match descend_among(problem, end, &known).outcome {
+                Outcome::Minimum(found) if found.point.energy < below => Some(*found),
+                _ => None,
+            })
+            .collect();
+        if !found.is_empty() {
+            self.add(problem, &found, settings);
+        }
+    }
+
     /// Adds the descents of some far starts to the network, each given with where it is known to
     /// end: the first ones of those that end in a state.
     pub fn add_arrivals(&mut self, problem: &Problem, far: &[(Configuration, Configuration)]) {

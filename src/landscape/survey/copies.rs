@@ -6,6 +6,7 @@ use super::{SAME, Survey};
 use crate::configuration::Configuration;
 use crate::landscape::network::{Merge, Route};
 use crate::problem::{Problem, Symmetry};
+use crate::roadmap::EdgeCosts;
 
 /// A way that is no lower than this share of its energy is as low as another one.
 const AS_LOW: f64 = 1e-9;
@@ -52,6 +53,31 @@ impl Survey {
         self.network.span(problem);
     }
 
+    /// The states, by their places in the list, of which the others are images.
+    pub(super) fn firsts(&self) -> impl Iterator<Item = usize> {
+        let numbered = self.states.iter().enumerate();
+        numbered
+            .filter(|(number, state)| state.class == *number)
+            .map(|(number, _)| number)
+    }
+
+    /// Adds a straight motion between the nodes of two states with its images.
+    pub(super) fn add_motion_and_images(
+        &mut self,
+        problem: &Problem,
+        nodes: [usize; 2],
+        costs: EdgeCosts,
+    ) {
+        let link = self.network.add_motion(nodes[0], nodes[1], costs);
+        let mut known = HashSet::from([nodes]);
+        for symmetry in &problem.symmetries {
+            let [from, to] = nodes.map(|node| self.image_node(problem, node, symmetry));
+            if !known.contains(&[to, from]) && known.insert([from, to]) {
+                self.network.add_image(link, [from, to], symmetry);
+            }
+        }
+    }
+
     /// The class of each state's node.
     fn classes(&self) -> HashMap<usize, usize> {
         let states = self.states.iter();
@@ -59,7 +85,7 @@ impl Survey {
     }
 
     /// Adds the image of a route, from the image of its first node.
-    fn add_image(
+    pub(super) fn add_image(
         &mut self,
         problem: &Problem,
         mut here: usize,
@@ -77,7 +103,12 @@ impl Survey {
     }
 
     /// The image of a node: that of a state is a state's, others are new.
-    fn image_node(&mut self, problem: &Problem, node: usize, symmetry: &Symmetry) -> usize {
+    pub(super) fn image_node(
+        &mut self,
+        problem: &Problem,
+        node: usize,
+        symmetry: &Symmetry,
+    ) -> usize {
         let Some((q, energy)) = self.network.nodes[node] else {
             return node;
         };

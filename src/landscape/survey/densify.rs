@@ -26,8 +26,7 @@ impl Survey {
         let class = self.states.iter().find(|state| state.node == node);
         let class = class.map(|state| state.class);
         let mut copies = self.states.iter().filter(|copy| Some(copy.class) == class);
-        let is_dear = problem.potential().parts().is_some();
-        if is_dear || copies.any(|copy| !self.network.is_isolated(copy.node)) {
+        if problem.is_dear() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
             return;
         }
         for radius in [1e-3, 1e-2, 3e-2] {

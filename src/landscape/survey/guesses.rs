@@ -1,6 +1,7 @@
 //! Where minima may be expected besides where the roadmap has them: siblings of those known, where
 //! magnets come to lie opposite each other as faces slide, and where the outlines fit.
 
+use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
 use super::{Survey, SurveySettings, siblings, slides};
@@ -13,8 +14,12 @@ use crate::problem::Problem;
 const KNOWN: f64 = 1e-4;
 /// So many of the outlines' longest contacts are looked at.
 const MOST_MATCHES: usize = 100;
-/// Meetings are looked at where the energy is below this share of the bond's depth.
+/// Meetings that are looked at for each kind of states that is to be kept, the lowest.
+const MEETINGS_A_KIND: usize = 3;
+/// Meetings above this share of the bond's depth (below 0) hold nothing.
 const HELD: f64 = 1e-3;
+/// Of very many magnets no meeting is looked at so close to a lower one, in pitches.
+const AROUND: f64 = 0.75;
 
 impl Survey {
     /// Looks for minima where those known so far, but for the first few, would be on other pairs of
@@ -43,8 +48,19 @@ impl Survey {
         let held = -HELD * problem.depth();
         let slid = slides::slid_meetings(problem);
         let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
-        let places = places.filter(|q| problem.energy(q) < held && problem.is_free(q));
-        self.look_near(problem, places.collect(), settings);
+        let places: Vec<Configuration> = places.collect();
+        let mut places: Vec<(f64, Configuration)> = places
+            .into_par_iter()
+            .map(|q| (problem.energy(&q), q))
+            .filter(|(energy, q)| *energy < held && problem.is_free(q))
+            .collect();
+        if problem.is_dear() {
+            places = lowest_around(problem, places, AROUND * slides::pitch(problem));
+            let most = settings.most_kinds.map(|kinds| MEETINGS_A_KIND * kinds);
+            places.truncate(most.unwrap_or(usize::MAX));
+        }
+        let places = places.into_iter().map(|(_, q)| q).collect();
+        self.look_near(problem, places, settings);
         self.find_siblings(problem, known, settings);
     }
 
@@ -70,4 +86,22 @@ impl Survey {
             }
         }
     }
+}
+
+/// Those of some places that have none with a lower energy (J) within `radius` (m, metric of the
+/// space), from the lowest on.
+fn lowest_around(
+    problem: &Problem,
+    mut places: Vec<(f64, Configuration)>,
+    radius: f64,
+) -> Vec<(f64, Configuration)> {
+    places.sort_by_key(|(energy, _)| OrderedFloat(*energy));
+    let mut kept: Vec<(f64, Configuration)> = Vec::new();
+    for place in places {
+        let is_near = |(_, q): &(f64, Configuration)| problem.space.distance(q, &place.1) < radius;
+        if !kept.iter().any(is_near) {
+            kept.push(place);
+        }
+    }
+    kept
 }

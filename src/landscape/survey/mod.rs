@@ -41,6 +41,9 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
+/// Of very many magnets, milestones above this share of the bond's depth (below 0) lead nowhere: what is
+/// shallower is not listed.
+const HELD: f64 = 1e-4;
 /// Descents that are followed at once.
 const TOGETHER: usize = 64;
 
@@ -51,6 +54,8 @@ pub struct SurveySettings {
     pub edge: EdgeSettings,
     /// A barrier is settled when it moves by less than this fraction from round to round.
     pub settled: f64,
+    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    pub most_kinds: Option<usize>,
     /// Milestones added around a meeting place in each round.
     pub added_milestones: usize,
     /// Rounds after which what is not settled stays so.
@@ -70,6 +75,15 @@ pub struct FoundState {
     pub class: usize,
 }
 
+/// Kinds of states that were found, and not looked at as there are many.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct LeftOut {
+    /// How many there are.
+    pub kinds: usize,
+    /// The energy (J) of the deepest.
+    pub lowest: f64,
+}
+
 /// What a survey found.
 #[derive(Debug)]
 pub struct Survey {
@@ -85,6 +99,8 @@ pub struct Survey {
     pub unpolished: HashMap<usize, f64>,
     /// Rounds that were needed.
     pub rounds: usize,
+    /// Kinds of states that were found and not looked at closely, and the energy (J) of the deepest.
+    pub left_out: Option<LeftOut>,
 }
 
 impl Survey {
@@ -106,6 +122,9 @@ impl Survey {
         survey.find_states(problem, &guesses, settings);
         survey.find_siblings(problem, 0, settings);
         survey.find_meetings(problem, settings);
+        if let Some(most) = settings.most_kinds {
+            survey.keep_deepest(most);
+        }
         survey.settle(problem, 0, settings);
         survey
     }
@@ -123,13 +142,18 @@ impl Survey {
     /// Looks more closely, in rounds, at where basins meet. States from `fresh` on are new.
     fn settle(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
         self.join_neighbours(problem, fresh, settings);
-        self.withdraw(problem, settings);
+        self.withdraw(problem, fresh, settings);
         self.network.span(problem);
         let mut tried = HashSet::new();
         for round in 0..settings.most_rounds {
             self.rounds = round;
             // A transition state that is found from one copy only is found for all.
-            let places = self.unsettled(self.merges(), settings);
+            let merges = if problem.is_dear() {
+                self.lowest_merges()
+            } else {
+                self.merges()
+            };
+            let places = self.unsettled(merges, settings);
             self.polish(problem, &places, &mut tried);
             let open = self.unsettled(self.lowest_merges(), settings);
             if open.is_empty() {
@@ -158,6 +182,7 @@ impl Survey {
             transition_states: Vec::new(),
             unpolished: HashMap::new(),
             rounds: 0,
+            left_out: None,
         }
     }
 
@@ -173,8 +198,9 @@ impl Survey {
         let mut starts: Vec<(Option<usize>, Configuration)> =
             guesses.iter().map(|q| (None, *q)).collect();
         starts.extend(nodes.into_iter().filter_map(|node| {
-            let q = self.network.nodes[node]?.0;
-            (!problem.space.is_far(&q)).then_some((Some(node), q))
+            let (q, energy) = self.network.nodes[node]?;
+            let is_asked = !problem.is_dear() || energy < -HELD * problem.depth();
+            (is_asked && !problem.space.is_far(&q)).then_some((Some(node), q))
         }));
         // What some find the next ones need not verify.
         for some in starts.chunks(TOGETHER) {
@@ -193,6 +219,32 @@ impl Survey {
                     (None, Some(end)) => self.join(problem, end, settings),
                     _ => {}
                 }
+            }
+        }
+    }
+
+    /// Leaves out all but the deepest kinds of states, so many.
+    fn keep_deepest(&mut self, most: usize) {
+        let mut deepest: Vec<usize> = self.firsts().collect();
+        deepest.sort_by_key(|&first| OrderedFloat(self.states[first].minimum.point.energy));
+        let Some(&shallower) = deepest.get(most) else {
+            return;
+        };
+        self.left_out = Some(LeftOut {
+            kinds: deepest.len() - most,
+            lowest: self.states[shallower].minimum.point.energy,
+        });
+        deepest.truncate(most);
+        self.states.retain(|state| deepest.contains(&state.class));
+        // A kind's states lie together, the first of them first.
+        let mut first = 0;
+        for number in 1..=self.states.len() {
+            let is_next = |states: &[FoundState]| states[number].class != states[first].class;
+            if number == self.states.len() || is_next(&self.states) {
+                self.states[first..number]
+                    .iter_mut()
+                    .for_each(|state| state.class = first);
+                first = number;
             }
         }
     }
@@ -224,7 +276,7 @@ impl Survey {
         }
         let class = self.states.len();
         for symmetry in copies::distinct(problem, &problem.symmetries, &q) {
-            let minimum = minimum.image(problem, symmetry);
+            let minimum = minimum.image(symmetry);
             let (q, energy) = (minimum.point.q, minimum.point.energy);
             let node = self.network.add_node(Some((q, energy)));
             self.states.push(FoundState {

@@ -3,6 +3,7 @@
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
+use rayon::prelude::*;
 
 use crate::configuration::{Configuration, wrap_angle};
 use crate::problem::Problem;
@@ -93,9 +94,10 @@ pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Ve
             }
         }
     }
-    let places = pairs().flat_map(|(fixed, moving)| {
+    let pairs: Vec<(&Face, &Face)> = pairs().collect();
+    let places = pairs.par_iter().flat_map_iter(|(fixed, moving)| {
         let place = |meeting: &Meeting| (meeting.place(problem, fixed, moving), meeting.energy);
-        meetings.iter().map(place).collect::<Vec<_>>()
+        meetings.iter().map(place)
     });
     let held = places.filter(|(q, energy)| problem.energy(q) < HELD * energy);
     let free = held.filter(|(q, _)| problem.is_free(q));

@@ -44,6 +44,16 @@ pub(super) fn slid_meetings(problem: &Problem) -> Vec<Configuration> {
     found
 }
 
+/// The least distance (m) between two magnets of a face of either tile.
+pub(super) fn pitch(problem: &Problem) -> f64 {
+    let pair = problem.pair.iter();
+    let tiles = pair.flat_map(|pair| [&pair.fixed, &pair.moving]);
+    let faces = tiles.flat_map(|tile| (0..tile.faces.len()).map(move |face| places(tile, face)));
+    faces
+        .map(|places| closest(&places))
+        .fold(f64::INFINITY, f64::min)
+}
+
 /// The meetings of two faces with magnets at these places (m), the shorter face of this length (m).
 fn meetings([fixed, moving]: [Vec<f64>; 2], length: f64) -> impl Iterator<Item = Meeting> {
     let pitch = closest(&fixed).min(closest(&moving)).min(length);

@@ -19,14 +19,21 @@ const OFF_SADDLE: f64 = 2e-4;
 
 impl Survey {
     /// Looks for the transition states of meeting places and adds those found, with their
-    /// symmetric images.
-    pub(super) fn polish(&mut self, problem: &Problem, open: &[Merge], tried: &mut HashSet<usize>) {
+    /// symmetric images; whether there were any.
+    pub(super) fn polish(
+        &mut self,
+        problem: &Problem,
+        open: &[Merge],
+        tried: &mut HashSet<usize>,
+    ) -> bool {
+        let before = self.transition_states.len();
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
         self.add_transition_states_near(problem, &places, &problem.symmetries);
+        self.transition_states.len() > before
     }
 
     /// Looks for the transition states near some places, each given with the direction in which it
@@ -64,8 +71,8 @@ impl Survey {
                 continue;
             };
             for symmetry in distinct(problem, symmetries, &saddle.point.q) {
-                let sides = [&first, &second].map(|side| side.image(problem, symmetry));
-                self.add_transition_state(problem, saddle.image(problem, symmetry), sides);
+                let sides = [&first, &second].map(|side| side.image(symmetry));
+                self.add_transition_state(problem, saddle.image(symmetry), sides);
             }
         }
     }

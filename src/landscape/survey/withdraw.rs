@@ -7,6 +7,7 @@ use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
+use super::copies::distinct;
 use super::{FoundState, Survey, SurveySettings};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::constrained;
@@ -17,27 +18,29 @@ use crate::roadmap::{EdgeCosts, Milestone, edge};
 /// space).
 const MOST_OTHERS: usize = 4;
 const FARTHEST: f64 = 0.05;
+/// Where a state is withdrawn to is joined to so many milestones.
+const MOST_MILESTONES: usize = 6;
 /// Contacts within this distance (m) count as closed.
 const CLOSED: f64 = 1e-6;
 
 impl Survey {
-    /// Joins states, those from `fresh` on and others, to those closest to them where a straight motion is free: a passage without play
-    /// beside a state may lead on to a lower one.
+    /// Joins states, those from `fresh` on and others, to those closest to them where a straight motion
+    /// is free: a passage without play beside a state may lead on to a lower one.
     pub(super) fn join_neighbours(
         &mut self,
         problem: &Problem,
         fresh: usize,
         settings: &SurveySettings,
     ) {
-        let at = |state: &FoundState| state.minimum.point.q;
-        let pairs: Vec<[usize; 2]> = (0..self.states.len())
+        let at = |state: usize| self.states[state].minimum.point.q;
+        let pairs: BTreeSet<[usize; 2]> = self
+            .firsts()
             .flat_map(|one| {
-                let here = at(&self.states[one]);
                 let others = (0..self.states.len())
                     .filter(move |other| *other != one && one.max(*other) >= fresh);
                 let far = others.map(|other| {
-                    let there = at(&self.states[other]);
-                    (OrderedFloat(problem.space.distance(&here, &there)), other)
+                    let far = problem.space.distance(&at(one), &at(other));
+                    (OrderedFloat(far), other)
                 });
                 let mut near: Vec<_> = far.filter(|(far, _)| far.0 <= FARTHEST).collect();
                 near.sort_unstable();
@@ -45,53 +48,100 @@ impl Survey {
                     .take(MOST_OTHERS)
                     .map(move |(_, other)| [one.min(other), one.max(other)])
             })
-            .collect::<BTreeSet<_>>()
-            .into_iter()
             .collect();
-        let found: Vec<Option<EdgeCosts>> = pairs
-            .par_iter()
+        let found: Vec<Option<([usize; 2], EdgeCosts)>> = pairs
+            .into_par_iter()
             .map(|pair| {
-                let [from, to] = pair.map(|state| at(&self.states[state]));
+                let [from, to] = pair.map(at);
                 let ends = [from, to].map(|q| Milestone::new(problem, q));
-                problem
-                    .motion_is_free(&from, &to)
-                    .then(|| edge::costs(problem, [&ends[0], &ends[1]], &settings.edge))
+                let weighed = || edge::costs(problem, ends.each_ref(), &settings.edge);
+                let is_free = problem.motion_is_free(&from, &to);
+                is_free.then(|| (pair, weighed()))
             })
             .collect();
-        for (pair, costs) in pairs.into_iter().zip(found) {
-            if let Some(costs) = costs {
-                let [from, to] = pair.map(|state| self.states[state].node);
-                self.network.add_motion(from, to, costs);
-            }
+        for (pair, costs) in found.into_iter().flatten() {
+            let nodes = pair.map(|state| self.states[state].node);
+            self.add_motion_and_images(problem, nodes, costs);
         }
     }
 
     /// Joins states to `free` by straight motions away from what they touch, where nothing else
-    /// does. Shapes that fit without play leave a tile a single direction, which sampled milestones
+    /// does; of very many magnets, which nothing joined to milestones, all from `fresh` on. Shapes that fit without play leave a tile a single direction, which sampled milestones
     /// cannot meet.
-    pub(super) fn withdraw(&mut self, problem: &Problem, settings: &SurveySettings) {
+    pub(super) fn withdraw(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
         let joined = self.network.joined_to(self.free);
-        for state in 0..self.states.len() {
-            let node = self.states[state].node;
-            if joined[node] {
-                continue;
-            }
-            let here = self.states[state].minimum.point.q;
-            let from = Milestone::new(problem, here);
-            for direction in directions(problem, &here) {
-                let Some(far) = farthest(&problem.space, &here, direction) else {
-                    continue;
-                };
-                if !problem.motion_is_free(&here, &far) {
-                    continue;
+        let is_open =
+            |state: &&FoundState| problem.is_dear() && state.class >= fresh || !joined[state.node];
+        let open: BTreeSet<usize> = self
+            .states
+            .iter()
+            .filter(is_open)
+            .map(|state| state.class)
+            .collect();
+        let ways: Vec<(usize, Vec<(Milestone, EdgeCosts)>)> = open
+            .into_par_iter()
+            .map(|first| (first, self.ways_out(problem, first, settings)))
+            .collect();
+        let known = self.network.nodes.len();
+        for (first, ways) in ways {
+            let node = self.states[first].node;
+            let here = self.states[first].minimum.point.q;
+            for (far, costs) in ways {
+                let end = self.network.add_node(Some((far.configuration, far.energy)));
+                let out = self.network.add_motion(node, end, costs);
+                let same = self.network.add_same(end, self.free, far.energy);
+                for symmetry in &distinct(problem, &problem.symmetries, &here)[1..] {
+                    let copy = self.image_node(problem, node, symmetry);
+                    self.add_image(problem, copy, &vec![(out, true), (same, true)], symmetry);
                 }
-                let to = Milestone::new(problem, far);
-                let costs = edge::costs(problem, [&from, &to], &settings.edge);
-                let end = self.network.add_node(Some((far, to.energy)));
-                self.network.add_motion(node, end, costs);
-                self.network.add_same(end, self.free, to.energy);
             }
         }
+        self.join_to_milestones(problem, known);
+    }
+
+    /// Joins nodes, those from `fresh` on, to the milestones nearest to them, by motions that are
+    /// weighed when they are asked for: from where one state is withdrawn to the way to another.
+    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize) {
+        let at = |node: usize| self.network.nodes[node].map(|known| known.0);
+        let nearest = |here: Configuration| {
+            let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
+            let far = |q: &Configuration| OrderedFloat(problem.space.distance(&here, q));
+            let mut near: Vec<_> = milestones.map(|(other, q)| (far(&q), other, q)).collect();
+            near.sort_unstable_by_key(|(far, other, _)| (*far, *other));
+            near.into_iter()
+                .filter(move |(_, _, q)| problem.motion_is_free(&here, q))
+                .map(|(_, other, _)| other)
+                .take(MOST_MILESTONES)
+        };
+        let joined: Vec<(usize, usize)> = (fresh..self.network.nodes.len())
+            .into_par_iter()
+            .filter_map(|node| Some((node, at(node)?)))
+            .flat_map_iter(|(node, here)| nearest(here).map(move |other| (node, other)))
+            .collect();
+        for (node, other) in joined {
+            self.network.add_unweighed(node, other);
+        }
+    }
+
+    /// Straight motions from a state away from what it touches to where the tiles are far apart.
+    fn ways_out(
+        &self,
+        problem: &Problem,
+        state: usize,
+        settings: &SurveySettings,
+    ) -> Vec<(Milestone, EdgeCosts)> {
+        let here = self.states[state].minimum.point.q;
+        let from = Milestone::new(problem, here);
+        let ends = directions(problem, &here)
+            .into_iter()
+            .filter_map(|direction| farthest(&problem.space, &here, direction));
+        let free = ends.filter(|far| problem.motion_is_free(&here, far));
+        free.map(|far| {
+            let to = Milestone::new(problem, far);
+            let costs = edge::costs(problem, [&from, &to], &settings.edge);
+            (to, costs)
+        })
+        .collect()
     }
 }
 

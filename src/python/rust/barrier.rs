@@ -35,8 +35,9 @@ pub fn query(
     certify_seconds: Option<f64>,
     milestones: Option<usize>,
     seed: Option<u64>,
+    design: &tilebind::Design,
 ) -> PyResult<Query> {
-    let default = Settings::default();
+    let default = Settings::of([design]);
     let to = match end {
         None => End::Free,
         Some(end) if end.is_instance_of::<PyString>() => match end.extract::<String>()?.as_str() {
@@ -49,7 +50,7 @@ pub fn query(
         Some(start) => pose(start)?,
         None => return Err(fault::value("a way needs a start")),
     };
-    let seconds = certify_seconds.unwrap_or(default.certify_seconds);
+    let seconds = certify_seconds.unwrap_or(Settings::default().certify_seconds);
     let milestones = milestones.unwrap_or(default.milestones);
     fault::positive("tolerance", tolerance)?;
     fault::not_negative("certify_seconds", seconds)?;
@@ -60,6 +61,7 @@ pub fn query(
         settings: Settings {
             seed: seed.unwrap_or(default.seed),
             milestones,
+            most_kinds: None,
             ..default
         },
         tolerance,

@@ -16,14 +16,18 @@ use crate::table;
 use crate::{convert, fault, job, pickle};
 
 /// How designs are assessed, and the seed.
-pub fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<(AssessmentSettings, u64)> {
+pub fn settings<'a>(
+    given: Option<&Bound<'_, PyDict>>,
+    designs: impl IntoIterator<Item = &'a tilebind::Design>,
+) -> PyResult<(AssessmentSettings, u64)> {
     let given = Keywords::new(given);
-    let default = AssessmentSettings::default();
+    let default = AssessmentSettings::of(designs);
     let settings = AssessmentSettings {
         milestones: given.or("milestones", default.milestones)?,
         neighbours: given.get("neighbours")?,
         settled: given.or("settled", default.settled)?,
         far_starts: given.or("far_starts", default.far_starts)?,
+        most_kinds: given.get("kinds")?.or(default.most_kinds),
         tolerance: given.get("tolerance")?,
         certify_cells: given.or("certify_cells", default.certify_cells)?,
         complete_cells: given.or("complete_cells", default.complete_cells)?,
@@ -54,8 +58,8 @@ fn quantity(key: &str) -> PyResult<&'static Quantity> {
 /// designs : sequence of Design
 /// by : str, optional
 ///     What to rank by, "selectivity" by default; largest first.
-/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
-/// dynamics_runs, seed
+/// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
+/// complete_cells, dynamics_runs, seed
 ///     As for :meth:`Design.analyse`, but for `certify_cells`: cells spent on the bounds of a
 ///     barrier at most; 0 for no bounds.
 /// progress : bool, optional
@@ -73,7 +77,6 @@ pub fn compare(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Comparison> {
     let by = quantity(by)?;
-    let (settings, seed) = self::settings(settings)?;
     if designs.is_empty() {
         return Err(fault::value("there is no design to compare"));
     }
@@ -81,6 +84,8 @@ pub fn compare(
         .iter()
         .map(|one| one.get().content.clone())
         .collect();
+    let of_designs = contents.iter().map(|content| &content.design);
+    let (settings, seed) = self::settings(settings, of_designs)?;
     let count = contents.len();
     let assessments = job::run(py, progress, |told| {
         let parts = contents.iter().enumerate();

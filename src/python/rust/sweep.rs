@@ -40,8 +40,8 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
 /// vary : Mapping
 ///     Dotted path of a key to its values, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``; several
 ///     keys make a grid, of which the first varies slowest.
-/// milestones, neighbours, settled, far_starts, tolerance, certify_cells, complete_cells,
-/// dynamics_runs, seed
+/// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
+/// complete_cells, dynamics_runs, seed
 ///     As for :func:`compare`.
 /// progress : bool, optional
 ///
@@ -59,11 +59,12 @@ pub fn sweep(
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Sweep> {
-    let (settings, seed) = comparison::settings(settings)?;
+    let content = &design.get().content;
+    let (settings, seed) = comparison::settings(settings, [&content.design])?;
     let items = vary.items()?;
     let axes = items.iter().map(|item| axis(item.extract()?));
     let axes = axes.collect::<PyResult<Vec<_>>>()?;
-    let source = design.get().content.source.clone();
+    let source = content.source.clone();
     let plan = Plan::of(vec![source], axes, settings, seed).map_err(fault::value)?;
     let outcomes = job::run(py, progress, |told| worked(&plan, told))?;
     Ok(Sweep { plan, outcomes })

@@ -140,6 +140,8 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
         "thermal_energy_J": analysis.roadmap.edges.thermal_energy,
         "settled": settings.settled,
         "least_depth": settings.least_depth,
+        // The deepest kinds of states that are looked at; null for all.
+        "kinds": settings.most_kinds,
         "far_starts": settings.far_starts,
         "repeats": settings.repeats,
         // Width to which certified bounds are narrowed; null for a hundredth of the bond or a
@@ -187,6 +189,12 @@ fn inventory(analysis: &Analysis) -> Value {
         }),
     };
     // Estimated share of far starts that would end in a kind of state that none has ended in yet.
+    // Kinds of states that were found and are not listed, as fewer were asked for, and the energy of
+    // the deepest; null where all that were found are listed.
+    entry["left_out"] = json!(analysis.counts.left_out.map(|left| json!({
+        "kinds": left.kinds,
+        "lowest_J": left.lowest,
+    })));
     entry["unseen"] = proportion(analysis.inventory.unseen());
     entry
 }

@@ -7,7 +7,7 @@ use serde_json::json;
 use super::pathways::Played;
 use super::{Column, Fact, Table, finite};
 use crate::design::Design;
-use crate::landscape::{Kind, Place};
+use crate::landscape::{Kind, LeftOut, Place};
 use crate::pipeline::Analysis;
 use crate::report::columns::{self, Cell, Output, StateRow};
 use crate::report::figures::percent;
@@ -36,11 +36,6 @@ fn row<'a>(
 
 /// What to know first: the bond, how often it is found, how it is left, the deepest trap.
 pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
-    let fact = |name: &str, value: String, note: String| Fact {
-        name: name.to_owned(),
-        value,
-        note,
-    };
     let (kinds, names) = (scene.kinds(), scene.inventory.names());
     let first = |is_bond| {
         let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
@@ -101,7 +96,26 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         }
     }
     facts.push(completeness(analysis));
+    facts.extend(analysis.counts.left_out.map(left_out));
     facts
+}
+
+fn fact(name: &str, value: String, note: String) -> Fact {
+    Fact {
+        name: name.to_owned(),
+        value,
+        note,
+    }
+}
+
+/// States that were found and are not listed.
+fn left_out(left: LeftOut) -> Fact {
+    let lowest = minus(&si(left.lowest, "J", 4));
+    fact(
+        "kinds left out",
+        left.kinds.to_string(),
+        format!("found, {lowest} at the lowest, and not looked at: --kinds asks for more"),
+    )
 }
 
 /// Whether states may be missing from the list.

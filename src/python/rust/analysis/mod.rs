@@ -20,9 +20,9 @@ use crate::table::FREE;
 use crate::{fault, job};
 
 /// The library's settings.
-fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<Settings> {
+fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyResult<Settings> {
     let given = Keywords::new(given);
-    let default = Settings::default();
+    let default = Settings::of([design]);
     let complete = default.completeness;
     let settings = Settings {
         seed: given.or("seed", default.seed)?,
@@ -32,6 +32,7 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<Settings> {
         thermal_energy: given.get("thermal_energy")?,
         settled: given.or("settled", default.settled)?,
         far_starts: given.or("far_starts", default.far_starts)?,
+        most_kinds: given.get("kinds")?.or(default.most_kinds),
         repeats: given.or("repeats", default.repeats)?,
         tolerance: given.get("tolerance")?,
         certify_seconds: given.or("certify_seconds", default.certify_seconds)?,
@@ -68,8 +69,8 @@ pub fn analyse(
     given: Option<&Bound<'_, PyDict>>,
     progress: Option<bool>,
 ) -> PyResult<Analysis> {
-    let settings = settings(given)?;
     let content = design.get().content.clone();
+    let settings = settings(given, &content.design)?;
     let start = Instant::now();
     let found = job::run(py, progress, |told| {
         pipeline::analyse(&content.design, &settings, told)

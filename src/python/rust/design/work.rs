@@ -27,6 +27,8 @@ impl Design {
     ///     A barrier is settled when it moves by less than this fraction.
     /// far_starts : int, optional
     ///     Starts from which capture shares are counted.
+    /// kinds : int, optional
+    ///     Kinds of states that are looked at closely, the deepest; all by default.
     /// repeats : int, optional
     ///     Runs, each with the next seed, whose spread is reported.
     /// tolerance : float, optional
@@ -48,7 +50,8 @@ impl Design {
     ///
     /// Notes
     /// -----
-    /// The defaults are those of ``tilebind analyse``, and so are the results, byte by byte.
+    /// The defaults are those of ``tilebind analyse``, and so are the results, byte by byte. Of very
+    /// many magnets they are less, so that a result comes within minutes.
     /// Ctrl-C stops it within a second.
     #[pyo3(signature = (*, progress = None, **settings))]
     fn analyse(
@@ -102,6 +105,7 @@ impl Design {
             certify_seconds,
             milestones,
             seed,
+            &self.content.design,
         )?;
         barrier::ask(py, &self.content.design, &query, progress)
     }

@@ -1,0 +1,137 @@
+//! Tiles with so many magnets that as little as possible is asked of their energy.
+
+use tilebind::design::Design;
+use tilebind::landscape::{Barrier, CompletenessSettings, Place};
+use tilebind::observer::Silent;
+use tilebind::pipeline::{Settings, analyse};
+
+use crate::designs::load;
+
+/// Two squares, each with a face of so many magnets.
+fn of_magnets(count: usize) -> Design {
+    let codes = ["NSSN", "SNNS"].map(|code| code.repeat(count / 4));
+    let [east, west] = codes.map(|code| format!("{{ code = \"{code}\" }}"));
+    let faces = [format!("east = {east}"), format!("west = {west}")];
+    squares(0.4 / count as f64, &faces)
+}
+
+/// Two squares with magnets so far apart (m) on these faces.
+fn squares(pitch: f64, [fixed, moving]: &[String; 2]) -> Design {
+    let tile = "side = 0.43\nthickness = 0.013\nmass = 0.1";
+    let text = format!(
+        "name = \"many\"\n[table]\nsize = [2.0, 2.0]\n\
+         [magnet]\nsize = [0.002, {}, 0.003]\nremanence = 1.2\npitch = {pitch}\ninset = 0.0\n\
+         [fixed]\n{tile}\n[fixed.faces]\n{fixed}\n\
+         [moving]\n{tile}\n[moving.faces]\n{moving}\n\
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n",
+        0.6 * pitch
+    );
+    Design::parse(&text, "many.toml").unwrap()
+}
+
+fn without_proofs(settings: Settings) -> Settings {
+    Settings {
+        certify_seconds: 0.0,
+        completeness: CompletenessSettings {
+            seconds: 0.0,
+            ..settings.completeness
+        },
+        ..settings
+    }
+}
+
+#[test]
+fn of_very_many_magnets_less_is_asked_for() {
+    let [few, many, most] = [
+        load("shapes/paper-tile.toml"),
+        of_magnets(256),
+        of_magnets(800),
+    ];
+    assert_eq!(Settings::of([&few]), Settings::default());
+    let [of_many, of_most] = [&many, &most].map(|design| Settings::of([design]));
+    assert_eq!(Settings::of([&few, &most, &many]), of_most);
+    for (more, less) in [(&Settings::default(), &of_many), (&of_many, &of_most)] {
+        assert!(more.milestones > less.milestones);
+        assert!(more.far_starts > less.far_starts);
+        assert!(more.most_kinds.unwrap_or(usize::MAX) > less.most_kinds.unwrap());
+    }
+    // Four times the pairs are asked for 4^(2/3) times less.
+    let ratio = Settings::default().milestones as f64 / of_many.milestones as f64;
+    assert!((ratio / 4f64.powf(2.0 / 3.0) - 1.0).abs() < 1e-3, "{ratio}");
+    assert!(of_many.certify_seconds > 0.0 && of_most.certify_seconds == 0.0);
+}
+
+#[test]
+fn from_every_trap_the_bond_is_reached_through_free_space() {
+    let codes = [
+        "NSSNSSSNNNNSSNSSSSNNNNSSSNSSNNNN",
+        "SSSSNNSNNNSSSSNNNNSNNSSSSNNNSNNS",
+    ];
+    let faces = codes.map(|code| format!("all = {{ code = \"{code}\" }}"));
+    let design = squares(0.0125, &faces);
+    let settings = Settings {
+        milestones: 60,
+        most_kinds: Some(4),
+        far_starts: 0,
+        ..without_proofs(Settings::of([&design]))
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let inventory = &analysis.inventory;
+    let bond = inventory.bound_state.unwrap();
+    let depth = analysis.problem.depth();
+    let is_bond = |place: Place| match place {
+        Place::State(state) => inventory.states[state].class == bond,
+        Place::Free => false,
+    };
+    let to_bond = |barrier: &&Barrier| is_bond(barrier.to) && !is_bond(barrier.from);
+    let ways: Vec<_> = inventory.barriers.iter().filter(to_bond).collect();
+    assert!(ways.len() >= 2, "{}", ways.len());
+    for way in ways {
+        // Far apart there is no energy to speak of.
+        let highest = way.saddle_energy / depth;
+        assert!(highest < 1e-3, "{highest} from {:?}", way.from);
+    }
+}
+
+#[test]
+fn the_deepest_kinds_are_kept_and_what_is_left_out_is_said() {
+    let design = load("shapes/paper-tile.toml");
+    let all = Settings {
+        milestones: 500,
+        far_starts: 0,
+        ..without_proofs(Settings::default())
+    };
+    let few = Settings {
+        most_kinds: Some(2),
+        ..all.clone()
+    };
+    let kinds = |settings: &Settings| {
+        let analysis = analyse(&design, settings, &Silent);
+        let kinds = analysis.inventory.kinds();
+        let energies: Vec<f64> = kinds.map(|kind| kind.first().energy).collect();
+        (energies, analysis.counts.left_out)
+    };
+    let ((all, none), (kept, left)) = (kinds(&all), kinds(&few));
+    let left = left.unwrap();
+    assert_eq!(none, None);
+    assert!(kept.len() < all.len());
+    for (kept, deepest) in kept.iter().zip(&all).take(2) {
+        assert!((kept / deepest - 1.0).abs() < 1e-9);
+    }
+    assert!(left.kinds > 0 && left.lowest >= kept[1]);
+}
+
+#[test]
+fn what_far_starts_come_to_rest_in_is_listed() {
+    let design = load("shapes/paper-tile.toml");
+    let settings = Settings {
+        milestones: 20,
+        most_kinds: Some(1),
+        far_starts: 300,
+        ..without_proofs(Settings::default())
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let kinds = analysis.inventory.kinds();
+    assert!(kinds.filter(|kind| kind.captured().count > 0).count() > 1);
+    assert_eq!(analysis.uncaptured.at_rest.count, 0);
+}
