@@ -12,6 +12,14 @@ pub(in crate::kinetics) const DEEPEST: u8 = 12;
 /// Smallest units in a first cell.
 pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 
+/// How much wider than deep first cells are, in phi and theta, where a mesh begins at contact and ...
+const WIDER: [f64; 2] = [4.0, 2.0];
+/// ... symmetry makes fewer configurations than this one: there they are so many that they take what
+/// is needed near wells. Far from contact functions hardly change but by the distance. Of bounds on
+/// as many cells those of a pair without symmetry are half as far apart by it or less; with sixteen
+/// copies one that leaves a slid bond takes half as long again.
+const FEW: usize = 4;
+
 /// Places in a mesh: (s, phi, theta) in its smallest units.
 pub(in crate::kinetics) type Place = [i64; 3];
 
@@ -52,19 +60,21 @@ impl Chart {
         let periods = [fixed, moving].map(|n| TAU / n as f64);
         let lever = bound.x.hypot(bound.y).clamp(0.2 * radius, radius);
         let count = |length: f64| (length / size).round().max(2.0) as i64;
-        // A turn of the fixed tile has to be a whole number of cells in theta.
-        let whole = (fixed / greatest_common_divisor(fixed, moving)) as i64;
-        let along_theta = count(periods[1] * problem.space.rho);
-        let along_theta = (along_theta + whole - 1) / whole * whole;
         let outside = (radius - lever).max(radius / 8.0);
         let along_r = outside / count(outside) as f64;
         let whole = (radius / along_r).floor();
         let wall = Wall::new(problem, radius - along_r * whole, fitted);
-        let along_s = match wall {
-            Wall::Contact(_) => (outside / along_r).round(),
-            _ => whole,
+        let (along_s, [across, turning]) = match wall {
+            Wall::Contact(_) if fixed * moving < FEW => ((outside / along_r).round(), WIDER),
+            Wall::Contact(_) => ((outside / along_r).round(), [1.0; 2]),
+            _ => (whole, [1.0; 2]),
         };
-        let cells = [along_s as i64, count(periods[0] * lever), along_theta];
+        // A turn of the fixed tile has to be a whole number of cells in theta.
+        let whole = (fixed / greatest_common_divisor(fixed, moving)) as i64;
+        let along_theta = count(periods[1] * problem.space.rho / turning);
+        let along_theta = (along_theta + whole - 1) / whole * whole;
+        let along_phi = count(periods[0] * lever / across);
+        let cells = [along_s as i64, along_phi, along_theta];
         Self {
             origin: [0.0, bound.y.atan2(bound.x), bound.theta],
             wall,
