@@ -113,9 +113,11 @@ pub struct MeshRates {
 /// The rates on ever finer meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
-    /// What the meshes say, each finer than the last; but where there are bounds the last is the
-    /// mesh that they hold on, which begins at contact.
+    /// What the meshes say, each finer than the last; but where bounds are nearer each other than
+    /// that is known, the last is the mesh that they hold on, which begins at contact.
     pub meshes: Vec<MeshRates>,
+    /// Whether the last is that one.
+    pub is_between_bounds: bool,
     /// Bounds, if they are asked for.
     pub bounds: Option<RateBounds>,
     /// The map asked for, from the last mesh without bounds.
@@ -151,6 +153,17 @@ pub struct RateBounds {
 }
 
 impl RateBounds {
+    /// Whether a mesh's rates lie between them, those out of places as well.
+    fn hold(&self, mesh: &MeshRates) -> bool {
+        let lies = |rate: f64, [lower, upper]: [f64; 2]| lower <= rate && rate <= upper;
+        let mut places = mesh.rates.iter().enumerate();
+        places.all(|(from, rates)| {
+            let mut others = rates.iter().enumerate().filter(|(to, _)| *to != from);
+            lies(rates.iter().sum(), self.leaving[from])
+                && others.all(|(to, rate)| lies(*rate, self.rates[from][to]))
+        })
+    }
+
     /// Whether there are bounds from above only.
     pub fn are_one_sided(&self) -> bool {
         self.leaving.iter().all(|[lower, _]| *lower == 0.0)
@@ -165,8 +178,8 @@ impl Rates {
 
     /// Estimated relative error of what flows between places, on the finest mesh without bounds.
     pub fn error(&self) -> f64 {
-        let of_bounds = self.bounds.as_ref().is_some_and(|it| !it.are_one_sided());
-        let meshes = &self.meshes[..self.meshes.len() - usize::from(of_bounds)];
+        let of_bounds = usize::from(self.is_between_bounds);
+        let meshes = &self.meshes[..self.meshes.len() - of_bounds];
         meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
     }
 
@@ -254,10 +267,21 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
             let found = bounded(problem, settings, [ground, beyond])?;
-            let (finest, bounds, proved) = found.unwrap_or_default();
-            meshes.extend(finest);
+            let (between, bounds, proved) = found.unwrap_or_default();
+            // Values lie between their bounds; of two that do the better known ones are taken: those
+            // midway are off by half of what the bounds are apart at most.
+            let is_better = |between: &MeshRates| {
+                let holds = bounds
+                    .as_ref()
+                    .is_some_and(|it| it.hold(&meshes[meshes.len() - 1]));
+                !holds || 0.5 * between.error < error
+            };
+            let between = between.filter(is_better);
+            let is_between_bounds = between.is_some();
+            meshes.extend(between);
             return Ok(Rates {
                 meshes,
+                is_between_bounds,
                 bounds: bounds.or(settings.certify.map(|_| upper)),
                 map,
                 inside,

@@ -221,6 +221,52 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     }
 }
 
+/// Of the mesh with bounds and the one without that is told whose rates are known better.
+#[test]
+fn coarse_bounds_do_not_take_the_place_of_a_fine_mesh() {
+    let kt = 1.0;
+    let [time, _] = exact(double_well, kt, 0.5, [rim_of_the_bond(), 0.6], true);
+    for (tolerance, unknowns) in [(0.03, 1), (0.5, 10_000)] {
+        let settings = RateSettings {
+            tolerance,
+            certify: Some(Certify {
+                pieces: 0,
+                distance: 0.1,
+                unknowns,
+            }),
+            ..RateSettings::new(kt, double_well_basins(), 0.6)
+        };
+        let found = rates(&radial(double_well), &settings).unwrap();
+        let out: f64 = found.finest().rates[1].iter().sum();
+        assert_eq!(found.is_between_bounds, unknowns > 1);
+        assert!((out * time - 1.0).abs() < 0.03, "{out} {time}");
+    }
+}
+
+/// Without symmetry there are sixteen times as many configurations.
+#[test]
+fn a_pair_without_symmetry_has_bounds_on_as_many_cells() {
+    let design = designs::load("shapes/one-face.toml");
+    let problem = design.problem();
+    let bond = Basin {
+        at: design.pair.bound,
+        below: 0.5 * problem.energy(&design.pair.bound),
+    };
+    let settings = RateSettings {
+        tolerance: 0.3,
+        unknowns: 1,
+        certify: Some(Certify {
+            pieces: 0,
+            distance: 0.2,
+            unknowns: 20_000,
+        }),
+        ..RateSettings::new(3e-3, vec![bond], 0.61)
+    };
+    let found = rates(&problem, &settings).unwrap();
+    let [lower, upper] = found.bounds.unwrap().leaving[0];
+    assert!(upper < 1.2 * lower, "{lower} {upper}");
+}
+
 /// Fluxes along contact are laid for convex outlines only: what is left are the bounds that trial
 /// committors give.
 #[test]
