@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
-use crate::report::rates::{AtKt, Table, per_second};
+use crate::report::rates::{
+    AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, per_second, three_digits,
+};
 use crate::units::si;
 
 impl Page {
@@ -47,11 +49,15 @@ impl Page {
             );
         }
         let pictures = rate_charts::all(table, over_kt);
+        let mut tables = vec![of_pairs(table), of_places(table)];
+        if table.is_to_be_proved() {
+            tables.insert(1, of_proofs(table));
+        }
         Self {
             subtitle: table.headline(),
             facts,
             pictures: illustrations(pictures),
-            tables: vec![of_pairs(table), of_places(table)],
+            tables,
             origin: format!(
                 "tilebind {}; {} magnets; overdamped motion at drag {} per s, reflected by contact; \
                  bounds hold on the mesh, what its integrals are off by is not in them; no kT where \
@@ -111,6 +117,45 @@ fn of_pairs(table: &Table) -> Sorted {
     ];
     let rows = table.pairs().map(row).collect();
     sorted("Rates", "from a basin or free to another", columns, rows)
+}
+
+/// What is proved of how basins are left, beside what the mesh has.
+fn of_proofs(table: &Table) -> Sorted {
+    let shown =
+        |end: Option<(f64, String)>| end.map_or(Value::Null, |(time, words)| json!([time, words]));
+    let below = |limit: f64| json!([limit, format!("U < {}", si(limit, "J", 4))]);
+    let row = |(number, place): (usize, &Place)| {
+        let leaving = table.proved(number);
+        let ends = leaving.map(|it| mean_exit_ends(table.motion, &it.capacity));
+        let [least, most] = ends.unwrap_or_default().map(shown);
+        let time = 1.0 / table.rate_out(number);
+        vec![
+            json!(place.name),
+            least,
+            json!([time, three_digits(time, f64::round)]),
+            most,
+            leaving.map_or(Value::Null, |it| below(it.capacity.below)),
+            leaving.map_or(Value::Null, |it| below(it.end_below)),
+        ]
+    };
+    let rows: Vec<_> = table.places.iter().enumerate().map(row).collect();
+    let columns = vec![
+        column("from", ""),
+        column("proved: at least", ""),
+        column("on the mesh", ""),
+        column("proved: at most", ""),
+        column("its set", ""),
+        column("as an end", ""),
+    ];
+    let is_known = |number: usize| table.proved(number).is_some();
+    let note = match (0..table.places.len()).any(is_known) {
+        true => format!(
+            "{PROVED}: mean time until a tile that leaves a basin for another or free tiles is \
+             there; no upper bound where it would be {FAR} times the lower one or more"
+        ),
+        false => NOT_PROVED.replace("\n ", ""),
+    };
+    sorted("Proved", &note, columns, rows)
 }
 
 fn of_places(table: &Table) -> Sorted {

@@ -93,32 +93,43 @@ fn proved_words([lower, upper]: [f64; 2]) -> String {
 }
 
 /// Bounds that are farther apart than so many times say nothing worth telling.
-const FAR: f64 = 10.0;
+pub(in crate::report) const FAR: f64 = 10.0;
 
-/// Proved bounds of a mean exit time in words, rounded outwards.
-fn mean_exit_words(motion: &Motion, proved: &Capacity) -> String {
+/// Proved bounds (s) of a mean exit time that are worth telling, with their words, rounded outwards.
+pub(in crate::report) fn mean_exit_ends(
+    motion: &Motion,
+    proved: &Capacity,
+) -> [Option<(f64, String)>; 2] {
     let [least, most] = mean_exit(motion, proved);
-    let rounded = |time: f64, whole: fn(f64) -> f64| {
-        let unit = 10f64.powi(time.log10().floor() as i32 - 2);
-        si(whole(time / unit) * unit, "s", 3)
-    };
-    match most < FAR * least {
-        true => format!(
-            "{} to {} ({} apart)",
-            rounded(least, f64::floor),
-            rounded(most, f64::ceil),
-            apart([least, most])
-        ),
-        false => format!("{} at least", rounded(least, f64::floor)),
+    [
+        Some((least, three_digits(least, f64::floor))),
+        (most < FAR * least).then(|| (most, three_digits(most, f64::ceil))),
+    ]
+}
+
+/// A time (s) in words, to three digits.
+pub(in crate::report) fn three_digits(time: f64, whole: fn(f64) -> f64) -> String {
+    let unit = 10f64.powi(time.log10().floor() as i32 - 2);
+    si(whole(time / unit) * unit, "s", 3)
+}
+
+/// Proved bounds of a mean exit time in words.
+fn mean_exit_words(motion: &Motion, proved: &Capacity) -> String {
+    match mean_exit_ends(motion, proved) {
+        [Some((lower, least)), Some((upper, most))] => {
+            format!("{least} to {most} ({} apart)", apart([lower, upper]))
+        }
+        [least, _] => format!("{} at least", least.map_or(String::new(), |it| it.1)),
     }
 }
 
 /// What is said where a proof was asked for and there is none.
-const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres \
+pub(in crate::report) const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres \
                           of mass, of few corners,\n  an energy with bounds over cells, and sets \
                           that the mesh tells apart";
 /// What is proved.
-const PROVED: &str = "proved (integrals and sets enclosed, rounding included)";
+pub(in crate::report) const PROVED: &str =
+    "proved (integrals and sets enclosed, rounding included)";
 
 /// How far apart bounds are, in percent of the lower one.
 fn apart([lower, upper]: [f64; 2]) -> String {

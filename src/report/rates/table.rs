@@ -142,7 +142,7 @@ impl Table<'_> {
     }
 
     /// What is proved of how a basin is left.
-    fn proved(&self, place: usize) -> Option<&Leaving> {
+    pub(in crate::report) fn proved(&self, place: usize) -> Option<&Leaving> {
         self.found.proved[place].as_ref()
     }
 
@@ -156,7 +156,7 @@ impl Table<'_> {
     }
 
     /// Whether a proof was asked for.
-    fn is_to_be_proved(&self) -> bool {
+    pub(in crate::report) fn is_to_be_proved(&self) -> bool {
         let certify = self.asked.certify;
         certify.is_some_and(|certify| certify.pieces > 0)
     }

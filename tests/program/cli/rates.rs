@@ -127,6 +127,10 @@ fn rates_between_the_states_balance_in_detail() {
     assert!(proved(0) < mean && mean < proved(1) && proved(1) < 3.0 * proved(0));
     let table = std::fs::read_to_string(out.join("proved.csv")).unwrap();
     assert_eq!(table.lines().count(), 3);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let (_, shown) = page.split_once("\"proved: at least\"").unwrap();
+    let time = format!("[{},", proved(0));
+    assert!(shown.contains(&time), "{time}");
     let rates = entry["rates"].as_array().unwrap();
     assert_eq!(rates.len(), 6);
     let flow =
