@@ -133,9 +133,13 @@ pub(super) fn bounded(
             });
         }
         gaps.sort_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
-        // Far from the goal all that is more than its share of it.
+        // At first those of which nothing is known; far from the goal all that is more than its
+        // share of it.
+        let least = match all.is_finite() {
+            true => asked.apart / parts.len() as f64,
+            false => f64::MAX,
+        };
         let is_far = all > FAR * asked.apart;
-        let least = asked.apart / parts.len() as f64;
         let mut left = HALVED * all;
         let mut is_marked = |gap: f64| {
             let marked = if is_far { gap > least } else { left > 0.0 };
@@ -153,7 +157,14 @@ pub(super) fn bounded(
             .map(|&at| {
                 let whole = &parts[at];
                 let halves = whole.piece.halves(whole.axis);
-                halves.map(|half| part((whole.role, half)))
+                halves.map(|half| {
+                    let mut half = part((whole.role, half));
+                    // Nothing is negative: a half has no more than the whole.
+                    for (range, [_, most]) in half.sums.iter_mut().zip(whole.sums) {
+                        range[1] = range[1].min(most);
+                    }
+                    half
+                })
             })
             .collect();
         for (at, [lower, upper]) in marked.into_iter().zip(halves) {
