@@ -18,6 +18,10 @@ pub struct Certify {
     pub pieces: usize,
 }
 
+/// Why nothing is proved of blocks.
+pub const BLOCKS_HAVE_NO_PROOF: &str = "of blocks nothing can be proved here: where they touch their \
+    energy is not enclosed closely enough; ask for the model dipole, or for no proof";
+
 /// Share of the distance asked for that integrals' enclosures may take.
 const OF_INTEGRALS: f64 = 0.5;
 

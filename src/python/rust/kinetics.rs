@@ -3,11 +3,12 @@
 use pyo3::prelude::*;
 use tilebind::Analysis;
 use tilebind::design::Design;
-use tilebind::kinetics::Certify;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates as solved};
+use tilebind::kinetics::{BLOCKS_HAVE_NO_PROOF, Certify};
 use tilebind::landscape::Inventory;
+use tilebind::potential::MagnetModel;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
 use tilebind::report::{json, rates as report, yields as yields_report};
@@ -32,7 +33,10 @@ pub struct Asked {
 }
 
 impl Asked {
-    fn check(&self) -> PyResult<()> {
+    fn check(&self, design: &Design) -> PyResult<()> {
+        if self.prove && design.interaction.model == MagnetModel::Cuboid {
+            return Err(fault::value(BLOCKS_HAVE_NO_PROOF));
+        }
         fault::positive("kt", Some(self.kt))?;
         fault::positive("drag", Some(self.drag))?;
         fault::positive("certify", self.certify)?;
@@ -59,7 +63,7 @@ pub fn exits<'py>(
     start: &Bound<'py, PyAny>,
     asked: &Asked,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check()?;
+    asked.check(design)?;
     let start = barrier::pose(start)?;
     let bound = &design.pair.bound;
     let basin = asked
@@ -87,7 +91,7 @@ pub fn rates<'py>(
     asked: &Asked,
     traps: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check()?;
+    asked.check(design)?;
     let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
     let basins = places.iter().map(report::Place::basin).collect();
     let free_at = asked.free_at(design);

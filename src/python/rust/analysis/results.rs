@@ -202,7 +202,7 @@ impl Analysis {
     ///     up a tenth of these, are apart by this share at most.
     /// prove : bool, optional
     ///     Prove how often tiles set out from each basin, and bounds of the mean time until they are
-    ///     in another or free: for tiles that are convex about their centres of mass.
+    ///     in another or free: for tiles that are convex about their centres of mass, of dipoles.
     ///
     /// Returns
     /// -------

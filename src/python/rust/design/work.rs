@@ -141,7 +141,7 @@ impl Design {
     ///     default, as far as it comes within seconds.
     /// prove : bool, optional
     ///     Prove how often tiles set out from the well about the start, and bounds of the mean time
-    ///     until they are at an end: for tiles that are convex about their centres of mass.
+    ///     until they are at an end: for tiles that are convex about their centres of mass, of dipoles.
     ///
     /// Returns
     /// -------
