@@ -26,7 +26,7 @@ pub struct BondCommand {
     design: DesignOptions,
 
     /// Effective energy kT of the shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = input::shaking)]
     kt: f64,
 
     /// Share of the table that tiles cover

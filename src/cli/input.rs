@@ -134,6 +134,18 @@ pub fn positive(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number greater than 0 is needed".to_owned())
 }
 
+/// Energies (J) that shaking may have.
+const SHAKING: [f64; 2] = [1e-12, 1e3];
+
+/// An effective energy of shaking (J).
+pub fn shaking(text: &str) -> Result<f64, String> {
+    let [least, most] = SHAKING;
+    positive(text)
+        .ok()
+        .filter(|kt| (least..=most).contains(kt))
+        .ok_or_else(|| format!("a kT between {least:e} and {most:e} J is needed"))
+}
+
 /// A number that is not negative.
 pub fn not_negative(text: &str) -> Result<f64, String> {
     text.parse()

@@ -6,10 +6,11 @@ use clap::Args;
 use tilebind::design::Design;
 use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
-use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
+use tilebind::kinetics::{BLOCKS_HAVE_NO_PROOF, Certify};
 use tilebind::observer::Observer;
+use tilebind::potential::MagnetModel;
 use tilebind::report::page::Page;
 use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
@@ -37,7 +38,7 @@ all; what the mesh's integrals and basins made of whole cells are off by is not 
 estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
 how often tiles set out from the well about the start for an end, or from each basin for another, and
 bounds of the mean time until they are there: near each other only where the well holds next to all
-that the ends do not, far below the passes. Without --start: rates between the bond, the deepest traps
+that the ends do not, far below the passes; of dipoles, with shields or without. Without --start: rates between the bond, the deepest traps
 and free tiles. The ends are sets; without them no rate means anything, so they are printed beside
 every number.
 
@@ -58,7 +59,7 @@ pub struct Rates {
     design: DesignOptions,
 
     /// Effective energy of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = input::shaking)]
     kt: f64,
 
     /// Drag rate (1/s): the drag is this times the mass
@@ -121,6 +122,9 @@ impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
+        if self.prove && design.interaction.model == MagnetModel::Cuboid {
+            return Err(Failure::Usage(BLOCKS_HAVE_NO_PROOF.to_owned()));
+        }
         self.work.use_threads()?;
         match self.start {
             Some(start) => self.exit(&design, start),

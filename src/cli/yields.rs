@@ -45,7 +45,7 @@ pub struct YieldCommand {
     time: f64,
 
     /// Effective energy kT of the shaking (J); of several, the best and a schedule are found
-    #[arg(long, value_name = "E_J[,E_J...]", value_parser = input::positive,
+    #[arg(long, value_name = "E_J[,E_J...]", value_parser = input::shaking,
           value_delimiter = ',', required = true)]
     kt: Vec<f64>,
 

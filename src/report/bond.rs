@@ -165,9 +165,7 @@ impl<'a> BondReport<'a> {
             percent(self.shaking.coverage)
         );
         if bond.docking.cost.is_infinite() {
-            return format!(
-                "{name}: the bond has no play at all: at any kT, shaken tiles never find it"
-            );
+            return format!("{name}: {at} the bond has no play at all: shaken tiles never find it");
         }
         let ln_k = bond.docking.ln_k(1.0);
         let verdict = match ln_k >= 0.0 {

@@ -90,6 +90,34 @@ fn a_start_in_the_bond_is_refused_with_what_mends_it() {
 }
 
 #[test]
+fn a_proof_of_blocks_is_refused_at_once() {
+    let asked = ["--kt", "6e-3", "--model", "cuboid", "--prove"];
+    let design = ["rates", "shapes/paper-tile.toml"];
+    let output = tilebind(&[&design[..], &asked].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains("blocks") && told.contains("model dipole"),
+        "{told}"
+    );
+    assert!(stdout(&output).is_empty());
+}
+
+#[test]
+fn a_shaking_that_no_table_has_is_refused() {
+    for command in ["rates", "bond", "yield"] {
+        for kt in ["0", "-1e-3", "nan", "1e300", "1e-300"] {
+            let kt = format!("--kt={kt}");
+            let output = tilebind(&[command, "shapes/paper-tile.toml", &kt]);
+            assert_eq!(output.status.code(), Some(2), "{command} {kt}");
+            let told = stderr(&output);
+            assert!(told.contains("a kT between"), "{told}");
+            assert!(stdout(&output).is_empty());
+        }
+    }
+}
+
+#[test]
 fn rates_between_the_states_balance_in_detail() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("rates");
