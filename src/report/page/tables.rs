@@ -96,7 +96,6 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         }
     }
     facts.push(completeness(analysis));
-    facts.extend(analysis.counts.left_out.map(left_out));
     facts
 }
 
@@ -109,13 +108,13 @@ fn fact(name: &str, value: String, note: String) -> Fact {
 }
 
 /// States that were found and are not listed.
-fn left_out(left: LeftOut) -> Fact {
+fn left_out(left: LeftOut) -> String {
     let lowest = minus(&si(left.lowest, "J", 4));
-    fact(
-        "kinds left out",
-        left.kinds.to_string(),
-        format!("found, {lowest} at the lowest, and not looked at: --kinds asks for more"),
-    )
+    let more = match left.kinds {
+        1 => "1 more kind was".to_owned(),
+        kinds => format!("{kinds} more kinds were"),
+    };
+    format!("; {more} found, {lowest} at the lowest, and not looked at: --kinds asks for more")
 }
 
 /// Whether states may be missing from the list.
@@ -147,7 +146,7 @@ fn completeness(analysis: &Analysis) -> Fact {
     Fact {
         name: "list of states".to_owned(),
         value: value.to_owned(),
-        note,
+        note: note + &analysis.counts.left_out.map(left_out).unwrap_or_default(),
     }
 }
 

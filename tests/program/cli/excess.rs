@@ -129,3 +129,27 @@ fn tables_and_manifests_that_never_end_are_refused() {
         );
     }
 }
+
+#[test]
+fn kinds_that_are_left_out_are_told_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut command = command(&["analyse", "shapes/paper-tile.toml", "--milestones", "300"]);
+    command.args(["--far-starts", "0", "--certify-seconds", "0"]);
+    command.args([
+        "--complete-seconds",
+        "0",
+        "--kinds",
+        "2",
+        "--quiet",
+        "--json",
+    ]);
+    let output = command.arg("--out").arg(&out).output().unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["settings"]["kinds"], 2);
+    let left = &report["inventory"]["left_out"];
+    let kinds = left["kinds"].as_u64().unwrap();
+    assert!(kinds > 0 && left["lowest_J"].as_f64().unwrap() < 0.0);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains(&format!("{kinds} more kinds were found")));
+}
