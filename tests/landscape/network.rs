@@ -3,6 +3,7 @@
 
 use std::collections::HashSet;
 
+use rayon::prelude::*;
 use tilebind::Settings;
 use tilebind::landscape::network::{Cost, Network};
 use tilebind::landscape::survey::{Survey, SurveySettings};
@@ -69,6 +70,40 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
         }
     }
     assert!(compared >= 9, "{compared}");
+}
+
+/// Routes asked for at once, while links are being weighed, are those asked for one by one.
+#[test]
+fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
+    const MILESTONES: usize = 500;
+    let (problem, settings) = paper_tile(MILESTONES);
+    let built = Roadmap::build(&problem, &settings, &mut |_| {});
+    let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
+    let left = Roadmap {
+        milestones: built.milestones.clone(),
+        edges: Vec::new(),
+        unweighed: ends.collect(),
+    };
+    let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
+    let costs = |network: &Network, from: usize| {
+        let goals = HashSet::from([(from * 7 + 3) % MILESTONES]);
+        let found = network.cheapest(&problem, from, &goals, Cost::Probability);
+        found.map(|(_, cost, route)| (cost, route))
+    };
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(8)
+        .build()
+        .unwrap();
+    let all = || {
+        (0..MILESTONES)
+            .into_par_iter()
+            .map(|from| costs(&networks[1], from))
+            .collect()
+    };
+    let at_once: Vec<_> = threads.install(all);
+    for (from, found) in at_once.into_iter().enumerate() {
+        assert_eq!(found, costs(&networks[0], from), "{from}");
+    }
 }
 
 /// States and transition states come with all their images, an image joins the images of what its

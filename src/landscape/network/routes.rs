@@ -7,7 +7,7 @@ use petgraph::algo::astar;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::{EdgeFiltered, EdgeRef};
 
-use super::{Network, Way};
+use super::{Link, Network, Way};
 use crate::problem::Problem;
 
 /// A path through the network: links with the direction in which each is gone.
@@ -51,6 +51,10 @@ impl Network {
 
     /// The cheapest route from a node to any of the `goals`, by Dijkstra's algorithm: its end, its
     /// cost and its links.
+    ///
+    /// Others may search and weigh meanwhile: a route may have been found by what a link that is now
+    /// weighed cost at least. No search finds more than the cheapest route costs; one that costs what
+    /// was found is it.
     pub fn cheapest(
         &self,
         problem: &Problem,
@@ -60,11 +64,21 @@ impl Network {
     ) -> Option<(usize, f64, Route)> {
         loop {
             let found = self.cheapest_at_best(from, goals, cost)?;
-            let links = found.2.iter().map(|(number, _)| *number);
-            if !self.weigh(problem, links) {
+            let (_, total, route) = &found;
+            let is_open = self.weigh(problem, route.iter().map(|(number, _)| *number));
+            if !is_open && self.cost_of(route, cost) <= *total {
                 return Some(found);
             }
         }
+    }
+
+    /// What a route costs, added up from its start as a search does.
+    fn cost_of(&self, route: &Route, cost: Cost) -> f64 {
+        let price = |&(number, forwards): &(usize, bool)| {
+            let Link { from, to, .. } = &self.links[number];
+            self.cost(number, if forwards { *from } else { *to } as usize, cost)
+        };
+        route.iter().fold(0.0, |sum, link| sum + price(link))
     }
 
     /// The same, with what links cost at least where they are not weighed.
