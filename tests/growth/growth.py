@@ -2,9 +2,15 @@
 
     tests/growth/growth.py target/release/tilebind results/growth.csv [--limit SECONDS]
 
-analyses designs of one family a row (`analyse --complete-seconds 0`) and writes the processor
-time of each, with what it found, and the picture of the table beside it. `--draw` draws an existing
-table. Slopes are of log time over log size, by least squares; a design that is not done within the
+analyses designs of one family a row, without proofs (`analyse --certify-seconds 0
+--complete-seconds 0`), and writes the processor time of each (user and system, of all threads,
+pictures included), with what was asked for and found, and the picture of the table beside it.
+`--draw TABLE` draws an existing table; `--design FAMILY SIZE` prints a design.
+
+Beyond 16,384 pairs of magnets `analyse` asks for less: fewer milestones, far starts and kinds of
+states (`Settings::of`). Such a row is `asked = less`, is no measure of growth against smaller ones,
+and has a second one, `asked = usual`, with what smaller designs are asked for. Slopes are of log
+time over log size, by least squares, of `usual` rows only. A design that is not done within the
 limit has an empty time, and so have the larger ones of its family, which are not tried.
 """
 
@@ -13,6 +19,7 @@ import json
 import math
 import random
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -21,7 +28,12 @@ from pathlib import Path
 MAGNETS = [4, 8, 16, 32, 64, 128, 256]
 CORNERS = [4, 8, 16, 32, 64, 128, 256]
 FACES = [1, 2, 4, 8, 16, 32, 64]
-COLUMNS = ["family", "size", "user_s", "states", "barriers", "energies", "cells"]
+COLUMNS = ["family", "size", "pairs", "asked", "processor_s", "milestones", "far_starts", "kinds", "states", "barriers",
+           "captured", "energies"]
+# What `analyse` is asked for by default where magnets are not very many; all kinds of states.
+MANY_PAIRS = 16_384
+USUAL = ["--milestones", "8000", "--far-starts", "1000", "--kinds", "1000000"]
+NO_PROOFS = ["--certify-seconds", "0", "--complete-seconds", "0"]
 
 
 def code(n, seed):
@@ -97,27 +109,41 @@ def faces(n):
     return design(f"faces-{n}", pitch, *pair, ("0", str(sides // 2)))
 
 
-FAMILIES = {"magnets a face": (MAGNETS, magnets), "corners": (CORNERS, corners), "faces": (FACES, faces)}
+# Each with its sizes, the design of a size, and the pairs of magnets that this has.
+FAMILIES = {"magnets a face": (MAGNETS, magnets, lambda n: (4 * n) ** 2),
+            "corners": (CORNERS, corners, lambda n: 16**2),
+            "faces": (FACES, faces, lambda n: (4 * n) ** 2)}
 
 
-def measure(program, text, limit):
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def measure(program, text, limit, asked):
+    """The columns from `processor_s` on; empty where the limit (s of processor time) did not do."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "design.toml"
         path.write_text(text)
         out = Path(folder) / "out"
-        command = [program, "analyse", path, "--complete-seconds", "0", "--out", out]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        try:
-            subprocess.run(command, check=True, capture_output=True, text=True, timeout=limit)
-        except subprocess.TimeoutExpired:
-            return ["", "", "", "", ""]
-        except subprocess.CalledProcessError as error:
-            sys.exit(f"{path.read_text()}\n{error.stderr}")
-        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        command = [program, "analyse", path, *NO_PROOFS, *asked, "--out", out]
+        before = processor_seconds()
+        whole = math.ceil(limit)
+        done = subprocess.run(command, capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(
+            resource.RLIMIT_CPU, (whole, whole)))
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return [""] * (len(COLUMNS) - 4)
+        if done.returncode != 0:
+            sys.exit(f"{text}\n{done.stderr}")
+        seconds = processor_seconds() - before
         report = json.loads((out / "report.json").read_text())
-        counts = report["counts"]
-        found = [len(report["states"]), len(report["barriers"]), counts["energy_evaluations"], counts.get("cells", 0)]
-        return [f"{seconds:.2f}", *found]
+        counts, settings = report["counts"], report["settings"]
+        states, bond = report["states"], report["bound"]["state"]
+        bonds = [] if bond is None else [s for s in states if s["class"] == states[bond]["class"]]
+        captured = f"{sum(state['capture']['share'] for state in bonds):.3f}"
+        kinds = len({state["class"] for state in states})
+        return [f"{seconds:.2f}", counts["milestones"], settings["far_starts"], kinds, len(states),
+                len(report["barriers"]), captured, counts["energy_evaluations"]]
 
 
 def slope(points):
@@ -130,40 +156,60 @@ def slope(points):
 def draw(table):
     """Processor time over size, both logarithmic, a line a family; an SVG without any library."""
     looks = {"magnets a face": ("#0072B2", ""), "corners": ("#D55E00", "8 4"), "faces": ("#009E73", "2 3")}
-    rows = [row for row in csv.DictReader(table.open()) if row["user_s"]]
-    left, top, width, height = 70, 40, 620, 360
-    most = max(float(row["user_s"]) for row in rows)
-    least = min(float(row["user_s"]) for row in rows)
-    low, high = math.floor(math.log10(least)), math.ceil(math.log10(most))
+    rows = [row for row in csv.DictReader(table.open()) if row["processor_s"]]
+    left, top, width, height = 70, 60, 620, 400
+    times = [float(row["processor_s"]) for row in rows]
+    # Marks at 1, 2 and 5 of each decade, from the last below to the first above all times.
+    marks = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
+    low = max(mark for mark in marks if mark <= min(times))
+    high = min(mark for mark in marks if mark >= max(times))
+
     def at(size, seconds):
         x = left + width * math.log2(size) / 8
-        return x, top + height * (high - math.log10(seconds)) / (high - low)
+        return x, top + height * math.log(high / seconds) / math.log(high / low)
 
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 20}" height="{top + height + 60}" '
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 30}" height="{top + height + 60}" '
            'font-family="sans-serif" font-size="14"><rect width="100%" height="100%" fill="white"/>',
-           f'<text x="{left}" y="24" font-size="17">processor time of an analysis (s)</text>']
-    for power in range(low, high + 1):
-        y = at(1, 10.0**power)[1]
-        out.append(f'<path d="M{left} {y:.1f}h{width}" stroke="#dddddd"/>')
-        out.append(f'<text x="{left - 8}" y="{y + 5:.1f}" text-anchor="end">{10.0**power:g}</text>')
+           f'<text x="{left}" y="22" font-size="17">Processor time of an analysis without proofs (s)</text>',
+           f'<text x="{left}" y="44" fill="#555555">hollow: more than 16,384 pairs of magnets, '
+           'fewer milestones and starts asked for</text>']
+    for mark in marks:
+        if low <= mark <= high:
+            y = at(1, mark)[1]
+            out.append(f'<path d="M{left} {y:.1f}h{width}" stroke="#dddddd"/>')
+            out.append(f'<text x="{left - 8}" y="{y + 5:.1f}" text-anchor="end">{mark:g}</text>')
     for power in range(9):
-        x = at(2**power, 10.0**low)[0]
+        x = at(2**power, low)[0]
+        out.append(f'<path d="M{x:.1f} {top + height}v5" stroke="#555555"/>')
         out.append(f'<text x="{x:.1f}" y="{top + height + 20}" text-anchor="middle">{2**power}</text>')
     out.append(f'<text x="{left + width / 2}" y="{top + height + 45}" text-anchor="middle">'
                "magnets a face, corners of the meeting faces, or faces with four magnets</text>")
+    legend = []
     for line, (family, (colour, dashes)) in enumerate(looks.items()):
-        points = [(int(row["size"]), float(row["user_s"])) for row in rows if row["family"] == family]
-        if not points:
+        def of(asked):
+            return [(int(row["size"]), float(row["processor_s"])) for row in rows
+                    if row["family"] == family and row["asked"] == asked]
+
+        usual, less = of("usual"), of("less")
+        if not usual:
             continue
-        places = [at(*point) for point in points]
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
-        style = f'stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}" fill="none"'
-        out.append(f'<polyline points="{path}" {style}/>')
-        out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>' for x, y in places]
-        said = f"{family}: slope {slope(points):.2f}" if len(points) > 1 else family
-        y = top + 18 + 22 * line
-        out.append(f'<path d="M{left + 12} {y - 5}h32" {style}/><text x="{left + 52}" y="{y}">{said}</text>')
-    table.with_suffix(".svg").write_text("\n".join([*out, "</svg>\n"]))
+        dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
+        style = f'stroke="{colour}" stroke-width="2"{dashed} fill="none"'
+        for points in (usual, less):
+            places = [at(*point) for point in points]
+            path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
+            if len(places) > 1:
+                out.append(f'<polyline points="{path}" {style}/>')
+            fill = colour if points is usual else "white"
+            out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{fill}" stroke="{colour}" stroke-width="2"/>'
+                    for x, y in places]
+        said = family
+        if len(usual) > 1:
+            said += f": slope {slope(usual):.2f}, of the last two {slope(usual[-2:]):.2f}"
+        y = top + 20 + 22 * line
+        legend.append(f'<path d="M{left + 12} {y - 5}h32" {style}/><text x="{left + 52}" y="{y}">{said}</text>')
+    behind = f'<rect x="{left + 4}" y="{top + 2}" width="340" height="{22 * len(legend) + 6}" fill="white"/>'
+    table.with_suffix(".svg").write_text("\n".join([*out, behind, *legend, "</svg>\n"]))
 
 
 def main():
@@ -184,15 +230,20 @@ def main():
     with table.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
-        for family, (sizes, make) in FAMILIES.items():
-            done = True
+        for family, (sizes, make, pairs) in FAMILIES.items():
+            late = set()
             for size in sizes:
-                found = measure(program, make(size), limit) if done else [""] * 5
-                done = found[0] != ""
-                row = [family, size, *found]
-                writer.writerow(row)
-                file.flush()
-                print(*row, file=sys.stderr)
+                many = pairs(size) > MANY_PAIRS
+                for asked, options in [("less", []), ("usual", USUAL)] if many else [("usual", [])]:
+                    found = [""] * (len(COLUMNS) - 4)
+                    if asked not in late:
+                        found = measure(program, make(size), limit, options)
+                    if found[0] == "":
+                        late.add(asked)
+                    row = [family, size, pairs(size), asked, *found]
+                    writer.writerow(row)
+                    file.flush()
+                    print(*row, file=sys.stderr)
     return draw(table)
 
 
