@@ -124,6 +124,7 @@ fn write_dipole_error(text: &mut String, analysis: &Analysis) {
         .inventory
         .states
         .iter()
+        .filter(|state| state.id == state.class)
         .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
         .max_by_key(|(.., error)| OrderedFloat(error.abs()));
     if let Some((state, blocks, error)) = worst {
