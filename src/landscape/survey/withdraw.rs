@@ -96,12 +96,13 @@ impl Survey {
                 }
             }
         }
-        self.join_to_milestones(problem, known);
+        self.join_to_milestones(problem, known, settings);
     }
 
-    /// Joins nodes, those from `fresh` on, to the milestones nearest to them, by motions that are
-    /// weighed when they are asked for: from where one state is withdrawn to the way to another.
-    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize) {
+    /// Joins nodes, those from `fresh` on, to the milestones nearest to them, of very many magnets by
+    /// motions that are weighed when they are asked for: from where one state is withdrawn to the way
+    /// to another.
+    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
         let at = |node: usize| self.network.nodes[node].map(|known| known.0);
         let nearest = |here: Configuration| {
             let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
@@ -113,13 +114,24 @@ impl Survey {
                 .map(|(_, other, _)| other)
                 .take(MOST_MILESTONES)
         };
-        let joined: Vec<(usize, usize)> = (fresh..self.network.nodes.len())
+        let weighed = |ends: [usize; 2]| {
+            if problem.is_dear() {
+                return None;
+            }
+            let [a, b] = ends.map(|node| at(node).map(|q| Milestone::new(problem, q)));
+            Some(edge::costs(problem, [&a?, &b?], &settings.edge))
+        };
+        let joined: Vec<([usize; 2], Option<EdgeCosts>)> = (fresh..self.network.nodes.len())
             .into_par_iter()
             .filter_map(|node| Some((node, at(node)?)))
-            .flat_map_iter(|(node, here)| nearest(here).map(move |other| (node, other)))
+            .flat_map_iter(|(node, here)| nearest(here).map(move |other| [node, other]))
+            .map(|ends| (ends, weighed(ends)))
             .collect();
-        for (node, other) in joined {
-            self.network.add_unweighed(node, other);
+        for ([node, other], costs) in joined {
+            match costs {
+                Some(costs) => self.network.add_motion(node, other, costs),
+                None => self.network.add_unweighed(node, other),
+            };
         }
     }
 
