@@ -6,6 +6,7 @@ use crate::landscape::capture::FarStarts;
 use crate::landscape::certification::CertificationSettings;
 use crate::landscape::survey::SurveySettings;
 use crate::landscape::{Claims, CompletenessSettings};
+use crate::potential::groups::MANY_PAIRS;
 use crate::problem::Problem;
 use crate::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
@@ -81,9 +82,8 @@ impl Default for Settings {
     }
 }
 
-/// From so many pairs of magnets on there is less of everything, ...
-const MANY_PAIRS: f64 = 16_384.0;
-/// ... by this power of their number: energies, of far groups, take less than all pairs would.
+/// From [`MANY_PAIRS`] of magnets on there is less of everything by this power of their number:
+/// energies, of far groups, take less than all pairs would.
 const THINNED: f64 = 2.0 / 3.0;
 /// Kinds of states that are looked at of so many pairs.
 const KINDS_OF_MANY: f64 = 800.0;
@@ -102,10 +102,11 @@ impl Settings {
         };
         let pairs = designs.into_iter().map(pairs).fold(0.0, f64::max);
         let default = Self::default();
-        if pairs <= MANY_PAIRS {
+        let many = pairs / MANY_PAIRS as f64;
+        if many <= 1.0 {
             return default;
         }
-        let thinned = (pairs / MANY_PAIRS).powf(THINNED);
+        let thinned = many.powf(THINNED);
         let fewer = |count: usize| count as f64 / thinned;
         let seconds = |usual: f64| if pairs < HOPELESS_PAIRS { usual } else { 0.0 };
         Self {

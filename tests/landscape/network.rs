@@ -22,6 +22,16 @@ fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
     (problem, roadmap)
 }
 
+/// The same roadmap, its motions left to be weighed when they are asked for.
+fn unweighed(built: &Roadmap) -> Roadmap {
+    let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
+    Roadmap {
+        milestones: built.milestones.clone(),
+        edges: Vec::new(),
+        unweighed: ends.collect(),
+    }
+}
+
 #[test]
 fn what_is_weighed_when_asked_for_gives_the_same_routes() {
     const MILESTONES: usize = 600;
@@ -29,12 +39,7 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
     let start = problem.evaluations();
     let built = Roadmap::build(&problem, &settings, &mut |_| {});
     let all = problem.evaluations() - start;
-    let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
-    let left = Roadmap {
-        milestones: built.milestones.clone(),
-        edges: Vec::new(),
-        unweighed: ends.collect(),
-    };
+    let left = unweighed(&built);
     let start = problem.evaluations();
     let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
     // Minimax paths need few.
@@ -78,12 +83,7 @@ fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
     const MILESTONES: usize = 500;
     let (problem, settings) = paper_tile(MILESTONES);
     let built = Roadmap::build(&problem, &settings, &mut |_| {});
-    let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
-    let left = Roadmap {
-        milestones: built.milestones.clone(),
-        edges: Vec::new(),
-        unweighed: ends.collect(),
-    };
+    let left = unweighed(&built);
     let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
     let costs = |network: &Network, from: usize| {
         let goals = HashSet::from([(from * 7 + 3) % MILESTONES]);

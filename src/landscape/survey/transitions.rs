@@ -19,21 +19,14 @@ const OFF_SADDLE: f64 = 2e-4;
 
 impl Survey {
     /// Looks for the transition states of meeting places and adds those found, with their
-    /// symmetric images; whether there were any.
-    pub(super) fn polish(
-        &mut self,
-        problem: &Problem,
-        open: &[Merge],
-        tried: &mut HashSet<usize>,
-    ) -> bool {
-        let before = self.transition_states.len();
+    /// symmetric images.
+    pub(super) fn polish(&mut self, problem: &Problem, open: &[Merge], tried: &mut HashSet<usize>) {
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
         self.add_transition_states_near(problem, &places, &problem.symmetries);
-        self.transition_states.len() > before
     }
 
     /// Looks for the transition states near some places, each given with the direction in which it

@@ -86,13 +86,15 @@ impl Survey {
         for (first, ways) in ways {
             let node = self.states[first].node;
             let here = self.states[first].minimum.point.q;
+            let copies = distinct(problem, &problem.symmetries, &here);
             for (far, costs) in ways {
                 let end = self.network.add_node(Some((far.configuration, far.energy)));
                 let out = self.network.add_motion(node, end, costs);
                 let same = self.network.add_same(end, self.free, far.energy);
-                for symmetry in &distinct(problem, &problem.symmetries, &here)[1..] {
+                let route = vec![(out, true), (same, true)];
+                for symmetry in &copies[1..] {
                     let copy = self.image_node(problem, node, symmetry);
-                    self.add_image(problem, copy, &vec![(out, true), (same, true)], symmetry);
+                    self.add_image(problem, copy, &route, symmetry);
                 }
             }
         }

@@ -24,7 +24,10 @@ pub mod interpolation;
 pub mod tree;
 pub mod walk;
 
+/// So many pairs of dipoles are worth being put in groups.
+pub const MANY_PAIRS: usize = 1 << 14;
+
 /// Whether so many dipoles of two tiles are worth being put in groups.
 pub fn are_many(fixed: usize, moving: usize) -> bool {
-    fixed * moving >= 1 << 14
+    fixed * moving >= MANY_PAIRS
 }

@@ -188,13 +188,13 @@ fn inventory(analysis: &Analysis) -> Value {
             "unproved": why.to_string(),
         }),
     };
-    // Estimated share of far starts that would end in a kind of state that none has ended in yet.
     // Kinds of states that were found and are not listed, as fewer were asked for, and the energy of
     // the deepest; null where all that were found are listed.
     entry["left_out"] = json!(analysis.counts.left_out.map(|left| json!({
         "kinds": left.kinds,
         "lowest_J": left.lowest,
     })));
+    // Estimated share of far starts that would end in a kind of state that none has ended in yet.
     entry["unseen"] = proportion(analysis.inventory.unseen());
     entry
 }

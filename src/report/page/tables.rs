@@ -143,11 +143,8 @@ fn completeness(analysis: &Analysis) -> Fact {
             }
         }
     };
-    Fact {
-        name: "list of states".to_owned(),
-        value: value.to_owned(),
-        note: note + &analysis.counts.left_out.map(left_out).unwrap_or_default(),
-    }
+    let note = note + &analysis.counts.left_out.map(left_out).unwrap_or_default();
+    fact("list of states", value.to_owned(), note)
 }
 
 /// The classes of states.
