@@ -31,6 +31,10 @@ use crate::tile::outline::{Bounds, ConvexPart};
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
+/// What rounding may make of how far (m) a disc lies beyond an edge: that decides only whether the
+/// corners are looked at.
+const DISC_SLACK: f64 = 1e-12;
+
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
@@ -96,7 +100,7 @@ impl Contact {
     /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
     /// use (but still right) where the hulls overlap.
     pub fn clearance_bound(&self, q: &Configuration) -> f64 {
-        let circles = q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius();
+        let circles = q.position().norm() - self.fixed.circumradius() - self.moving.circumradius();
         if circles > 0.0 {
             return circles;
         }
@@ -119,7 +123,7 @@ impl Contact {
     }
 
     fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
-        q.x.hypot(q.y) - self.fixed.circumradius() - self.moving.circumradius() >= least
+        q.position().norm() - self.fixed.circumradius() - self.moving.circumradius() >= least
     }
 
     fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
@@ -141,7 +145,7 @@ impl Contact {
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
     fn overlap_depth(&self, q: &Configuration) -> f64 {
-        if q.x.hypot(q.y) >= self.fixed.circumradius() + self.moving.circumradius() {
+        if self.circles_are_clear_by(q, 0.0) {
             return 0.0;
         }
         let at = Placement::of(q);
@@ -194,21 +198,27 @@ pub(crate) fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement
 /// Whether the separation is at least `least` (m); looks no farther than the first edge that says
 /// so, and at each edge no farther than the first point that does not.
 fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
+    // An edge keeps the other part off only if it does so with the disc inside that part.
+    let (middle, radius) = moving.disc;
+    let outside_fixed = at.position + at.rotation * middle;
     let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
-        let direction = at.direction(normal);
-        let level = normal.dot(&(at.position - point));
-        moving
-            .points
-            .iter()
-            .all(|p| direction.dot(p) + level >= least)
+        normal.dot(&(outside_fixed - point)) >= least + radius - DISC_SLACK && {
+            let direction = at.direction(normal);
+            let level = normal.dot(&(at.position - point));
+            let mut points = moving.points.iter();
+            points.all(|p| direction.dot(p) + level >= least)
+        }
     };
+    let (middle, radius) = fixed.disc;
+    let outside_moving = at.direction(&(middle - at.position));
     let by_moving = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
-        let world = at.rotation * normal;
-        let level = -world.dot(&at.position) - normal.dot(point);
-        fixed.points.iter().all(|x| world.dot(x) + level >= least)
+        normal.dot(&(outside_moving - point)) >= least + radius - DISC_SLACK && {
+            let world = at.rotation * normal;
+            let level = -world.dot(&at.position) - normal.dot(point);
+            fixed.points.iter().all(|x| world.dot(x) + level >= least)
+        }
     };
-    fixed.points.iter().zip(&fixed.normals).any(by_fixed)
-        || moving.points.iter().zip(&moving.normals).any(by_moving)
+    fixed.edges().any(by_fixed) || moving.edges().any(by_moving)
 }
 
 /// How far (m) each polygon lies outside each edge of the other.
@@ -217,12 +227,10 @@ fn separations<'a>(
     moving: &'a ConvexPart,
     at: &'a Placement,
 ) -> impl Iterator<Item = f64> + 'a {
-    let by_fixed = fixed.points.iter().zip(&fixed.normals);
-    let by_fixed = by_fixed.map(|(point, normal)| {
+    let by_fixed = fixed.edges().map(|(point, normal)| {
         support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
     });
-    let by_moving = moving.points.iter().zip(&moving.normals);
-    let by_moving = by_moving.map(|(point, normal)| {
+    let by_moving = moving.edges().map(|(point, normal)| {
         let world = at.rotation * normal;
         support(fixed, &world) - world.dot(&at.position) - normal.dot(point)
     });

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 use super::tree::Circle;
-use super::{Contact, Placement, TOUCH, separated};
+use super::{Contact, DISC_SLACK, Placement, TOUCH, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -60,10 +60,10 @@ impl Contact {
         reach: f64,
         allowed: f64,
     ) -> bool {
-        let whole = Stretch::new(ends, allowed);
+        let whole = Motion::new(ends.map(End::of), allowed);
         let hulls = (&self.fixed_hull, &self.moving_hull);
         let cores = (&self.fixed_core, &self.moving_core);
-        if whole.motion.separates(hulls) {
+        if whole.separates(hulls) {
             return true;
         }
         if !whole.is_separated_half_way(cores) {
@@ -71,8 +71,8 @@ impl Contact {
         }
         let parts = |[i, j]: [usize; 2]| (&self.fixed.parts()[i], &self.moving.parts()[j]);
         let mut open: Vec<[usize; 2]> = Vec::new();
-        let blocked = !self.near_pairs(&whole.motion, &mut |i, j| {
-            whole.motion.separates(parts([i, j])) || {
+        let blocked = !self.near_pairs(&whole, &mut |i, j| {
+            whole.separates(parts([i, j])) || {
                 open.push([i, j]);
                 whole.is_separated_half_way(parts([i, j]))
             }
@@ -81,16 +81,16 @@ impl Contact {
             return !blocked;
         }
         let mut reach = reach / 2.0;
-        let mut level: Vec<([Configuration; 2], Range<usize>)> = Vec::new();
+        let mut level: Vec<([End; 2], Range<usize>)> = Vec::new();
         level.extend(whole.halves().map(|half| (half, 0..open.len())));
         while !level.is_empty() && reach > SHORTEST {
             let mut kept = Vec::new();
             let mut finer = Vec::new();
             for (ends, pairs) in &level {
-                let stretch = Stretch::new(*ends, allowed);
+                let stretch = Motion::new(*ends, allowed);
                 let first = kept.len();
                 for &pair in &open[pairs.clone()] {
-                    if stretch.motion.separates(parts(pair)) {
+                    if stretch.separates(parts(pair)) {
                         continue;
                     }
                     if !stretch.is_separated_half_way(parts(pair)) {
@@ -120,7 +120,7 @@ impl Contact {
     /// `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference point, and a line
     /// of the moving one.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
-        let motion = Motion::new([a, b], allowed);
+        let motion = Motion::new([*a, *b].map(End::of), allowed);
         motion.separates((&self.fixed_hull, &self.moving_hull))
             || self.near_pairs(&motion, &mut |i, j| {
                 motion.separates((&self.fixed.parts()[i], &self.moving.parts()[j]))
@@ -131,7 +131,7 @@ impl Contact {
     /// false; returns whether it never did.
     fn near_pairs(&self, motion: &Motion, found: &mut impl FnMut(usize, usize) -> bool) -> bool {
         // From half way no point gets farther than half the motion takes it.
-        let Placement { rotation, position } = motion.middle;
+        let Placement { rotation, position } = motion.middle.placement;
         let lever = |(centre, radius): &Circle| centre.norm() + radius;
         let room = (-motion.allowed).max(0.0);
         self.fixed_tree.near_pairs(
@@ -143,40 +143,27 @@ impl Contact {
     }
 }
 
-/// A motion, or a part of one.
-struct Stretch {
-    ends: [Configuration; 2],
-    middle: Configuration,
-    motion: Motion,
+/// A configuration and where it places the moving tile.
+#[derive(Clone, Copy)]
+struct End {
+    q: Configuration,
+    placement: Placement,
 }
 
-impl Stretch {
-    fn new(ends: [Configuration; 2], allowed: f64) -> Self {
-        let [a, b] = &ends;
+impl End {
+    fn of(q: Configuration) -> Self {
         Self {
-            middle: a.interpolate(b, 0.5),
-            motion: Motion::new([a, b], allowed),
-            ends,
+            placement: Placement::of(&q),
+            q,
         }
     }
-
-    /// The ends of the two halves.
-    fn halves(&self) -> [[Configuration; 2]; 2] {
-        let [a, b] = self.ends;
-        [[a, self.middle], [self.middle, b]]
-    }
-
-    /// Whether a fixed part and a moving one overlap by no more than is let pass half way.
-    fn is_separated_half_way(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
-        separated(fixed, moving, &self.motion.middle, -self.motion.allowed)
-    }
 }
 
-/// What of a motion counts for proofs of separation.
+/// A motion or a part of one, and what of it counts for proofs of separation.
 struct Motion {
-    /// The moving tile at both ends, and half way.
-    ends: [Placement; 2],
-    middle: Placement,
+    ends: [End; 2],
+    /// Half way.
+    middle: End,
     /// Length of the reference point's way (m).
     path: f64,
     /// Magnitude of the turn (rad).
@@ -186,27 +173,55 @@ struct Motion {
 }
 
 impl Motion {
-    fn new([a, b]: [&Configuration; 2], allowed: f64) -> Self {
-        let step = a.step_to(b);
+    fn new(ends: [End; 2], allowed: f64) -> Self {
+        let [a, b] = &ends;
+        let step = a.q.step_to(&b.q);
         Self {
-            ends: [Placement::of(a), Placement::of(b)],
-            middle: Placement::of(&a.interpolate(b, 0.5)),
+            middle: End::of(a.q.interpolate(&b.q, 0.5)),
             path: step.xy().norm(),
             turn: step.z.abs(),
             allowed,
+            ends,
         }
+    }
+
+    /// The ends of the two halves.
+    fn halves(&self) -> [[End; 2]; 2] {
+        let [a, b] = self.ends;
+        [[a, self.middle], [self.middle, b]]
+    }
+
+    /// Whether a fixed part and a moving one overlap by no more than is let pass half way.
+    fn is_separated_half_way(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
+        separated(fixed, moving, &self.middle.placement, -self.allowed)
     }
 
     /// Whether the line of one edge keeps a fixed part and a moving one, given in its own frame,
     /// apart throughout.
     fn separates(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
-        let by_fixed = fixed.points.iter().zip(&fixed.normals);
-        let by_moving = moving.points.iter().zip(&moving.normals);
-        by_fixed
-            .into_iter()
+        let places = self.ends.map(|end| end.placement);
+        let is_beyond = |disc: [Vector2<f64>; 2], radius: f64| {
+            move |(point, normal): &(&Vector2<f64>, &Vector2<f64>)| {
+                let beyond = |middle: &Vector2<f64>| normal.dot(&(middle - *point));
+                disc.iter().map(beyond).fold(f64::INFINITY, f64::min)
+                    >= radius - self.allowed - DISC_SLACK
+            }
+        };
+        // An edge keeps the other part off only if it does so with the disc inside that part.
+        let (middle, radius) = moving.disc;
+        let by_fixed = is_beyond(places.map(|at| at.position + at.rotation * middle), radius);
+        let (middle, radius) = fixed.disc;
+        let by_moving = is_beyond(
+            places.map(|at| at.direction(&(middle - at.position))),
+            radius,
+        );
+        fixed
+            .edges()
+            .filter(by_fixed)
             .any(|(point, normal)| self.stays_outside_fixed(point, normal, moving))
-            || by_moving
-                .into_iter()
+            || moving
+                .edges()
+                .filter(by_moving)
                 .any(|(point, normal)| self.stays_outside_moving(point, normal, fixed))
     }
 
@@ -218,8 +233,9 @@ impl Motion {
         moving: &ConvexPart,
     ) -> bool {
         let turn = self.turn * self.turn;
-        let normals = [0, 1].map(|k| self.ends[k].direction(normal));
-        let levels = [0, 1].map(|k| normal.dot(&(self.ends[k].position - point)) + self.allowed);
+        let normals = [0, 1].map(|k| self.ends[k].placement.direction(normal));
+        let levels =
+            [0, 1].map(|k| normal.dot(&(self.ends[k].placement.position - point)) + self.allowed);
         moving.points.iter().all(|v| {
             let gap = |k: usize| normals[k].dot(v) + levels[k];
             let least = gap(0).min(gap(1));
@@ -237,16 +253,16 @@ impl Motion {
     ) -> bool {
         let turn = self.turn * self.turn;
         let both = 2.0 * self.turn * self.path;
-        let normals = [0, 1].map(|k| self.ends[k].rotation * normal);
+        let normals = [0, 1].map(|k| self.ends[k].placement.rotation * normal);
         let level = normal.dot(point) - self.allowed;
-        let levels = [0, 1].map(|k| -normals[k].dot(&self.ends[k].position) - level);
+        let levels = [0, 1].map(|k| -normals[k].dot(&self.ends[k].placement.position) - level);
         fixed.points.iter().all(|x| {
             let gap = |k: usize| normals[k].dot(x) + levels[k];
             let rest = 8.0 * gap(0).min(gap(1)) - both;
             if rest < 0.0 {
                 return false;
             }
-            let lever = |k: usize| (x - self.ends[k].position).norm_squared();
+            let lever = |k: usize| (x - self.ends[k].placement.position).norm_squared();
             rest * rest >= turn * turn * lever(0).max(lever(1))
         })
     }

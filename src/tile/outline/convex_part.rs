@@ -13,14 +13,24 @@ pub struct ConvexPart {
     pub points: Vec<Vector2<f64>>,
     /// The outward unit normal of each edge.
     pub normals: Vec<Vector2<f64>>,
+    /// Middle and radius (m) of a disc inside.
+    pub disc: (Vector2<f64>, f64),
 }
 
 impl ConvexPart {
     pub(crate) fn new(points: Vec<Vector2<f64>>) -> Self {
-        let normals = (0..points.len())
+        let normals: Vec<_> = (0..points.len())
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
             .collect();
-        Self { points, normals }
+        let middle = points.iter().sum::<Vector2<f64>>() / points.len() as f64;
+        let depths = points.iter().zip(&normals);
+        let depths = depths.map(|(point, normal)| normal.dot(&(point - middle)));
+        let radius = depths.fold(f64::INFINITY, f64::min).max(0.0);
+        Self {
+            points,
+            normals,
+            disc: (middle, radius),
+        }
     }
 
     /// Becomes `part`, turned and moved; takes no new memory once it has held as many points.
@@ -31,6 +41,12 @@ impl ConvexPart {
         self.normals.clear();
         self.normals
             .extend(part.normals.iter().map(|n| rotation * n));
+        self.disc = (position + rotation * part.disc.0, part.disc.1);
+    }
+
+    /// The first point (m) and the outward unit normal of each edge.
+    pub fn edges(&self) -> impl Iterator<Item = (&Vector2<f64>, &Vector2<f64>)> {
+        self.points.iter().zip(&self.normals)
     }
 
     /// Area (m^2).
