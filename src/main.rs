@@ -55,7 +55,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match cli::parse::<Arguments>() {
         Ok(arguments) => arguments,
         Err(answer) => return cli::answer(&answer),
     };

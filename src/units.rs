@@ -30,6 +30,54 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
     format!("{:.decimals$} {prefix}{unit}", value / scale)
 }
 
+/// A number with so many significant digits; very small and large ones with a power of ten. No digit
+/// before the decimal point is left out.
+pub fn plain(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{}", value + 0.0);
+    }
+    let after_first = digits.max(1) as i32 - 1;
+    match exponent(value.abs(), digits) {
+        power @ -3..=3 => format!("{value:.*}", (after_first - power).max(0) as usize),
+        _ => format!("{value:.*e}", after_first as usize),
+    }
+}
+
+/// What times (s) are told in, ascending: how long it is, its name, and from how many of it on the next
+/// one is taken.
+const SPANS: [(f64, &str, f64); 5] = [
+    (1.0, "s", 100.0),
+    (60.0, "minutes", 100.0),
+    (3600.0, "hours", 48.0),
+    (86_400.0, "days", 700.0),
+    (31_557_600.0, "years", f64::INFINITY),
+];
+
+/// A time (s) as people read it, to so many significant digits: `12 ms`, `4.2 hours`, `3e+40 years`.
+pub fn duration(time: f64, digits: usize) -> String {
+    duration_to(time, digits, f64::round)
+}
+
+/// The same, its last digit rounded as `whole` says.
+pub fn duration_to(time: f64, digits: usize, whole: fn(f64) -> f64) -> String {
+    if time == f64::INFINITY {
+        return "for ever".to_owned();
+    }
+    let fits = |(span, _, most): &&(f64, &str, f64)| time < span * most;
+    let (span, name, _) = SPANS.iter().find(fits).copied().unwrap_or(SPANS[0]);
+    let size = time / span;
+    let unit = 10f64.powi(exponent(size, 16).saturating_sub(digits.max(1) as i32 - 1));
+    // Too small or large a number has no such digits.
+    let rounded = match whole(size / unit) * unit {
+        rounded if rounded.is_finite() && rounded > 0.0 => rounded,
+        _ => size,
+    };
+    match name {
+        "s" => si(rounded, name, digits),
+        _ => format!("{} {name}", plain(rounded, digits)),
+    }
+}
+
 /// Two quantities with one SI prefix and unit between them, each with `digits` significant digits
 /// of the larger one that is finite: `14.54 to 15.19 mJ`.
 pub fn si_range(low: f64, high: f64, unit: &str, digits: usize) -> String {
@@ -69,4 +117,42 @@ pub fn prefix_of(size: f64) -> (f64, &'static str) {
     *descending
         .find(|(scale, _)| size >= *scale)
         .unwrap_or(&PREFIXES[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_told_as_people_read_them() {
+        for (time, told) in [
+            (0.0123, "12.3 ms"),
+            (99.94, "99.9 s"),
+            (120.0, "2.00 minutes"),
+            (7.96e8, "25.2 years"),
+            (86_400.0, "24.0 hours"),
+            (1e6, "11.6 days"),
+            (1.01e60, "3.20e52 years"),
+            (f64::INFINITY, "for ever"),
+        ] {
+            assert_eq!(duration(time, 3), told);
+        }
+        assert_eq!(duration_to(7.99e8, 2, f64::floor), "25 years");
+        assert_eq!(duration_to(7.99e8, 2, f64::ceil), "26 years");
+    }
+
+    #[test]
+    fn numbers_have_the_digits_asked_for() {
+        for (value, told) in [
+            (9.4, "9.40"),
+            (0.112_34, "0.112"),
+            (5432.1, "5432"),
+            (1e4, "1.00e4"),
+            (1.55e-5, "1.55e-5"),
+            (0.0, "0"),
+            (999.96, "1000"),
+        ] {
+            assert_eq!(plain(value, 3), told);
+        }
+    }
 }

@@ -25,7 +25,6 @@ shapes up to twenty";
 /// Find the states, traps, barriers and pathways of a design, and draw them
 #[derive(Args)]
 #[command(
-    allow_negative_numbers = true,
     mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS)),
     mut_arg("json", |json| json.help("Print report.json instead of the summary")),
     after_help = "\

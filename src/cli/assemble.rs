@@ -42,7 +42,7 @@ pub struct Assemble {
     design: Option<PathBuf>,
 
     /// Effective energy kT of the shaking (J)
-    #[arg(long, value_name = "E", value_parser = input::positive)]
+    #[arg(long, value_name = "E", value_parser = input::shaking)]
     kt: f64,
 
     /// Share of the table that loose tiles cover, all kinds together

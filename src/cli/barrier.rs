@@ -17,7 +17,6 @@ use super::{Failure, input, interrupt, memory, print, workload};
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
 #[command(
-    allow_negative_numbers = true,
     mut_arg("seed", |seed| seed.help("Seed of all random numbers")),
     mut_arg("threads", |threads| threads.help("Threads [default: all cores]")),
     after_help = "\

@@ -24,7 +24,6 @@ use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
 #[command(
-    allow_negative_numbers = true,
     mut_arg("json", |json| json.help("Print compare.json instead of the tables")),
     mut_arg("quiet", |quiet| quiet.help("Print neither progress nor the tables")),
     after_help = "\

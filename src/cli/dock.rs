@@ -22,7 +22,6 @@ const SEED: &str =
 /// Send the moving tile towards the fixed one many times and count how it ends
 #[derive(Args)]
 #[command(
-    allow_negative_numbers = true,
     mut_arg("seed", |seed| seed.help(SEED)),
     mut_arg("json", |json| json.help("Print dock.json instead of the summary")),
     after_help = "\

@@ -92,6 +92,12 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
     found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
 }
 
+/// A seed of random numbers.
+pub fn seed(text: &str) -> Result<u64, String> {
+    let found = text.parse().ok();
+    found.ok_or_else(|| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
 /// Most runs of anything whose results are all held in memory.
 const MOST_RUNS: usize = 10_000_000;
 

@@ -36,10 +36,45 @@ pub mod yields;
 pub use failure::Failure;
 use failure::WRONG;
 
+use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
+
+/// Reads the command line. What begins like a number below 0 belongs to the option before it, which
+/// then says what is wrong with it, if anything is.
+pub fn parse<T: clap::Parser>() -> Result<T, clap::Error> {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    T::try_parse_from(&arguments).or_else(|error| match error.kind() {
+        clap::error::ErrorKind::UnknownArgument => T::try_parse_from(joined(arguments)),
+        _ => Err(error),
+    })
+}
+
+/// The same command line with every option joined to the negative number after it: `--kt=-1e-3`.
+fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
+    let is_option = |text: &OsString| {
+        let text = text.to_string_lossy();
+        text.len() > 2 && text.starts_with("--") && !text.contains('=')
+    };
+    let is_negative = |text: &OsString| {
+        let text = text.to_string_lossy();
+        let number = text.strip_prefix('-').map(|it| it.trim_start_matches('.'));
+        number.is_some_and(|it| it.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let mut all: Vec<OsString> = Vec::new();
+    for argument in arguments {
+        match all.last_mut().filter(|last| is_option(last)) {
+            Some(option) if is_negative(&argument) => {
+                option.push("=");
+                option.push(argument);
+            }
+            _ => all.push(argument),
+        }
+    }
+    all
+}
 
 /// Prints what clap answers in place of a command: help, the version, or what is wrong.
 pub fn answer(answer: &clap::Error) -> ExitCode {

@@ -85,7 +85,8 @@ impl SurveyOptions {
 #[derive(Args)]
 pub struct WorkOptions {
     /// Seed of all random numbers: the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+          value_parser = input::seed)]
     pub seed: u64,
 
     /// Threads [default: all cores]; the results do not depend on them

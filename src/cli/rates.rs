@@ -27,9 +27,7 @@ const SQUARES: usize = 120;
 
 /// Print how fast shaken tiles bind, come off and change between states
 #[derive(Args)]
-#[command(
-    allow_negative_numbers = true,
-    after_help = "\
+#[command(after_help = "\
 Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
 reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
@@ -52,8 +50,7 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
     --basin-energy -0.03 --free-at 0.75 --json
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove
-  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove"
-)]
+  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove")]
 pub struct Rates {
     #[command(flatten)]
     design: DesignOptions,

@@ -30,7 +30,6 @@ Points worked on at the same time [default: all cores]; the results do not depen
 /// Vary keys of a design and assess every design that comes of it
 #[derive(Args)]
 #[command(
-    allow_negative_numbers = true,
     mut_arg("seed", |seed| seed.help("Seed that all points' seeds come from")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\

@@ -19,9 +19,7 @@ use super::{Failure, input, interrupt, tell_of_kept};
 
 /// How many pairs are bound after a time on a shaken table, and at which shaking most are
 #[derive(Args)]
-#[command(
-    allow_negative_numbers = true,
-    after_help = "\
+#[command(after_help = "\
 Half of the tiles are of the fixed tile's kind, half of the moving one's; each binds one partner at
 most. Attachment rates are counted in docking runs of shaken tiles (or, with --rates overdamped, solved
 for overdamped motion as `tilebind rates` does), detachment rates follow by detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
@@ -30,8 +28,7 @@ that has a temperature: contact that swallows energy, which shaking does not giv
 Examples:
   tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
   tilebind yield shapes/paper-tile.toml --tiles 10 --time 36000 --kt 3e-3 --rates overdamped
-  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield"
-)]
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield")]
 pub struct YieldCommand {
     #[command(flatten)]
     design: DesignOptions,
@@ -171,6 +168,7 @@ impl YieldCommand {
 fn failure(error: YieldError) -> Failure {
     match error {
         YieldError::Docking(error) => Failure::Usage(error.to_string()),
+        YieldError::Hot(..) | YieldError::Cold(_) => Failure::Usage(error.to_string()),
         YieldError::Rates(error) if !matches!(error, RatesError::Unsolved(_)) => {
             Failure::Usage(error.to_string())
         }

@@ -115,6 +115,14 @@ impl<'a> Hold<'a> {
         -self.energy >= LEAST_DEPTH * kt
     }
 
+    /// Whether it has play, but less than contact is known to at kT (J): tiles that shake so little
+    /// move by less than [`super::well::NO_PLAY`] in it. Without play at a tenth of its depth it has
+    /// none at all.
+    pub fn is_too_cold(&self, kt: f64) -> bool {
+        let has_play = |kt: f64| self.well.has_play(kt);
+        !has_play(kt) && has_play(-self.energy / 10.0)
+    }
+
     /// What it holds with at one shaking; the integral to the relative `tolerance`.
     pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Docking {
         let volume = self.well.volume(shaking.kt, tolerance);

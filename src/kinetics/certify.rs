@@ -30,7 +30,7 @@ impl Default for Certify {
     fn default() -> Self {
         Self {
             distance: 0.1,
-            unknowns: 40_000,
+            unknowns: 60_000,
             pieces: 0,
         }
     }

@@ -70,6 +70,36 @@ impl Field<'_> {
         }
     }
 
+    /// For every two of some configurations, and last the mesh's rim, whether contact blocks every
+    /// way between them.
+    pub fn blocked(&self, places: &[Configuration]) -> Vec<Vec<bool>> {
+        let mesh = &self.mesh;
+        let beside = mesh.joined(&|leaf| !leaf.blocked);
+        let reach = |from: &Configuration| {
+            let mut reached = vec![false; mesh.leaves.len()];
+            let mut open = mesh.holding(from);
+            while let Some(id) = open.pop() {
+                if !std::mem::replace(&mut reached[id], true) {
+                    open.extend(beside[id].iter().map(|&other| other as usize));
+                }
+            }
+            reached
+        };
+        let reached: Vec<Vec<bool>> = places.iter().map(reach).collect();
+        let is_rim = |id: usize| is_at_the_rim(mesh, &mesh.leaves[id]);
+        let to_rim = |reached: &Vec<bool>| (0..reached.len()).any(|id| reached[id] && is_rim(id));
+        let met = |from: usize, to: usize| match (reached.get(from), places.get(to)) {
+            (Some(from), Some(to)) => mesh.holding(to).iter().any(|&id| from[id]),
+            (Some(from), None) => to_rim(from),
+            (None, Some(_)) => to_rim(&reached[to]),
+            (None, None) => true,
+        };
+        let all = 0..=places.len();
+        all.clone()
+            .map(|from| all.clone().map(|to| !met(from, to)).collect())
+            .collect()
+    }
+
     /// The closed cells on the way to the rim that goes through the fewest of them, by their size,
     /// if there is a way. Some cells are too small to be asked: then nothing is excluded.
     fn closed_on_way(&self, from: &Configuration, is_excluded: &mut bool) -> Option<Vec<usize>> {

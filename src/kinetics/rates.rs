@@ -128,6 +128,8 @@ pub struct Rates {
     pub inside: Vec<f64>,
     /// For each basin whether a way leads out of it to free tiles.
     pub ways: Vec<Way>,
+    /// From each place (row) to each other what is known of ways between them.
+    pub links: Vec<Vec<Way>>,
     /// For each basin what is proved of it, if that was asked for and can be had.
     pub proved: Vec<Option<Leaving>>,
 }
@@ -168,6 +170,28 @@ impl RateBounds {
     pub fn are_one_sided(&self) -> bool {
         self.leaving.iter().all(|[lower, _]| *lower == 0.0)
     }
+
+    /// The same without what is not known for want of a way, and with 0 where contact proves that
+    /// there is none.
+    fn known(mut self, links: &[Vec<Way>]) -> Self {
+        const NOTHING: [f64; 2] = [0.0, f64::INFINITY];
+        for (from, links) in links.iter().enumerate() {
+            for (to, way) in links.iter().enumerate() {
+                match way {
+                    Way::Open => {}
+                    Way::Blocked => self.rates[from][to] = [0.0; 2],
+                    Way::Lost => self.rates[from][to] = NOTHING,
+                }
+            }
+            let mut others = links.iter().enumerate().filter(|(to, _)| *to != from);
+            if others.clone().any(|(_, way)| *way == Way::Lost) {
+                self.leaving[from] = NOTHING;
+            } else if others.all(|(_, way)| *way == Way::Blocked) {
+                self.leaving[from] = [0.0; 2];
+            }
+        }
+        self
+    }
 }
 
 impl Rates {
@@ -181,6 +205,17 @@ impl Rates {
         let of_bounds = usize::from(self.is_between_bounds);
         let meshes = &self.meshes[..self.meshes.len() - of_bounds];
         meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
+    }
+
+    /// Whether anything is known of a rate: a way was found between the two places, or contact
+    /// proves that there is none.
+    pub fn is_known(&self, from: usize, to: usize) -> bool {
+        self.links[from][to] != Way::Lost
+    }
+
+    /// The same of the rate out of a place, by all ways.
+    pub fn is_known_out(&self, from: usize) -> bool {
+        (0..self.links.len()).all(|to| to == from || self.is_known(from, to))
     }
 
     /// By how much a rate differs on the two finest meshes, relative. An estimate of the error, no
@@ -208,10 +243,20 @@ pub enum RatesError {
          ends before; choose another --free-at"
     )]
     NoFree(f64),
+    /// At this kT (J) the deepest basin is so many kT deep.
+    #[error(
+        "at kT = {} the deepest state is {:.0} kT deep, and no tile ever leaves it; rates are told up \
+         to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
+    )]
+    Cold(f64, f64),
     /// A linear system could not be solved.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
 }
+
+/// Wells deeper than this, in kT, have no rates: weights that far apart are lost to rounding in sums
+/// over a mesh, and the times are many powers of ten of any table's life.
+const DEEPEST: f64 = 300.0;
 
 /// The rates between basins and `free`.
 ///
@@ -228,8 +273,12 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
     let energies = seeds.iter().map(|q| problem.energy(q));
     let ground = energies.fold(f64::INFINITY, f64::min);
+    if -ground > DEEPEST * kt {
+        return Err(RatesError::Cold(kt, -ground / kt));
+    }
     let mut field = Field::new(problem, kt, free_at, ground, &seeds);
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
+    let blocked = field.blocked(&seeds);
     let beyond = outside * TAU * (ground / kt).exp();
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
@@ -243,7 +292,12 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             .filter_map(|(h, closed)| (!closed).then_some(h))
             .collect();
         let errors = field.errors(&nodes, &places.rims(&field), &left);
-        let (mut shares, error) = (errors.shares, errors.largest);
+        // Where nothing is left that flows, no error of it is known.
+        let error = match left.is_empty() {
+            true => f64::INFINITY,
+            false => errors.largest,
+        };
+        let mut shares = errors.shares;
         let unknowns = found.unknowns;
         meshes.push(MeshRates {
             error,
@@ -279,13 +333,16 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let between = between.filter(is_better);
             let is_between_bounds = between.is_some();
             meshes.extend(between);
+            let links = links(&ways, &places.closed, &blocked);
+            let bounds = bounds.or(settings.certify.map(|_| upper));
             return Ok(Rates {
                 meshes,
                 is_between_bounds,
-                bounds: bounds.or(settings.certify.map(|_| upper)),
+                bounds: bounds.map(|bounds| bounds.known(&links)),
                 map,
                 inside,
                 ways,
+                links,
                 proved: match proved.is_empty() {
                     true => vec![None; settings.basins.len()],
                     false => proved,
@@ -298,6 +355,24 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         grows = field.refine(&shares, DIVIDED);
         earlier = Some((nodes, functions));
     }
+}
+
+/// What is known of ways between every two places, the last of which is `free`: from which basins a
+/// way leads there, which the mesh has no way out of, and what contact blocks.
+fn links(ways: &[Way], closed: &[bool], blocked: &[Vec<bool>]) -> Vec<Vec<Way>> {
+    let is_free = |place: usize| place == ways.len();
+    let is_open = |place: usize| is_free(place) || ways[place] == Way::Open;
+    let is_closed = |place: usize| !is_free(place) && closed[place];
+    let link = |from: usize, to: usize| match () {
+        () if from == to => Way::Open,
+        () if blocked[from][to] => Way::Blocked,
+        () if is_closed(from) || is_closed(to) || is_open(from) != is_open(to) => Way::Lost,
+        () => Way::Open,
+    };
+    let all = 0..=ways.len();
+    all.clone()
+        .map(|from| all.clone().map(|to| link(from, to)).collect())
+        .collect()
 }
 
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.

@@ -22,7 +22,7 @@ const GAUSS: [(f64, f64); 5] = [
 /// spreads.
 const FALLEN: f64 = 0.2;
 /// A slide (m) or tilt (rad) that is no play: contact is not known better.
-const NO_PLAY: f64 = 1e-8;
+pub const NO_PLAY: f64 = 1e-8;
 /// Most rectangles.
 const MOST: usize = 4_000;
 
@@ -69,6 +69,18 @@ impl<'a> Well<'a> {
     /// divided in four), and Gauss' rule over panels of the gap. The same on any number of threads.
     pub fn volume(&self, kt: f64, tolerance: f64) -> Estimate {
         self.volume_below(kt, self.basin.level, tolerance)
+    }
+
+    /// Whether tiles have play in it at kT (J), both along contact and in tilt: more than
+    /// [`NO_PLAY`]. Otherwise its volume is 0.
+    pub fn has_play(&self, kt: f64) -> bool {
+        let basin = &self.basin;
+        let weight = Weight {
+            lowest: basin.lowest,
+            level: basin.level,
+            kt,
+        };
+        Integral { basin, weight }.spreads().is_some()
     }
 
     /// The same over what of the basin lies below `level` (J).

@@ -8,6 +8,7 @@ use super::terminal::write_table;
 use super::values::{pose, positive_zero};
 use crate::design::Design;
 use crate::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use crate::kinetics::well::NO_PLAY;
 use crate::landscape::Inventory;
 use crate::problem::Problem;
 use crate::units::si;
@@ -21,6 +22,8 @@ pub struct BondReport<'a> {
     /// How many kinds of traps are too shallow to hold anything.
     shallow: usize,
     window: [Option<f64>; 2],
+    /// Whether the bond has play, but less than contact is known to.
+    is_too_cold: bool,
 }
 
 /// A state at one shaking.
@@ -55,6 +58,13 @@ impl Held {
         }
     }
 
+    /// How far the closed form is off, where there are both.
+    fn closed_error(&self) -> Option<f64> {
+        let volume = self.docking.volume.value;
+        let closed = self.closed.filter(|_| volume > 0.0)?;
+        Some(closed.volume.value / volume - 1.0)
+    }
+
     fn json(&self) -> Value {
         let volume = self.docking.volume;
         let closed = self.closed.map(|it| it.volume.value);
@@ -76,14 +86,11 @@ impl Held {
             // counted as bound.
             "docking_cost_half_depth_kT": finite(self.inner.cost),
             "closed_form_Z0_m2_rad": closed,
-            "closed_form_error": closed.map(|closed| closed / volume.value - 1.0),
+            "closed_form_error": self.closed_error(),
         })
     }
 
     fn row(&self) -> [String; 7] {
-        let closed = self
-            .closed
-            .map(|it| it.volume.value / self.docking.volume.value - 1.0);
         [
             self.name.clone(),
             format!("x{}", self.copies),
@@ -91,7 +98,12 @@ impl Held {
             format!("{:.2}", self.docking.depth),
             number(self.docking.cost),
             number(self.docking.ln_k(1.0)),
-            closed.map_or("-".to_owned(), |error| format!("{:+.1} %", 100.0 * error)),
+            match self.closed_error() {
+                // It holds far below the depth only.
+                Some(error) if error.abs() < 10.0 => format!("{:+.1} %", 100.0 * error),
+                Some(_) => "useless".to_owned(),
+                None => "-".to_owned(),
+            },
         ]
     }
 }
@@ -118,6 +130,7 @@ impl<'a> BondReport<'a> {
                 .map(|hold| Held::new(problem, hold, &shaking))
                 .collect(),
             window: bond.window(shaking.coverage),
+            is_too_cold: bond.hold().is_too_cold(shaking.kt),
         })
     }
 
@@ -164,6 +177,13 @@ impl<'a> BondReport<'a> {
             si(self.shaking.kt, "J", 4),
             percent(self.shaking.coverage)
         );
+        if self.is_too_cold {
+            return format!(
+                "{name}: {at} tiles move by less than {} in the bond, which is closer than contact \
+                 is known: choose a larger --kt",
+                si(NO_PLAY, "m", 2)
+            );
+        }
         if bond.docking.cost.is_infinite() {
             return format!("{name}: {at} the bond has no play at all: shaken tiles never find it");
         }

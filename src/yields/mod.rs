@@ -11,12 +11,14 @@ pub mod attachment;
 use crate::design::Design;
 use crate::dynamics::docking::{DockingError, stream};
 use crate::dynamics::exits::mean_and_error;
-use crate::kinetics::bond::{Bond, BondError, Hold, Shaking, TOLERANCE, traps};
+use crate::kinetics::bond::{Bond, BondError, Hold, LEAST_DEPTH, Shaking, TOLERANCE, traps};
 use crate::kinetics::mixture::{self, Mixture};
 use crate::kinetics::population::{Crowd, MOST_PAIRS, PairRates};
 use crate::kinetics::rates::RatesError;
+use crate::kinetics::well::NO_PLAY;
 use crate::observer::Observer;
 use crate::pipeline::{self, Settings};
+use crate::units::si;
 use attachment::{Attachments, Effort};
 use rayon::prelude::*;
 
@@ -63,6 +65,18 @@ pub enum YieldError {
     /// The rates of overdamped motion could not be solved.
     #[error(transparent)]
     Rates(#[from] RatesError),
+    /// At this kT (J) the bond of this energy (J) holds nothing.
+    #[error(
+        "at kT = {} the bond of {} is less than {LEAST_DEPTH} kT deep and holds nothing: choose a \
+         --kt below {}", si(*.0, "J", 4), si(*.1, "J", 4), si(-.1 / LEAST_DEPTH, "J", 3)
+    )]
+    Hot(f64, f64),
+    /// At this kT (J) the bond's well is narrower than contact is known.
+    #[error(
+        "at kT = {} tiles move by less than {} in the bond, which is closer than contact is known: \
+         choose a larger --kt", si(*.0, "J", 4), si(NO_PLAY, "m", 2)
+    )]
+    Cold(f64),
     /// The bond's basin has no volume.
     #[error("the bond has no play at all: shaken tiles never find it, and nothing is yielded")]
     NoPlay,
@@ -154,6 +168,14 @@ pub fn yields(
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, inventory) = (&analysis.problem, &analysis.inventory);
     let bond = Bond::new(problem, inventory)?;
+    let hold = bond.hold();
+    if let Some(&hot) = question.kts.iter().find(|kt| !hold.holds_at(**kt)) {
+        // Tiles that fast meet things a million times in a run, and nothing comes of it.
+        return Err(YieldError::Hot(hot, hold.energy));
+    }
+    if let Some(&cold) = question.kts.iter().find(|kt| hold.is_too_cold(**kt)) {
+        return Err(YieldError::Cold(cold));
+    }
     let coldest = question.kts.iter().copied().fold(f64::INFINITY, f64::min);
     let traps = traps(problem, inventory, coldest);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();

@@ -22,9 +22,7 @@ use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
-#[command(
-    allow_negative_numbers = true,
-    after_help = "\
+#[command(after_help = "\
 The gap of a set of words is 1 less the strongest wrong attraction over the weakest right bond, in
 energies of flush faces at contact, at every slide by whole places, magnets at all lags. It judges
 aligned and slid faces, not tilted ones: `tilebind crosstalk` does those. Wrong is every meeting but
@@ -39,8 +37,7 @@ Examples:
   tilebind words --length 12 --gap 0.8 --shape polar
   tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
   tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
-  tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2"
-)]
+  tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2")]
 pub struct Words {
     /// The design file from whose target face magnets and pitch are taken [default: the paper's
     /// tile]

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
 use crate::report::rates::{
-    AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, per_second, three_digits,
+    AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, per_second, share,
 };
-use crate::units::si;
+use crate::units::{duration, si};
 
 impl Page {
     /// The page of rates between states and `free`.
@@ -16,11 +16,15 @@ impl Page {
             value,
             note,
         };
+        let shown = |rate: Option<f64>, digits: usize| match rate {
+            Some(rate) => per_second(rate, digits),
+            None => "?".to_owned(),
+        };
         let free = table.places.len();
         let mut facts = vec![
             fact(
                 "free tiles bind",
-                per_second(table.rate(free, 0)),
+                shown(table.known_rate(free, 0), table.digits(free, 0)),
                 "to A, by any way".to_owned(),
             ),
             fact(
@@ -37,15 +41,20 @@ impl Page {
         for (number, place) in table.places.iter().enumerate() {
             let note = match table.bounds_out(number) {
                 [Some(lower), Some(upper)] => {
-                    format!("between {} and {}", per_second(lower), per_second(upper))
+                    let [lower, upper] = [lower, upper].map(|end| per_second(end, 3));
+                    format!("between {lower} and {upper}")
                 }
-                [_, Some(upper)] => format!("at most {}", per_second(upper)),
+                [_, Some(upper)] => format!("at most {}", per_second(upper, 3)),
                 _ => "no bounds".to_owned(),
             };
             let name = format!("{} is left", place.name);
             facts.insert(
                 number,
-                fact(&name, per_second(table.rate_out(number)), note),
+                fact(
+                    &name,
+                    shown(table.known_rate_out(number), table.digits_out(number)),
+                    note,
+                ),
             );
         }
         let pictures = rate_charts::all(table, over_kt);
@@ -90,20 +99,25 @@ fn sorted(title: &str, note: &str, columns: Vec<Column>, rows: Vec<Vec<Value>>) 
 }
 
 fn of_pairs(table: &Table) -> Sorted {
-    let shown = |rate: Option<f64>| match rate {
-        Some(rate) => json!([rate, per_second(rate)]),
+    let shown = |rate: Option<f64>, digits: usize| match rate {
+        Some(rate) => json!([rate, per_second(rate, digits)]),
         None => Value::Null,
     };
     let row = |(from, to): (usize, usize)| {
         let [lower, upper] = table.bounds(from, to);
+        let digits = table.digits(from, to);
+        let time = table.mean_first_passage(from, to);
         vec![
             json!(table.name(from)),
             json!(table.name(to)),
-            shown(lower),
-            shown(Some(table.rate(from, to))),
-            shown(upper),
-            json!(table.rate(from, to) / table.rate_out(from)),
-            json!(table.mean_first_passage(from, to)),
+            shown(lower, 3),
+            shown(table.known_rate(from, to), digits),
+            shown(upper, 3),
+            json!(table.first(from, to)),
+            match time.is_finite() {
+                true => json!([time, duration(time, digits)]),
+                false => Value::Null,
+            },
         ]
     };
     let columns = vec![
@@ -113,7 +127,7 @@ fn of_pairs(table: &Table) -> Sorted {
         column("rate", ""),
         column("at most", ""),
         column("comes first", "%"),
-        column("mean first passage", "s"),
+        column("mean first passage", ""),
     ];
     let rows = table.pairs().map(row).collect();
     sorted("Rates", "from a basin or free to another", columns, rows)
@@ -128,11 +142,12 @@ fn of_proofs(table: &Table) -> Sorted {
         let leaving = table.proved(number);
         let ends = leaving.map(|it| mean_exit_ends(table.motion, &it.capacity));
         let [least, most] = ends.unwrap_or_default().map(shown);
-        let time = 1.0 / table.rate_out(number);
+        let time = table.known_rate_out(number).map(|rate| 1.0 / rate);
+        let time = time.map(|time| (time, duration(time, table.digits_out(number))));
         vec![
             json!(place.name),
             least,
-            json!([time, three_digits(time, f64::round)]),
+            shown(time),
             most,
             leaving.map_or(Value::Null, |it| below(it.capacity.below)),
             leaving.map_or(Value::Null, |it| below(it.end_below)),
@@ -160,12 +175,14 @@ fn of_proofs(table: &Table) -> Sorted {
 
 fn of_places(table: &Table) -> Sorted {
     let occupation = &table.found.finest().occupation;
-    let row = |(number, share): (usize, &f64)| {
+    let row = |(number, part): (usize, &f64)| {
         let own = table.places.get(number);
         vec![
             json!(table.name(number)),
             json!(own.map(|place| place.copies)),
-            json!([share, format!("{:.3e} %", 100.0 * share)]),
+            table
+                .known_share(number, *part)
+                .map_or(Value::Null, |part| json!([part, share(part)])),
             json!(own.map(|place| place.energy)),
             match own {
                 Some(place) => json!([place.below, format!("U < {}", si(place.below, "J", 4))]),

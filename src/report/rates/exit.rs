@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 
 use super::{
     Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, area,
-    finite, leaving_set, mean_exit_words, proved_entry, proved_words,
+    digits, finite, leaving_set, mean_exit_words, proved_entry, proved_words,
 };
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
 use crate::kinetics::Way;
 use crate::kinetics::exit::{Exit, ExitSettings};
 use crate::report::values;
-use crate::units::si;
+use crate::units::{duration, duration_to, si};
 
 /// Bounds of the mean exit time (s), those that are numbers.
 fn bounds(motion: &Motion, exit: &Exit) -> Option<[Option<f64>; 2]> {
@@ -62,7 +62,7 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first in \
          {share:.1} % of all cases, free first in {:.1} %\n",
         design.name,
-        si(mean, "s", 3),
+        duration(mean, digits(exit.spread()[0].max(finest.error))),
         100.0 - share,
     );
     let _ = writeln!(
@@ -96,14 +96,14 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
             text,
             "  from the well about the start the mean exit time is {} at least; {ONE_SIDED};\n  \
              {ON_THE_MESH}",
-            si(lower, "s", 3),
+            duration_to(lower, 3, f64::floor),
         ),
         Some([Some(lower), Some(upper)]) => writeln!(
             text,
             "  from the well about the start the mean exit time is between {} and {} ({} apart);\n  \
              {ON_THE_MESH}",
-            si(lower, "s", 3),
-            si(upper, "s", 3),
+            duration_to(lower, 3, f64::floor),
+            duration_to(upper, 3, f64::ceil),
             apart([lower, upper]),
         ),
         _ => writeln!(text, "  {NO_BOUNDS}"),
@@ -152,8 +152,8 @@ pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
         "check: {} rigid bodies with inertia take {} +- {} on average, {:.2} +- {:.2} times as \
          long; bound first in {:.0} % ({bound} of {})\n",
         bound + free + runs.given_up,
-        si(time, "s", 3),
-        si(error, "s", 2),
+        duration(time, 3),
+        duration(error, 2),
         time / mean,
         error / mean,
         100.0 * bound as f64 / (bound + free) as f64,

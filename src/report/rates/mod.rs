@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use crate::design::Design;
 use crate::kinetics::Capacity;
-use crate::units::si;
+use crate::units::{duration_to, plain};
 
 /// Overdamped motion on an air table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,12 +84,8 @@ fn proved_words([lower, upper]: [f64; 2]) -> String {
     let unit = 10f64.powi(order - 2);
     let [low, high] = [(lower / unit).floor() * unit, (upper / unit).ceil() * unit];
     let apart = apart([lower, upper]);
-    match usize::try_from(2 - order) {
-        Ok(places) if places <= 4 => {
-            format!("{low:.places$} to {high:.places$} times per second ({apart} apart)")
-        }
-        _ => format!("{low:.2e} to {high:.2e} times per second ({apart} apart)"),
-    }
+    let [low, high] = [low, high].map(|end| plain(end, 3));
+    format!("{low} to {high} times per second ({apart} apart)")
 }
 
 /// Bounds that are farther apart than so many times say nothing worth telling.
@@ -102,15 +98,9 @@ pub(in crate::report) fn mean_exit_ends(
 ) -> [Option<(f64, String)>; 2] {
     let [least, most] = mean_exit(motion, proved);
     [
-        Some((least, three_digits(least, f64::floor))),
-        (most < FAR * least).then(|| (most, three_digits(most, f64::ceil))),
+        Some((least, duration_to(least, 3, f64::floor))),
+        (most < FAR * least).then(|| (most, duration_to(most, 3, f64::ceil))),
     ]
-}
-
-/// A time (s) in words, to three digits.
-pub(in crate::report) fn three_digits(time: f64, whole: fn(f64) -> f64) -> String {
-    let unit = 10f64.powi(time.log10().floor() as i32 - 2);
-    si(whole(time / unit) * unit, "s", 3)
 }
 
 /// Proved bounds of a mean exit time in words.
@@ -131,19 +121,32 @@ pub(in crate::report) const NOT_PROVED: &str = "nothing is proved: that takes ti
 pub(in crate::report) const PROVED: &str =
     "proved (integrals and sets enclosed, rounding included)";
 
-/// How far apart bounds are, in percent of the lower one.
+/// How far apart bounds are, in percent of the lower one, or how many times it.
 fn apart([lower, upper]: [f64; 2]) -> String {
-    match lower > 0.0 {
-        true => format!("{:.1} %", 100.0 * (upper / lower - 1.0)),
-        false => "any factor".to_owned(),
+    match upper / lower {
+        times if lower <= 0.0 || !times.is_finite() => "any factor".to_owned(),
+        times if times < 2.0 => format!("{:.1} %", 100.0 * (times - 1.0)),
+        times => format!("{} times", plain(times, 2)),
     }
 }
 
-/// A rate with three digits.
-pub(super) fn per_second(rate: f64) -> String {
-    match rate {
-        0.0 => "0 /s".to_owned(),
-        _ => format!("{rate:.2e} /s"),
+/// A rate, to so many digits.
+pub(in crate::report) fn per_second(rate: f64, digits: usize) -> String {
+    format!("{} /s", plain(rate, digits))
+}
+
+/// A share of all, to three digits.
+pub(in crate::report) fn share(part: f64) -> String {
+    // 1 - 1e-9 is all but nothing, and no more is known of it.
+    format!("{} %", plain(100.0 * part, 3))
+}
+
+/// How many digits a figure has that is off by this share of it.
+pub(in crate::report) fn digits(error: f64) -> usize {
+    match error {
+        _ if error < 0.01 => 3,
+        _ if error < 0.2 => 2,
+        _ => 1,
     }
 }
 

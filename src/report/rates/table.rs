@@ -7,15 +7,22 @@ use serde_json::{Value, json};
 
 use super::{
     Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, Place, SCOPE,
-    apart, finite, leaving_set, mean_exit, mean_exit_words, per_second, proved_entry,
+    apart, digits, finite, leaving_set, mean_exit, mean_exit_words, per_second, proved_entry,
+    share,
 };
 use crate::design::Design;
 use crate::kinetics::Way;
+use crate::kinetics::bond::LEAST_DEPTH;
 use crate::kinetics::chain::Chain;
 use crate::kinetics::rates::{Leaving, RateSettings, Rates};
 use crate::report::terminal::write_table;
 use crate::report::values;
-use crate::units::si;
+use crate::units::{plain, si};
+
+/// Meshes that differ by this share say nothing of a rate.
+const UNSETTLED: f64 = 0.5;
+/// Upper bounds that are so many times too high by what lies outside of basins are told why.
+const MOSTLY: f64 = 1.5;
 
 /// Rates between states and `free`.
 pub struct Table<'a> {
@@ -40,13 +47,51 @@ impl Table<'_> {
         self.places.get(place).map_or("free", |place| &place.name)
     }
 
-    /// Rate (1/s) from one place to another.
+    /// Rate (1/s) from one place to another, where anything is known of it.
+    pub(in crate::report) fn known_rate(&self, from: usize, to: usize) -> Option<f64> {
+        let is_known = self.found.is_known(from, to);
+        is_known.then(|| self.rate(from, to))
+    }
+
+    /// Rate (1/s) out of a place, where anything is known of it.
+    pub(in crate::report) fn known_rate_out(&self, from: usize) -> Option<f64> {
+        let is_known = self.found.is_known_out(from);
+        is_known.then(|| self.rate_out(from))
+    }
+
+    /// A share of time spent in or about a place, where anything is known of it: a basin without a way
+    /// may be one between contacts that the mesh has no cell in.
+    pub(in crate::report) fn known_share(&self, place: usize, part: f64) -> Option<f64> {
+        let is_known = place == self.places.len() || self.found.ways[place] != Way::Lost;
+        is_known.then_some(part)
+    }
+
+    /// The probability that one place is the first that is reached from another.
+    pub(in crate::report) fn first(&self, from: usize, to: usize) -> Option<f64> {
+        finite(self.known_rate(from, to)? / self.known_rate_out(from)?)
+    }
+
+    /// Rate (1/s) from one place to another, 0 where no way is known.
     pub(in crate::report) fn rate(&self, from: usize, to: usize) -> f64 {
         self.found.finest().rates[from][to] * self.motion.diffusion
     }
 
     pub(in crate::report) fn rate_out(&self, from: usize) -> f64 {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
+    }
+
+    /// How many digits of a rate are known, as far as meshes tell.
+    pub(in crate::report) fn digits(&self, from: usize, to: usize) -> usize {
+        let spread = finite(self.found.spread(from, to)).unwrap_or(0.0);
+        digits(spread.max(self.found.error()))
+    }
+
+    /// How many digits of the rate out of a place are known: as many as of the largest that it is made
+    /// of.
+    pub(in crate::report) fn digits_out(&self, from: usize) -> usize {
+        let others = (0..self.count()).filter(|to| *to != from);
+        let largest = others.max_by(|a, b| self.rate(from, *a).total_cmp(&self.rate(from, *b)));
+        largest.map_or(1, |to| self.digits(from, to))
     }
 
     /// Bounds (1/s) of the rate from one place to another, where there are any.
@@ -69,11 +114,15 @@ impl Table<'_> {
         )
     }
 
-    /// Bounds (1/s), those that say anything: of what is 0 from below none is known.
+    /// Bounds (1/s), those that say anything: of what is 0 from below none is known, unless it is
+    /// 0 altogether.
     fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
         let scaled = |end: f64| finite(end * self.motion.diffusion);
         let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
-        [lower.filter(|lower| *lower > 0.0), upper]
+        [
+            lower.filter(|lower| *lower > 0.0 || upper == Some(0.0)),
+            upper,
+        ]
     }
 
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
@@ -102,11 +151,11 @@ impl Table<'_> {
                 "basin_energy_J": own.map(|place| place.below),
                 "free_at_m": own.is_none().then_some(self.asked.free_at),
                 "copies": own.map(|place| place.copies),
-                "occupation": finest.occupation[number],
-                "inside": self.found.inside[number],
+                "occupation": self.known_share(number, finest.occupation[number]),
+                "inside": self.known_share(number, self.found.inside[number]),
                 "way_out": self.found.ways.get(number).map(|way| way.name()),
-                "mean_exit_s": finite(1.0 / self.rate_out(number)),
-                "leaving_per_s": finite(self.rate_out(number)),
+                "mean_exit_s": self.known_rate_out(number).and_then(|rate| finite(1.0 / rate)),
+                "leaving_per_s": self.known_rate_out(number),
                 "leaving_bounds_per_s": self.bounds_out(number),
                 "proved": own.map(|_| self.proved_entry(number)),
             })
@@ -117,10 +166,10 @@ impl Table<'_> {
                 "from": self.name(from),
                 "to": self.name(to),
                 "lower_per_s": lower,
-                "value_per_s": self.rate(from, to),
+                "value_per_s": self.known_rate(from, to),
                 "upper_per_s": upper,
                 "mean_first_passage_s": finite(self.mean_first_passage(from, to)),
-                "first": finite(self.rate(from, to) / self.rate_out(from)),
+                "first": self.first(from, to),
                 "spread": finite(self.found.spread(from, to)),
             })
         };
@@ -135,7 +184,7 @@ impl Table<'_> {
             "bounds_leave_out": self.found.bounds.as_ref().map(|_| NOT_BOUNDED),
             "mesh": {
                 "unknowns": finest.unknowns,
-                "of_basins": finite(finest.of_rims),
+                "of_basins": finite(finest.of_rims).filter(|_| self.found.error().is_finite()),
                 "error": finite(self.found.error()),
             },
         })
@@ -206,15 +255,20 @@ impl Table<'_> {
             let [lower, upper] = self
                 .bounds(from, to)
                 .map(|end| end.map_or(String::new(), |end| format!("{end:.6e}")));
+            let shown = |value: Option<f64>| {
+                let value = value.filter(|value| value.is_finite());
+                value.map_or(String::new(), |value| format!("{value:.6e}"))
+            };
+            let spread = finite(self.found.spread(from, to));
             let _ = writeln!(
                 text,
-                "{},{},{lower},{:.6e},{upper},{:.1e},{:.6e},{:.6e},{},{},{},{}",
+                "{},{},{lower},{},{upper},{},{},{},{},{},{},{}",
                 self.name(from),
                 self.name(to),
-                self.rate(from, to),
-                self.found.spread(from, to),
-                self.rate(from, to) / self.rate_out(from),
-                self.mean_first_passage(from, to),
+                shown(self.known_rate(from, to)),
+                spread.map_or(String::new(), |spread| format!("{spread:.1e}")),
+                shown(self.first(from, to)),
+                shown(Some(self.mean_first_passage(from, to))),
                 limit(from),
                 limit(to),
                 self.asked.free_at,
@@ -228,7 +282,12 @@ impl Table<'_> {
     pub fn occupation_csv(&self) -> String {
         let mut text = "place,copies,occupation,energy_J,basin_J,free_at_m,inside\n".to_owned();
         for (number, share) in self.found.finest().occupation.iter().enumerate() {
-            let (name, inside) = (self.name(number), self.found.inside[number]);
+            let shown = |part: f64| {
+                let known = self.known_share(number, part);
+                known.map_or(String::new(), |part| format!("{part:.6e}"))
+            };
+            let (name, inside) = (self.name(number), shown(self.found.inside[number]));
+            let share = shown(*share);
             let _ = match self.places.get(number) {
                 Some(Place {
                     copies,
@@ -237,13 +296,9 @@ impl Table<'_> {
                     ..
                 }) => writeln!(
                     text,
-                    "{name},{copies},{share:.6e},{energy:.9e},{below:.9e},,{inside:.6e}"
+                    "{name},{copies},{share},{energy:.9e},{below:.9e},,{inside}"
                 ),
-                None => writeln!(
-                    text,
-                    "{name},,{share:.6e},,,{},{inside:.6e}",
-                    self.asked.free_at
-                ),
+                None => writeln!(text, "{name},,{share},,,{},{inside}", self.asked.free_at),
             };
         }
         text
@@ -251,13 +306,22 @@ impl Table<'_> {
 
     /// What was asked, in a line.
     pub(in crate::report) fn headline(&self) -> String {
-        format!(
-            "free tiles bind at {} and the bond is left at {}, on a table of {} by {} m",
-            per_second(self.rate(self.places.len(), 0)),
-            per_second(self.rate_out(0)),
-            2.0 * self.design.space().half_size[0],
-            2.0 * self.design.space().half_size[1],
-        )
+        let free = self.places.len();
+        let [width, height] = self.design.space().half_size.map(|half| 2.0 * half);
+        let table = format!("on a table of {width} by {height} m");
+        match (self.known_rate(free, 0), self.known_rate_out(0)) {
+            (Some(0.0), Some(0.0)) => {
+                "no tile ever binds or comes off: contact blocks every way".to_owned()
+            }
+            (Some(on), Some(off)) => format!(
+                "free tiles bind at {} and the bond is left at {}, {table}",
+                per_second(on, self.digits(free, 0)),
+                per_second(off, self.digits_out(0)),
+            ),
+            _ => "no way into the bond was found, so that nothing is known of how fast tiles bind or \
+                  come off"
+                .to_owned(),
+        }
     }
 
     /// The rates in a few lines.
@@ -277,9 +341,12 @@ impl Table<'_> {
             let mut row = vec![self.name(from).to_owned()];
             row.extend((0..self.count()).map(|to| match from == to {
                 true => "-".to_owned(),
-                false => per_second(self.rate(from, to)),
+                false => self.known_rate(from, to).map_or("?".to_owned(), |rate| {
+                    per_second(rate, self.digits(from, to))
+                }),
             }));
-            row.push(format!("{:.3e}", self.found.finest().occupation[from]));
+            let occupation = self.known_share(from, self.found.finest().occupation[from]);
+            row.push(occupation.map_or("?".to_owned(), share));
             row.push(match self.places.get(from) {
                 Some(place) => format!("U < {}", si(place.below, "J", 4)),
                 None => format!("{} apart", si(self.asked.free_at, "m", 4)),
@@ -291,21 +358,50 @@ impl Table<'_> {
         let worst = spreads
             .filter(|spread| spread.is_finite())
             .fold(0.0, f64::max);
-        let _ = writeln!(
-            text,
-            "  the two finest meshes ({} unknowns) differ by {:.1} % at most; estimated error of flows \
-             {:.1} %",
-            self.found.finest().unknowns,
-            100.0 * worst,
-            100.0 * self.found.error(),
-        );
+        let unknowns = self.found.finest().unknowns;
+        let _ = match self.found.error() {
+            error if error.is_finite() => writeln!(
+                text,
+                "  the two finest meshes ({unknowns} unknowns) differ by {} % at most; estimated error \
+                 of flows {:.1} %",
+                plain(100.0 * worst, 2),
+                100.0 * error,
+            ),
+            _ => writeln!(text, "  nothing flows on the mesh ({unknowns} unknowns)"),
+        };
+        if worst > UNSETTLED {
+            let _ = writeln!(
+                text,
+                "  rates that differ that much are unknown: their spread stands in rates.csv"
+            );
+        }
         let inside = self.found.inside.iter().enumerate();
-        let inside = inside.map(|(place, share)| format!("{} {share:.3e}", self.name(place)));
+        let inside = inside.map(|(place, part)| {
+            let known = self.known_share(place, *part);
+            format!(
+                "{} {}",
+                self.name(place),
+                known.map_or("?".to_owned(), share)
+            )
+        });
         let _ = writeln!(
             text,
             "  occupation shares out by committors what lies between; inside alone: {}",
             inside.collect::<Vec<_>>().join(", "),
         );
+        let kt = self.asked.kt;
+        let shallow = self
+            .places
+            .iter()
+            .filter(|place| -place.energy < LEAST_DEPTH * kt);
+        for place in shallow {
+            let _ = writeln!(
+                text,
+                "  {} is less than {LEAST_DEPTH} kT deep and holds nothing: these rates tell how often \
+                 its set is passed through",
+                place.name
+            );
+        }
         for (place, way) in self.places.iter().zip(&self.found.ways) {
             if *way != Way::Open {
                 let _ = writeln!(text, "  {}: {}", place.name, way.told());
@@ -318,15 +414,25 @@ impl Table<'_> {
         };
         if bounds.are_one_sided() {
             let told = (0..self.places.len()).map(|number| {
-                let [_, upper] = self.bounds_out(number);
-                format!(
-                    "{} at most {}",
-                    self.name(number),
-                    per_second(upper.unwrap_or(f64::INFINITY))
-                )
+                let name = self.name(number);
+                match self.bounds_out(number)[1] {
+                    Some(upper) => format!("{name} at most {}", per_second(upper, 3)),
+                    None => format!("{name} unknown"),
+                }
             });
             let told = told.collect::<Vec<_>>().join(", ");
-            let _ = writeln!(text, "  left: {told};\n  {ONE_SIDED};\n  {ON_THE_MESH}");
+            let _ = writeln!(text, "  left: {told};");
+            if let Some((name, inside, all)) = self.mostly_outside() {
+                let _ = writeln!(
+                    text,
+                    "  these count as {name}'s time what is spent inside its basin, {} of all, where \
+                     its occupation is {}:\n  how much of what lies between places is its own nothing \
+                     bounds here",
+                    share(inside),
+                    share(all),
+                );
+            }
+            let _ = writeln!(text, "  {ONE_SIDED};\n  {ON_THE_MESH}");
             self.tell_proved(&mut text);
             text.push_str(SCOPE);
             return text;
@@ -341,6 +447,17 @@ impl Table<'_> {
         self.tell_proved(&mut text);
         text.push_str(SCOPE);
         text
+    }
+
+    /// The first basin that has most of its occupation outside of it: its name, what is spent inside,
+    /// and the occupation. Upper bounds of rates that count the inside only say little then.
+    fn mostly_outside(&self) -> Option<(&str, f64, f64)> {
+        let shares = |number: usize| {
+            let all = self.found.finest().occupation[number];
+            (self.name(number), self.found.inside[number], all)
+        };
+        let mut places = (0..self.places.len()).map(shares);
+        places.find(|(_, inside, all)| MOSTLY * inside < *all)
     }
 
     /// What is proved, if that was asked for.

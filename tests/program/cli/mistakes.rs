@@ -56,6 +56,39 @@ fn a_design_that_is_not_there() {
     );
 }
 
+/// A number below 0 looks like an option; what it belongs to says what is wrong with it.
+#[test]
+fn negative_numbers_are_told_in_our_words() {
+    let paper = "shapes/paper-tile.toml";
+    for (command, option, value, said) in [
+        ("bond", "--coverage", "-0.1", "between 0 and 1"),
+        ("bond", "--kt", "-1e-3", "a kT between"),
+        ("bond", "--seed", "-1", "a whole number"),
+        ("assemble", "--coverage", "-.5", "between 0 and 1"),
+        ("assemble", "--kt", "-1", "a kT between"),
+        ("assemble", "--lattice", "-3x3", "ROWSxCOLUMNS"),
+        ("assemble", "--length", "-8", "a whole number"),
+        ("assemble", "--pitch", "-4 cm", "greater than 0"),
+        ("assemble", "--proofread", "-1", "1..=6"),
+        ("calibrate", "--area", "-1", "greater than 0"),
+        ("calibrate", "--within", "-75cm", "greater than 0"),
+        ("calibrate", "--hold-out", "-2", "2..=65535"),
+        ("yield", "--kt", "-1e-3,2e-3", "a kT between"),
+        ("yield", "--tiles", "-4", "a whole number"),
+        ("yield", "--time", "-600", "greater than 0"),
+        ("rates", "--free-at", "-5 cm", "greater than 0"),
+        ("rates", "--drag", "-50", "greater than 0"),
+        ("rates", "--certify", "-0.1", "greater than 0"),
+        ("rates", "--traps", "-1", "a whole number"),
+        ("rates", "--check", "-10", "a whole number"),
+    ] {
+        // Of a list the wrong one is named.
+        let (wrong, _) = value.split_once(',').unwrap_or((value, ""));
+        let named = format!("'{wrong}' for '{option} <");
+        refused(&[command, paper, option, value], &[&named, said]);
+    }
+}
+
 #[test]
 fn wrong_poses() {
     for pose in ["1,2", "1,2,three", "1,2,nan", "1,2,3,4", ""] {

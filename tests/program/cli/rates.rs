@@ -118,6 +118,68 @@ fn a_shaking_that_no_table_has_is_refused() {
 }
 
 #[test]
+fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
+    let paper = "shapes/paper-tile.toml";
+    let tiles = ["--tiles", "10", "--time", "600"];
+    for (command, kt, more, said) in [
+        ("yield", "1e3", &tiles[..], "choose a --kt below 32.7 mJ"),
+        ("yield", "3e-3,1e3", &tiles, "kT = 1.000 kJ"),
+        ("yield", "1e-9", &tiles, "choose a larger --kt"),
+        ("rates", "1e-9", &[], "choose a larger --kt"),
+    ] {
+        let output = tilebind(&[&[command, paper, "--kt", kt][..], more].concat());
+        assert_eq!(output.status.code(), Some(2), "{command} {kt}");
+        let told = stderr(&output);
+        assert!(told.contains(said), "{told}");
+        assert!(stdout(&output).is_empty());
+    }
+}
+
+/// Square teeth slide into each other without any play: no mesh has a way there, and none is excluded.
+#[test]
+fn of_a_bond_without_a_known_way_nothing_is_claimed() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("rates");
+    let entry = json(&[
+        "rates",
+        "shapes/square-teeth-10mm.toml",
+        "--kt",
+        "8.2e-3",
+        "--out",
+        out.to_str().unwrap(),
+        "--json",
+    ]);
+    let bond = &entry["places"][0];
+    assert_eq!(bond["way_out"], "not found");
+    for key in ["leaving_per_s", "mean_exit_s", "occupation", "inside"] {
+        assert!(bond[key].is_null(), "{key}: {bond}");
+    }
+    let nothing = serde_json::json!([null, null]);
+    assert_eq!(bond["leaving_bounds_per_s"], nothing);
+    let rates = entry["rates"].as_array().unwrap();
+    assert_eq!(rates.len(), 2);
+    for rate in rates {
+        for key in [
+            "lower_per_s",
+            "value_per_s",
+            "upper_per_s",
+            "first",
+            "mean_first_passage_s",
+        ] {
+            assert!(rate[key].is_null(), "{key}: {rate}");
+        }
+    }
+    assert!(entry["mesh"]["error"].is_null());
+    let table = std::fs::read_to_string(out.join("rates.csv")).unwrap();
+    assert!(table.contains("\nbond A,free,,,,,,,"), "{table}");
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("no way into the bond was found"));
+    for wrong in [" 0 /s", "inf", "NaN", "e0 %"] {
+        assert!(!page.contains(&format!("\"{wrong}")), "{wrong}");
+    }
+}
+
+#[test]
 fn rates_between_the_states_balance_in_detail() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("rates");
