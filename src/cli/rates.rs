@@ -8,9 +8,8 @@ use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
-use tilebind::kinetics::{BLOCKS_HAVE_NO_PROOF, Certify};
+use tilebind::kinetics::{Certify, why_unprovable};
 use tilebind::observer::Observer;
-use tilebind::potential::MagnetModel;
 use tilebind::report::page::Page;
 use tilebind::report::{json, rates as report, writer};
 use tilebind::{Configuration, Problem, Settings, pipeline};
@@ -119,8 +118,11 @@ impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
-        if self.prove && design.interaction.model == MagnetModel::Cuboid {
-            return Err(Failure::Usage(BLOCKS_HAVE_NO_PROOF.to_owned()));
+        let model = design.interaction.model;
+        if self.prove
+            && let Some(why) = why_unprovable(&design.problem(), model)
+        {
+            return Err(Failure::Usage(why));
         }
         self.work.use_threads()?;
         match self.start {

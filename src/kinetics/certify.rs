@@ -3,6 +3,8 @@
 use super::field::{DIVIDED, Field};
 use super::proof::Closeness;
 use super::rates::MeshRates;
+use crate::potential::MagnetModel;
+use crate::problem::Problem;
 
 /// Near the goal so much more of the error is divided than should do.
 const MARGIN: f64 = 0.1;
@@ -19,8 +21,20 @@ pub struct Certify {
 }
 
 /// Why nothing is proved of blocks.
-pub const BLOCKS_HAVE_NO_PROOF: &str = "of blocks nothing can be proved here: where they touch their \
+const BLOCKS_HAVE_NO_PROOF: &str = "of blocks nothing can be proved here: where they touch their \
     energy is not enclosed closely enough; ask for the model dipole, or for no proof";
+
+/// Why nothing can be proved of a pair of tiles whose magnets are modelled so, whatever their shapes;
+/// `None` where it can be tried.
+pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
+    if model == MagnetModel::Cuboid {
+        return Some(BLOCKS_HAVE_NO_PROOF.to_owned());
+    }
+    let why = problem.bounds().err()?;
+    Some(format!(
+        "nothing can be proved here: {why}; ask for no proof"
+    ))
+}
 
 /// Share of the distance asked for that integrals' enclosures may take.
 const OF_INTEGRALS: f64 = 0.5;

@@ -80,7 +80,7 @@ mod sets;
 pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};
-pub use certify::{BLOCKS_HAVE_NO_PROOF, Certify};
+pub use certify::{Certify, why_unprovable};
 pub use corridor::{NARROW, Way};
 pub use proof::Capacity;
 pub use well::{Estimate, Well};

@@ -444,3 +444,40 @@ fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three basins: one with a way out, one that contact shuts in, one without a known way.
+    #[test]
+    fn nothing_is_claimed_without_a_way_and_none_where_contact_blocks_all() {
+        let ways = [Way::Open, Way::Blocked, Way::Lost];
+        let closed = [false, true, true];
+        let no_way = |from: usize, to: usize| (from == 1) != (to == 1);
+        let blocked: Vec<Vec<bool>> = (0..4)
+            .map(|from| (0..4).map(|to| no_way(from, to)).collect())
+            .collect();
+        let links = links(&ways, &closed, &blocked);
+        let bounds = RateBounds {
+            leaving: vec![[1.0, 2.0]; 4],
+            rates: vec![vec![[1.0, 2.0]; 4]; 4],
+        };
+        let known = bounds.known(&links);
+        let nothing = [0.0, f64::INFINITY];
+        assert_eq!(known.rates[0][3], [1.0, 2.0]);
+        assert_eq!(known.rates[3][0], [1.0, 2.0]);
+        for other in [0, 2, 3] {
+            assert_eq!(known.rates[1][other], [0.0; 2]);
+            assert_eq!(known.rates[other][1], [0.0; 2]);
+        }
+        for other in [0, 3] {
+            assert_eq!(known.rates[2][other], nothing);
+            assert_eq!(known.rates[other][2], nothing);
+        }
+        assert_eq!(known.leaving[1], [0.0; 2]);
+        for from in [0, 2, 3] {
+            assert_eq!(known.leaving[from], nothing);
+        }
+    }
+}

@@ -167,7 +167,7 @@ impl KtFit {
         let [bound, apart] = self.times.means();
         let mut text = match self.kt {
             Some(_) => format!(
-                "{}: pairs bind and part as at kT = {} ({} to {}, 95 %)\n",
+                "{}: pairs bind and part as at kT = {} (95 % interval: {} to {})\n",
                 design.name,
                 energy(self.kt),
                 energy(self.interval[0]),
@@ -180,7 +180,8 @@ impl KtFit {
         };
         let _ = writeln!(
             text,
-            "bound for {} in the mean of {}, apart for {} in the mean of {}, on {} m2",
+            "measured: bound for {} in the mean of {} times, apart for {} in the mean of {}; the pair had {} m² \
+             for itself\nthe interval has the scatter of these times in it, not what the energies are off by",
             si(bound, "s", 3),
             self.times.bound.len(),
             si(apart, "s", 3),
@@ -224,7 +225,7 @@ pub fn distances_summary(design: &Design, found: &DistanceFit) -> String {
     let [low, high] = found.interval.map(energy);
     let mut text = match found.kt {
         Some(_) => format!(
-            "{}: pairs are as far apart as at kT = {} ({low} to {high}, 95 %)\n",
+            "{}: pairs are as far apart as at kT = {} (95 % interval: {low} to {high})\n",
             design.name,
             energy(found.kt),
         ),

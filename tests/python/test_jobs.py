@@ -249,6 +249,8 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="certify"):
         design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
+    with pytest.raises(ValueError, match="model dipole"):
+        design.replace("potential.model", "cuboid").exits([0.43, -0.04, 0], kt=3e-3, prove=True)
     lower, upper = left["mean_exit_bounds_s"]
     assert lower < left["mean_exit_s"] < upper and left["proved"] is None
     closely = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75, certify=0.6, prove=True)

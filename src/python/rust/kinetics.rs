@@ -6,9 +6,8 @@ use tilebind::design::Design;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates as solved};
-use tilebind::kinetics::{BLOCKS_HAVE_NO_PROOF, Certify};
+use tilebind::kinetics::{Certify, why_unprovable};
 use tilebind::landscape::Inventory;
-use tilebind::potential::MagnetModel;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
 use tilebind::report::{json, rates as report, yields as yields_report};
@@ -34,8 +33,11 @@ pub struct Asked {
 
 impl Asked {
     fn check(&self, design: &Design) -> PyResult<()> {
-        if self.prove && design.interaction.model == MagnetModel::Cuboid {
-            return Err(fault::value(BLOCKS_HAVE_NO_PROOF));
+        let model = design.interaction.model;
+        if self.prove
+            && let Some(why) = why_unprovable(&design.problem(), model)
+        {
+            return Err(fault::value(why));
         }
         fault::positive("kt", Some(self.kt))?;
         fault::positive("drag", Some(self.drag))?;
@@ -158,7 +160,7 @@ pub fn yielded<'py>(
     }
     let found = job::run(py, progress, |told| yields(design, question, told))?;
     let found = found.map_err(|error| match error {
-        YieldError::Docking(_) => fault::value(error),
+        YieldError::Docking(_) | YieldError::Hot(..) | YieldError::Cold(_) => fault::value(error),
         _ => fault::run(error),
     })?;
     convert::json(

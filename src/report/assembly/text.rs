@@ -6,7 +6,7 @@ use super::Assembly;
 use crate::assembly::Built;
 use crate::assembly::choice::{Choice, Verdict};
 use crate::assembly::slides::Slid;
-use crate::units::{si, si_range};
+use crate::units::{plain, si, si_range};
 
 /// What may be asked of slid meetings.
 pub(crate) struct SlidFacts {
@@ -75,10 +75,16 @@ pub fn headline(assembly: &Assembly) -> String {
     let (set, n) = (&built.set, built.wiring.bonds.len());
     let (gse, gmc, tau) = (built.gse(), built.gmc, set.tau());
     let less = built.wiring.least_strength();
+    // Depth in kT.
+    let wrong = built.matrix.strongest_wrong();
+    let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / built.shaking.kt);
     let verdict = match () {
         () if gmc > tau * gse => "too hard: nothing holds, so nothing grows",
         () if tau > less && gmc < (tau - less) * gse => {
             "too softly: fewer bonds than tau hold as well, so anything grows"
+        }
+        () if mismatch > gmc => {
+            "too softly: a single aligned mismatch holds a tile as well, so errors grow"
         }
         () if tau > less => "right: bonds of tau hold a tile and weaker ones do not",
         () => "right: one bond holds a tile",
@@ -91,13 +97,17 @@ pub fn headline(assembly: &Assembly) -> String {
         }
     };
     format!(
-        "{}: {} with {n} words of {} places; shaken at {} with {:.1} % covered Gse is {gse:.2} and \
-         Gmc {gmc:.2} kT, which is {verdict}",
+        "{}: {} with {n} words of {} places; shaken at {} with {:.1} % covered Gse (a bond) is {} \
+         kT and Gmc (docking) {gmc:.2} kT, which is {verdict}",
         set.name,
         tiles(set.tiles.len()),
         built.matrix.words.first().map_or(0, |word| word.places()),
         si(built.shaking.kt, "J", 3),
         100.0 * built.shaking.coverage,
+        match gse {
+            ..1e4 => format!("{gse:.2}"),
+            _ => plain(gse, 3),
+        },
     )
 }
 

@@ -6,7 +6,7 @@ use super::word_charts::{AREA, chart, label};
 use crate::kinetics::map::Map;
 use crate::report::plots::scale;
 use crate::report::rates::{AtKt, Table};
-use crate::units::si;
+use crate::units::{plain, si};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
 const COLOURS: [&str; 6] = [
@@ -196,7 +196,7 @@ fn rates(table: &Table, over_kt: &[AtKt]) -> String {
     let every = ((high - low) / 6.0).ceil() as usize;
     for power in (low as i32..=high as i32).step_by(every) {
         let rate = 10f64.powi(power);
-        inner += &label(left - 6.0, y(rate) + 4.0, "end", &format!("1e{power}"));
+        inner += &label(left - 6.0, y(rate) + 4.0, "end", &plain(rate, 1));
     }
     for at in over_kt {
         inner += &label(x(at.kt), top + height + 18.0, "middle", &si(at.kt, "J", 2));

@@ -144,8 +144,8 @@ pub(in crate::report) fn share(part: f64) -> String {
 /// How many digits a figure has that is off by this share of it.
 pub(in crate::report) fn digits(error: f64) -> usize {
     match error {
-        _ if error < 0.01 => 3,
-        _ if error < 0.2 => 2,
+        _ if error < 0.005 => 3,
+        _ if error < 0.1 => 2,
         _ => 1,
     }
 }

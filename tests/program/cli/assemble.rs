@@ -214,26 +214,21 @@ fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
 fn the_first_line_answers() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    let run = |kt: &str| {
-        let arguments = [
-            "assemble",
-            COUNTER,
-            "--length",
-            "8",
-            "--kt",
-            kt,
-            "--coverage",
-            "0.1",
-            "--out",
-            out,
-        ];
-        let output = tilebind(&arguments);
+    let run_of = |set: &[&str], kt: &str| {
+        let shaken = ["--kt", kt, "--coverage", "0.1", "--out", out];
+        let output = tilebind(&[&["assemble"], set, &shaken].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stdout(&output).lines().next().unwrap().to_owned()
     };
+    let run = |kt: &str| run_of(&[COUNTER, "--length", "8"], kt);
     assert!(run("0.1").contains("nothing grows"));
     assert!(run("5e-3").contains("hold a tile and weaker ones do not"));
     assert!(run("1e-3").contains("anything grows"));
+    // Bonds of tau are single ones: wrong ones hold as well when tiles hardly move.
+    let lattice = |kt: &str| run_of(&["--lattice", "2x2", "--length", "8"], kt);
+    assert!(lattice("4e-3").contains("right: one bond holds a tile"));
+    let frozen = lattice("1e-9");
+    assert!(frozen.contains("so errors grow") && !frozen.contains("000.00"));
 }
 
 #[test]

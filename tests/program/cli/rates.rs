@@ -90,6 +90,16 @@ fn a_start_in_the_bond_is_refused_with_what_mends_it() {
 }
 
 #[test]
+fn a_proof_where_the_energy_jumps_is_refused_at_once() {
+    let design = ["rates", "shapes/shielded-nearest-face.toml"];
+    let output = tilebind(&[&design[..], &["--kt", "4e-3", "--prove"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("nearest-face rule"), "{told}");
+    assert!(stdout(&output).is_empty());
+}
+
+#[test]
 fn a_proof_of_blocks_is_refused_at_once() {
     let asked = ["--kt", "6e-3", "--model", "cuboid", "--prove"];
     let design = ["rates", "shapes/paper-tile.toml"];
