@@ -35,8 +35,9 @@ all; what the mesh's integrals and basins made of whole cells are off by is not 
 estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
 how often tiles set out from the well about the start for an end, or from each basin for another, and
 bounds of the mean time until they are there: near each other only where the well holds next to all
-that the ends do not, far below the passes; of dipoles, with shields or without. Without --start: rates between the bond, the deepest traps
-and free tiles. The ends are sets; without them no rate means anything, so they are printed beside
+that the ends do not, far below the passes; of dipoles, with shields (but by the nearest-face rule) or without. Without --start: rates between the
+bond, the deepest traps and free tiles; between places without a known way nothing is claimed (? and
+null), and 0 only where contact proves that there is none. The ends are sets; without them no rate means anything, so they are printed beside
 every number.
 
 kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
