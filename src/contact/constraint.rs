@@ -105,13 +105,22 @@ impl Meeting<'_> {
         }
         let length = (end - start).norm();
         let t = (p - start).dot(&(end - start)) / length;
-        if t < -COINCIDENT || t > length + COINCIDENT {
+        // How far the edge goes on behind the vertex, with the corner there: in a notch both edges
+        // are in the way of what lies between them, also where it is in front of one of them only.
+        let ends = [(t, edge), (length - t, (edge + 1) % n)];
+        let beyond = |convex| if convex { COINCIDENT } else { margin };
+        if ends
+            .iter()
+            .any(|(rest, corner)| *rest < -beyond(b.convex_vertices()[*corner]))
+        {
             return Facing::Nothing;
         }
-        // In front of an edge's very end the vertex may pass round the corner, unless its tile
-        // lies squarely against the edge.
-        let at_end = t < COINCIDENT || t > length - COINCIDENT;
-        if at_end && !self.wedge_is_beyond(i, normal) {
+        // In front of an edge's very end the vertex may pass round a corner, unless its tile lies
+        // squarely against the edge.
+        let at_corner = ends
+            .iter()
+            .any(|(rest, corner)| *rest < COINCIDENT && b.convex_vertices()[*corner]);
+        if at_corner && !self.wedge_is_beyond(i, normal) {
             return Facing::Nothing;
         }
         // Behind the edge's line, but outside: in front of another edge, past a corner.

@@ -1,12 +1,12 @@
 //! What touching leaves free: gaps, their gradients and the directions they admit.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::contact::{Contact, closest_admissible};
 
-use super::{regular, saw, square};
+use super::{outline, regular, saw, square};
 
 fn flush() -> (Contact, Configuration) {
     let contact = Contact::new(&square(0.4), &square(0.4));
@@ -127,4 +127,43 @@ fn gaps_tell_free_steps_from_blocked_ones() {
         }
         assert!(opened > 100 && closed > 100, "{opened} {closed}");
     }
+}
+
+/// A corner in an obtuse notch, a little up one of its flanks: the other flank is in its way too,
+/// though the corner is not in front of it.
+#[test]
+fn both_flanks_of_a_notch_hold_a_corner_back() {
+    let notched = outline(&[
+        [-0.2, -0.2],
+        [0.2, -0.2],
+        [0.2, -0.135],
+        [0.1, 0.0],
+        [0.2, 0.135],
+        [0.2, 0.2],
+        [-0.2, 0.2],
+    ]);
+    let contact = Contact::new(&notched, &square(0.1));
+    let up = Vector2::new(0.1, 0.135).normalize();
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let (mut opened, mut closed) = (0, 0);
+    for (along, turn) in [(0.0, 0.0), (1e-6, 0.02), (3e-5, -0.02), (2e-4, 0.05)] {
+        let theta = std::f64::consts::FRAC_PI_4 + turn;
+        let corner = Rotation2::new(theta) * Vector2::new(-0.05, 0.05);
+        let at = Vector2::new(0.1, 0.0) + up * along - corner;
+        let q = Configuration::new(at.x, at.y, theta);
+        let constraints = contact.constraints(&q, 1e-3);
+        assert_eq!(constraints.len(), 2, "{along}: {constraints:?}");
+        for _ in 0..300 {
+            let mut draw = |scale: f64| scale * rng.random_range(-1.0..=1.0);
+            let step = Vector3::new(draw(3e-4), draw(3e-4), draw(1e-3));
+            let gaps = constraints.iter().map(|c| c.gap + c.gradient.dot(&step));
+            let least = gaps.fold(f64::INFINITY, f64::min);
+            if least.abs() > 1e-6 {
+                let is_open = least > 0.0;
+                assert_eq!(contact.is_free(&q.moved(step)), is_open, "{along} {step:?}");
+                *(if is_open { &mut opened } else { &mut closed }) += 1;
+            }
+        }
+    }
+    assert!(opened > 100 && closed > 100, "{opened} {closed}");
 }
