@@ -111,13 +111,17 @@ fn search(
         if size <= CONVERGED {
             return Some(Stationary { point, modes });
         }
-        // Steps that overshoot make the slope grow: shorten them.
+        // Steps that overshoot make the slope grow: shorten them, until they are shorter than the
+        // differences from which they come; then they lead nowhere.
         longest = if slope_size > last_slope {
             longest / 2.0
         } else {
             (longest * 1.5).min(LONGEST)
         };
         last_slope = slope_size;
+        if longest < DIFFERENCE && longest < size {
+            return None;
+        }
         step *= (longest / size).min(1.0);
         if let Some(k) = followed {
             let sign = along.map_or(1.0, |a| (a.dot(&(metric * modes[k].1))).signum());

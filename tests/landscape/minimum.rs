@@ -2,8 +2,10 @@
 
 use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
+use tilebind::landscape::capture::{FarStarts, start};
 use tilebind::landscape::constrained::{Point, downhill, step_downhill};
-use tilebind::landscape::minimum::{Outcome, descend, drift};
+use tilebind::landscape::minimum::{Outcome, Verified, approach, descend, drift};
+use tilebind::landscape::stationary;
 
 use crate::designs;
 
@@ -96,4 +98,28 @@ fn tiles_slide_along_each_other_however_weak_the_force() {
     let next = step_downhill(&problem, &point, 1e-3).unwrap();
     assert!(next.energy < point.energy);
     assert!((next.q.x - flush.x).abs() > 9e-4, "{next:?}");
+}
+
+/// Where the energy only falls away no step of Newton's method is short enough, and it says so soon.
+#[test]
+fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
+    let problem = designs::load("shapes/shielded-backs.toml").problem();
+    let starts = FarStarts { count: 20, seed: 1 };
+    let mut lost = 0;
+    for number in 0..starts.count {
+        let way = approach(
+            &problem,
+            &start(&problem, &starts, number),
+            &Verified::default(),
+        )
+        .way;
+        for point in way.iter().step_by(7) {
+            let before = problem.evaluations();
+            let found = stationary::minimum(&problem, &point.q);
+            let asked = problem.evaluations() - before;
+            assert!(asked < 400, "{:?}: {asked} energies", point.q);
+            lost += usize::from(found.is_none());
+        }
+    }
+    assert!(lost > 20, "{lost}");
 }
