@@ -105,14 +105,13 @@ impl Meeting<'_> {
         }
         let length = (end - start).norm();
         let t = (p - start).dot(&(end - start)) / length;
-        // How far the edge goes on behind the vertex, with the corner there: in a notch both edges
-        // are in the way of what lies between them, also where it is in front of one of them only.
+        // How far the edge goes on behind the vertex, with the corner there.
         let ends = [(t, edge), (length - t, (edge + 1) % n)];
-        let beyond = |convex| if convex { COINCIDENT } else { margin };
-        if ends
-            .iter()
-            .any(|(rest, corner)| *rest < -beyond(b.convex_vertices()[*corner]))
-        {
+        let is_beyond = |(rest, corner): &(f64, usize)| {
+            *rest < -COINCIDENT
+                && (b.convex_vertices()[*corner] || !self.is_in_front(p, edge, *corner))
+        };
+        if ends.iter().any(is_beyond) {
             return Facing::Nothing;
         }
         // In front of an edge's very end the vertex may pass round a corner, unless its tile lies
@@ -128,6 +127,20 @@ impl Meeting<'_> {
             return Facing::Nothing;
         }
         Facing::Edge
+    }
+
+    /// Whether a point beyond the end of an edge, at a corner, is in front of the other edge there: in a
+    /// notch both are in the way of what lies between them, also where it is in front of one only.
+    fn is_in_front(&self, p: Vector2<f64>, edge: usize, corner: usize) -> bool {
+        let n = self.b.vertices().len();
+        let other = if edge == corner {
+            (corner + n - 1) % n
+        } else {
+            corner
+        };
+        let (start, end) = self.b.edge(other);
+        let t = (p - start).dot(&(end - start));
+        (0.0..=(end - start).norm_squared()).contains(&t)
     }
 
     /// Whether `a` near its vertex i lies on the positive side of a line with this normal through
