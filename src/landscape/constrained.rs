@@ -146,7 +146,16 @@ pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<T
 /// Contacts that are pressed on stay closed, though the surface may curve away from the straight
 /// step; contacts in the way shorten the step or turn it aside.
 pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Point> {
-    let (direction, pressed) = downhill(problem, point)?;
+    step_along(problem, point, &downhill(problem, point)?, size)
+}
+
+/// The same where the motion's direction at the point and the contacts it presses on are known.
+pub(super) fn step_along(
+    problem: &Problem,
+    point: &Point,
+    (direction, pressed): &(Vector3<f64>, Vec<Touch>),
+    size: f64,
+) -> Option<Point> {
     let metric = problem.mass_metric(point.q.theta);
     let wanted = direction * size;
     let margin = reach(problem, &wanted) + MARGIN;
@@ -155,7 +164,7 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
     } else {
         let near = constraints(problem, &point.q, margin);
         let (straight, _) = closest_admissible(wanted, &metric, &near)?;
-        let settled = slid(problem, point, &straight, (&pressed, margin), size)?;
+        let settled = slid(problem, point, &straight, (pressed, margin), size)?;
         (straight, settled)
     };
     let promised = point.gradient.dot(&straight);

@@ -5,13 +5,20 @@ use rand_chacha::ChaCha8Rng;
 
 use nalgebra::Vector3;
 
-use super::constrained::{self, Point, step_downhill};
+use super::constrained::{self, Point, downhill, length, step_along};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
+use crate::contact::Touch;
 use crate::problem::{Problem, Symmetry};
 
 /// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
+/// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
+/// direction at its end tells: shares of captures are the same with a tenth of it. With a tenfold, and
+/// without any such limit, tiles pass by slots and tabs that they would fall into ...
+const ASIDE: f64 = 1e-5;
+/// ... but steps no longer than this (m) may: where contact begins or ends the direction jumps.
+const SHORT: f64 = TRY_NEWTON;
 /// A descent whose steps are shorter than this (m) has arrived.
 const SHORTEST_STEP: f64 = 1e-9;
 /// Newton's method is tried once steps are shorter than this (m).
@@ -77,8 +84,8 @@ impl Verified {
     }
 }
 
-/// Overdamped motion from `start`: `v = -M^-1 grad U`, sliding along contact, until a minimum or
-/// far apart.
+/// Down from `start` roughly by overdamped motion, `v = -M^-1 grad U`, sliding along contact, until a
+/// minimum or far apart: where ways part, it may take the other one.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
     descend_among(problem, start, &Verified::default())
 }
@@ -86,7 +93,9 @@ pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
 /// The same where some minima are known.
 pub fn descend_among(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, known, |q| problem.space.is_far(q));
+    let outcome = follow(problem, &mut way, known, f64::INFINITY, |q| {
+        problem.space.is_far(q)
+    });
     Descent { way, outcome }
 }
 
@@ -99,29 +108,45 @@ pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
 /// some minima are known.
 pub fn approach(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, known, |q| !problem.space.contains(q));
+    let outcome = follow(problem, &mut way, known, ASIDE, |q| {
+        !problem.space.contains(q)
+    });
     Descent { way, outcome }
 }
 
+/// Follows the motion to where it comes to rest or is free; a step may end so far `aside` of it (m).
 fn follow(
     problem: &Problem,
     way: &mut Vec<Point>,
     known: &Verified,
+    aside: f64,
     is_free: impl Fn(&Configuration) -> bool,
 ) -> Outcome {
     let mut size = LONGEST_STEP;
     let mut newton_below = TRY_NEWTON;
+    let mut motion = None;
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
         if is_free(&here.q) {
             return Outcome::Free;
         }
-        match step_downhill(problem, &here, size) {
-            Some(next) => {
+        let along = motion.take().or_else(|| downhill(problem, &here));
+        let next = along
+            .as_ref()
+            .and_then(|along| step_along(problem, &here, along, size))
+            .map(|next| (next, downhill(problem, &next)));
+        match next {
+            Some((next, after))
+                if strays(problem, &here, [&along, &after], size) <= aside || size <= SHORT =>
+            {
                 way.push(next);
+                motion = after;
                 size = (1.5 * size).min(LONGEST_STEP);
             }
-            None => size *= 0.5,
+            _ => {
+                motion = along;
+                size *= 0.5;
+            }
         }
         if size < newton_below {
             // Ever finer, so that a failing attempt costs little.
@@ -129,6 +154,8 @@ fn follow(
             if let Some(found) = verified_minimum(problem, way, known) {
                 return Outcome::Minimum(Box::new(found));
             }
+            // The way may go on from elsewhere.
+            motion = None;
         }
         if size < SHORTEST_STEP {
             // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
@@ -138,9 +165,24 @@ fn follow(
             }
             size = LONGEST_STEP;
             newton_below = TRY_NEWTON;
+            motion = None;
         }
     }
     Outcome::Stuck(way.last().expect("a way has a start").q)
+}
+
+/// How far (m, mass metric) a step of `size` from a point ends beside the motion that has these
+/// directions at both ends: half the step times their difference, as of Euler's method.
+fn strays(
+    problem: &Problem,
+    point: &Point,
+    [from, to]: [&Option<(Vector3<f64>, Vec<Touch>)>; 2],
+    size: f64,
+) -> f64 {
+    let (Some((from, _)), Some((to, _))) = (from, to) else {
+        return 0.0;
+    };
+    size * length(&(to - from), &problem.mass_metric(point.q.theta)) / 2.0
 }
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free
