@@ -148,6 +148,7 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     let design = designs::load("tests/designs/good/triangles.toml");
     let settings = Settings {
         milestones: 2000,
+        far_starts: 4000,
         certify_seconds: 0.0,
         completeness: unsought(),
         ..Settings::default()
