@@ -105,11 +105,16 @@ impl Meeting<'_> {
         }
         let length = (end - start).norm();
         let t = (p - start).dot(&(end - start)) / length;
-        // How far the edge goes on behind the vertex, with the corner there.
-        let ends = [(t, edge), (length - t, (edge + 1) % n)];
-        let is_beyond = |(rest, corner): &(f64, usize)| {
-            *rest < -COINCIDENT
-                && (b.convex_vertices()[*corner] || !self.is_in_front(p, edge, *corner))
+        // How far the edge goes on behind the vertex, whether a convex corner is there, and which
+        // other edge. In a notch both edges are in the way of what lies between them, also where it
+        // is in front of one of them only.
+        let next = (edge + 1) % n;
+        let ends = [
+            (t, b.convex_vertices()[edge], (edge + n - 1) % n),
+            (length - t, b.convex_vertices()[next], next),
+        ];
+        let is_beyond = |&(rest, convex, other): &(f64, bool, usize)| {
+            rest < -COINCIDENT && (convex || !self.is_in_front(p, other))
         };
         if ends.iter().any(is_beyond) {
             return Facing::Nothing;
@@ -118,7 +123,7 @@ impl Meeting<'_> {
         // squarely against the edge.
         let at_corner = ends
             .iter()
-            .any(|(rest, corner)| *rest < COINCIDENT && b.convex_vertices()[*corner]);
+            .any(|(rest, convex, _)| *rest < COINCIDENT && *convex);
         if at_corner && !self.wedge_is_beyond(i, normal) {
             return Facing::Nothing;
         }
@@ -129,16 +134,9 @@ impl Meeting<'_> {
         Facing::Edge
     }
 
-    /// Whether a point beyond the end of an edge, at a corner, is in front of the other edge there: in a
-    /// notch both are in the way of what lies between them, also where it is in front of one only.
-    fn is_in_front(&self, p: Vector2<f64>, edge: usize, corner: usize) -> bool {
-        let n = self.b.vertices().len();
-        let other = if edge == corner {
-            (corner + n - 1) % n
-        } else {
-            corner
-        };
-        let (start, end) = self.b.edge(other);
+    /// Whether a point's foot on an edge's line lies on the edge.
+    fn is_in_front(&self, p: Vector2<f64>, edge: usize) -> bool {
+        let (start, end) = self.b.edge(edge);
         let t = (p - start).dot(&(end - start));
         (0.0..=(end - start).norm_squared()).contains(&t)
     }

@@ -31,10 +31,6 @@ use crate::tile::outline::{Bounds, ConvexPart};
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
-/// What rounding may make of how far (m) a disc lies beyond an edge: that decides only whether the
-/// corners are looked at.
-const DISC_SLACK: f64 = 1e-12;
-
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
@@ -198,27 +194,28 @@ pub(crate) fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement
 /// Whether the separation is at least `least` (m); looks no farther than the first edge that says
 /// so, and at each edge no farther than the first point that does not.
 fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
-    // An edge keeps the other part off only if it does so with the disc inside that part.
-    let (middle, radius) = moving.disc;
-    let outside_fixed = at.position + at.rotation * middle;
     let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
-        normal.dot(&(outside_fixed - point)) >= least + radius - DISC_SLACK && {
-            let direction = at.direction(normal);
-            let level = normal.dot(&(at.position - point));
-            let mut points = moving.points.iter();
-            points.all(|p| direction.dot(p) + level >= least)
-        }
+        let direction = at.direction(normal);
+        let level = normal.dot(&(at.position - point));
+        moving
+            .points
+            .iter()
+            .all(|p| direction.dot(p) + level >= least)
     };
-    let (middle, radius) = fixed.disc;
-    let outside_moving = at.direction(&(middle - at.position));
     let by_moving = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
-        normal.dot(&(outside_moving - point)) >= least + radius - DISC_SLACK && {
-            let world = at.rotation * normal;
-            let level = -world.dot(&at.position) - normal.dot(point);
-            fixed.points.iter().all(|x| world.dot(x) + level >= least)
-        }
+        let world = at.rotation * normal;
+        let level = -world.dot(&at.position) - normal.dot(point);
+        fixed.points.iter().all(|x| world.dot(x) + level >= least)
     };
-    fixed.edges().any(by_fixed) || moving.edges().any(by_moving)
+    let [(inside_moving, moving_radius), (inside_fixed, fixed_radius)] = [moving.disc, fixed.disc];
+    let inside_moving = at.position + at.rotation * inside_moving;
+    let inside_fixed = at.direction(&(inside_fixed - at.position));
+    fixed
+        .edges_off([inside_moving], moving_radius, least)
+        .any(by_fixed)
+        || moving
+            .edges_off([inside_fixed], fixed_radius, least)
+            .any(by_moving)
 }
 
 /// How far (m) each polygon lies outside each edge of the other.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 use super::tree::Circle;
-use super::{Contact, DISC_SLACK, Placement, TOUCH, separated};
+use super::{Contact, Placement, TOUCH, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -200,28 +200,15 @@ impl Motion {
     /// apart throughout.
     fn separates(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
         let places = self.ends.map(|end| end.placement);
-        let is_beyond = |disc: [Vector2<f64>; 2], radius: f64| {
-            move |(point, normal): &(&Vector2<f64>, &Vector2<f64>)| {
-                let beyond = |middle: &Vector2<f64>| normal.dot(&(middle - *point));
-                disc.iter().map(beyond).fold(f64::INFINITY, f64::min)
-                    >= radius - self.allowed - DISC_SLACK
-            }
-        };
-        // An edge keeps the other part off only if it does so with the disc inside that part.
-        let (middle, radius) = moving.disc;
-        let by_fixed = is_beyond(places.map(|at| at.position + at.rotation * middle), radius);
-        let (middle, radius) = fixed.disc;
-        let by_moving = is_beyond(
-            places.map(|at| at.direction(&(middle - at.position))),
-            radius,
-        );
+        let [(inside_moving, moving_radius), (inside_fixed, fixed_radius)] =
+            [moving.disc, fixed.disc];
+        let inside_moving = places.map(|at| at.position + at.rotation * inside_moving);
+        let inside_fixed = places.map(|at| at.direction(&(inside_fixed - at.position)));
         fixed
-            .edges()
-            .filter(by_fixed)
+            .edges_off(inside_moving, moving_radius, -self.allowed)
             .any(|(point, normal)| self.stays_outside_fixed(point, normal, moving))
             || moving
-                .edges()
-                .filter(by_moving)
+                .edges_off(inside_fixed, fixed_radius, -self.allowed)
                 .any(|(point, normal)| self.stays_outside_moving(point, normal, fixed))
     }
 

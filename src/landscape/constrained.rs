@@ -132,9 +132,11 @@ pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
         .map_or(0.0, |projected| projected.share())
 }
 
-/// The overdamped motion's direction at a point, of length 1 in the mass metric, and the contacts
-/// it presses on. `None` in equilibrium.
-pub fn downhill(problem: &Problem, point: &Point) -> Option<(Vector3<f64>, Vec<Touch>)> {
+/// A motion's direction at a point, of length 1 in the mass metric, and the contacts it presses on.
+pub type Heading = (Vector3<f64>, Vec<Touch>);
+
+/// Where the overdamped motion heads at a point. `None` in equilibrium.
+pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
     let projected = Projected::at(problem, point)?;
     let share = projected.share();
     (share > EQUILIBRIUM).then(|| (projected.held / share, projected.pressed().collect()))
@@ -149,11 +151,11 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
     step_along(problem, point, &downhill(problem, point)?, size)
 }
 
-/// The same where the motion's direction at the point and the contacts it presses on are known.
+/// The same where it is known where the motion heads at the point.
 pub(super) fn step_along(
     problem: &Problem,
     point: &Point,
-    (direction, pressed): &(Vector3<f64>, Vec<Touch>),
+    (direction, pressed): &Heading,
     size: f64,
 ) -> Option<Point> {
     let metric = problem.mass_metric(point.q.theta);

@@ -5,10 +5,9 @@ use rand_chacha::ChaCha8Rng;
 
 use nalgebra::Vector3;
 
-use super::constrained::{self, Point, downhill, length, step_along};
+use super::constrained::{self, Heading, Point, downhill, length, step_along};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
-use crate::contact::Touch;
 use crate::problem::{Problem, Symmetry};
 
 /// Longest step of a descent (m, mass metric).
@@ -173,12 +172,7 @@ fn follow(
 
 /// How far (m, mass metric) a step of `size` from a point ends beside the motion that has these
 /// directions at both ends: half the step times their difference, as of Euler's method.
-fn strays(
-    problem: &Problem,
-    point: &Point,
-    [from, to]: [&Option<(Vector3<f64>, Vec<Touch>)>; 2],
-    size: f64,
-) -> f64 {
+fn strays(problem: &Problem, point: &Point, [from, to]: [&Option<Heading>; 2], size: f64) -> f64 {
     let (Some((from, _)), Some((to, _))) = (from, to) else {
         return 0.0;
     };

@@ -1,13 +1,18 @@
 //! Descents to minima of real tiles.
 
-use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 use tilebind::landscape::capture::{FarStarts, start};
 use tilebind::landscape::constrained::{Point, downhill, step_downhill};
 use tilebind::landscape::minimum::{Outcome, Verified, approach, descend, drift};
 use tilebind::landscape::stationary;
+use tilebind::{Configuration, Problem};
 
 use crate::designs;
+
+fn far_starts(problem: &Problem, count: usize) -> impl Iterator<Item = Configuration> {
+    let starts = FarStarts { count, seed: 1 };
+    (0..count).map(move |number| start(problem, &starts, number))
+}
 
 #[test]
 fn a_shallow_minimum_is_not_jumped_out_of() {
@@ -104,15 +109,9 @@ fn tiles_slide_along_each_other_however_weak_the_force() {
 #[test]
 fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
     let problem = designs::load("shapes/shielded-backs.toml").problem();
-    let starts = FarStarts { count: 20, seed: 1 };
     let mut lost = 0;
-    for number in 0..starts.count {
-        let way = approach(
-            &problem,
-            &start(&problem, &starts, number),
-            &Verified::default(),
-        )
-        .way;
+    for start in far_starts(&problem, 20) {
+        let way = approach(&problem, &start, &Verified::default()).way;
         for point in way.iter().step_by(7) {
             let before = problem.evaluations();
             let found = stationary::minimum(&problem, &point.q);
@@ -129,16 +128,15 @@ fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
 #[test]
 fn tiles_do_not_pass_by_a_slot_that_they_would_fall_into() {
     let problem = designs::load("shapes/slot-15mm.toml").problem();
-    let starts = FarStarts { count: 60, seed: 1 };
     let mut bound = 0;
-    for number in 0..starts.count {
-        if let Outcome::Minimum(end) = drift(&problem, &start(&problem, &starts, number)) {
+    for start in far_starts(&problem, 60) {
+        if let Outcome::Minimum(end) = drift(&problem, &start) {
             let Point { q, energy, .. } = end.point;
             // Behind the other sides, without magnets, next to nothing holds.
             let is_bound = energy < -0.06;
             assert!(
                 is_bound || energy > -1e-4,
-                "start {number} ends in {q:?}: {energy} J"
+                "{start:?} ends in {q:?}: {energy} J"
             );
             bound += usize::from(is_bound);
         }

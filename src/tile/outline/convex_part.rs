@@ -5,6 +5,9 @@ use nalgebra::{Rotation2, Vector2};
 use super::{outward_normal, signed_area};
 use crate::tile::convex;
 
+/// What rounding may make of how far (m) a disc lies beyond an edge.
+const SLACK: f64 = 1e-12;
+
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
 /// from point i to point i + 1).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +50,21 @@ impl ConvexPart {
     /// The first point (m) and the outward unit normal of each edge.
     pub fn edges(&self) -> impl Iterator<Item = (&Vector2<f64>, &Vector2<f64>)> {
         self.points.iter().zip(&self.normals)
+    }
+
+    /// The edges that keep a disc of this radius (m) off by `room` (m) or more, wherever its middle is
+    /// of some places: only those may keep off what the disc is a part of.
+    pub(crate) fn edges_off<const N: usize>(
+        &self,
+        middles: [Vector2<f64>; N],
+        radius: f64,
+        room: f64,
+    ) -> impl Iterator<Item = (&Vector2<f64>, &Vector2<f64>)> {
+        let least = room + radius - SLACK;
+        self.edges().filter(move |(point, normal)| {
+            let mut middles = middles.iter();
+            middles.all(|middle| normal.dot(&(middle - *point)) >= least)
+        })
     }
 
     /// Area (m^2).

@@ -3,20 +3,9 @@
 
 use std::path::Path;
 
-use super::tilebind;
+use super::{refused, tilebind};
 use crate::folder::contents;
 use crate::program::stderr;
-
-fn refused(arguments: &[&str], said: &[&str]) {
-    let output = tilebind(arguments);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(output.stdout.is_empty());
-    for part in said {
-        assert!(message.contains(part), "{part:?} in {message:?}");
-    }
-    assert!(!message.contains("panicked"));
-}
 
 #[test]
 fn every_broken_design_is_refused_with_its_place_and_leaves_no_results() {

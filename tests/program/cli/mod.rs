@@ -42,6 +42,18 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
+/// Runs a command that is wrong: it ends with status 2, says all of `said`, and prints nothing else.
+fn refused(arguments: &[&str], said: &[&str]) {
+    let output = tilebind(arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty());
+    for part in said {
+        assert!(message.contains(part), "{part:?} in {message:?}");
+    }
+    assert!(!message.contains("panicked"));
+}
+
 #[test]
 fn help_lists_the_commands_and_every_command_has_an_example() {
     let help = stdout(&tilebind(&["--help"]));

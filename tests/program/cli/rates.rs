@@ -1,7 +1,7 @@
 //! `tilebind rates` on the paper's tile.
 
-use super::{json, tilebind};
-use crate::program::{stderr, stdout};
+use super::{json, refused, tilebind};
+use crate::program::stdout;
 
 const SLID: [&str; 10] = [
     "rates",
@@ -72,64 +72,44 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
 
 #[test]
 fn a_start_in_the_bond_is_refused_with_what_mends_it() {
-    let output = tilebind(&[
-        "rates",
-        "shapes/paper-tile.toml",
-        "--kt",
-        "3e-3",
-        "--start",
-        "0.43,0,0",
-    ]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("--basin-energy"),
-        "{}",
-        stderr(&output)
+    let asked = ["--kt", "3e-3", "--start", "0.43,0,0"];
+    refused(
+        &[&["rates", "shapes/paper-tile.toml"][..], &asked].concat(),
+        &["--basin-energy"],
     );
-    assert!(stdout(&output).is_empty());
 }
 
 #[test]
 fn a_proof_where_the_energy_jumps_is_refused_at_once() {
+    let asked = ["--kt", "4e-3", "--prove"];
     let design = ["rates", "shapes/shielded-nearest-face.toml"];
-    let output = tilebind(&[&design[..], &["--kt", "4e-3", "--prove"]].concat());
-    assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
-    assert!(told.contains("nearest-face rule"), "{told}");
-    assert!(stdout(&output).is_empty());
+    refused(&[&design[..], &asked].concat(), &["nearest-face rule"]);
 }
 
 #[test]
 fn a_proof_of_blocks_is_refused_at_once() {
     let asked = ["--kt", "6e-3", "--model", "cuboid", "--prove"];
-    let design = ["rates", "shapes/paper-tile.toml"];
-    let output = tilebind(&[&design[..], &asked].concat());
-    assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
-    assert!(
-        told.contains("blocks") && told.contains("model dipole"),
-        "{told}"
+    let said = ["blocks", "model dipole"];
+    refused(
+        &[&["rates", "shapes/paper-tile.toml"][..], &asked].concat(),
+        &said,
     );
-    assert!(stdout(&output).is_empty());
 }
 
 #[test]
 fn a_shaking_that_no_table_has_is_refused() {
     for command in ["rates", "bond", "yield"] {
         for kt in ["0", "-1e-3", "nan", "1e300", "1e-300"] {
-            let kt = format!("--kt={kt}");
-            let output = tilebind(&[command, "shapes/paper-tile.toml", &kt]);
-            assert_eq!(output.status.code(), Some(2), "{command} {kt}");
-            let told = stderr(&output);
-            assert!(told.contains("a kT between"), "{told}");
-            assert!(stdout(&output).is_empty());
+            refused(
+                &[command, "shapes/paper-tile.toml", &format!("--kt={kt}")],
+                &["a kT between"],
+            );
         }
     }
 }
 
 #[test]
 fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
-    let paper = "shapes/paper-tile.toml";
     let tiles = ["--tiles", "10", "--time", "600"];
     for (command, kt, more, said) in [
         ("yield", "1e3", &tiles[..], "choose a --kt below 32.7 mJ"),
@@ -137,11 +117,10 @@ fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
         ("yield", "1e-9", &tiles, "choose a larger --kt"),
         ("rates", "1e-9", &[], "choose a larger --kt"),
     ] {
-        let output = tilebind(&[&[command, paper, "--kt", kt][..], more].concat());
-        assert_eq!(output.status.code(), Some(2), "{command} {kt}");
-        let told = stderr(&output);
-        assert!(told.contains(said), "{told}");
-        assert!(stdout(&output).is_empty());
+        refused(
+            &[&[command, "shapes/paper-tile.toml", "--kt", kt][..], more].concat(),
+            &[said],
+        );
     }
 }
 
