@@ -79,6 +79,7 @@ pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Con
 /// least constraint), with the contacts and their multipliers. In units of the free force's length:
 /// what the force is does not depend on how large it is.
 pub(super) struct Projected {
+    free: Vector3<f64>,
     held: Vector3<f64>,
     touching: Vec<Constraint>,
     multipliers: Vec<f64>,
@@ -96,8 +97,10 @@ impl Projected {
         for constraint in &mut touching {
             constraint.gap = 0.0;
         }
-        let (held, multipliers) = closest_admissible(free / size, &metric, &touching)?;
+        let free = free / size;
+        let (held, multipliers) = closest_admissible(free, &metric, &touching)?;
         Some(Self {
+            free,
             held,
             touching,
             multipliers,
@@ -117,6 +120,17 @@ impl Projected {
         pressed.map(|(constraint, _)| constraint.touch)
     }
 
+    fn heading(&self, share: f64) -> Heading {
+        let direction = self.held / share;
+        let held = (self.free - self.held) / share;
+        let size = length(&held, &self.metric);
+        Heading {
+            direction,
+            held: held * (HELD / size).min(1.0),
+            pressed: self.pressed().collect(),
+        }
+    }
+
     /// The part of the force that contact does not hold.
     fn share(&self) -> f64 {
         length(&self.held, &self.metric)
@@ -132,14 +146,26 @@ pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
         .map_or(0.0, |projected| projected.share())
 }
 
-/// A motion's direction at a point, of length 1 in the mass metric, and the contacts it presses on.
-pub type Heading = (Vector3<f64>, Vec<Touch>);
+/// The force that contact takes counts as this many times what it leaves at most: more would tell no
+/// more about which contacts a step presses on.
+const HELD: f64 = 10.0;
+
+/// Where motion heads at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heading {
+    /// The motion's direction, of length 1 in the mass metric.
+    pub direction: Vector3<f64>,
+    /// The part of the force that contact takes, in units of what it leaves, but [`HELD`] at most.
+    pub held: Vector3<f64>,
+    /// The contacts pressed on.
+    pub pressed: Vec<Touch>,
+}
 
 /// Where the overdamped motion heads at a point. `None` in equilibrium.
 pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
     let projected = Projected::at(problem, point)?;
     let share = projected.share();
-    (share > EQUILIBRIUM).then(|| (projected.held / share, projected.pressed().collect()))
+    (share > EQUILIBRIUM).then(|| projected.heading(share))
 }
 
 /// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step
@@ -155,19 +181,15 @@ pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Poin
 pub(super) fn step_along(
     problem: &Problem,
     point: &Point,
-    (direction, pressed): &Heading,
+    heading: &Heading,
     size: f64,
 ) -> Option<Point> {
-    let metric = problem.mass_metric(point.q.theta);
-    let wanted = direction * size;
+    let wanted = heading.direction * size;
     let margin = reach(problem, &wanted) + MARGIN;
     let (straight, settled) = if problem.has_room(&point.q, margin) {
         (wanted, point.q.moved(wanted))
     } else {
-        let near = constraints(problem, &point.q, margin);
-        let (straight, _) = closest_admissible(wanted, &metric, &near)?;
-        let settled = slid(problem, point, &straight, (pressed, margin), size)?;
-        (straight, settled)
+        slid(problem, point, heading, size)?
     };
     let promised = point.gradient.dot(&straight);
     let next = Point::new(problem, settled);
@@ -175,16 +197,28 @@ pub(super) fn step_along(
     (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
 }
 
-/// Where a straight step of `size` (m, mass metric) among contacts ends, those pressed on kept closed that
-/// stay within the margin (m); `None` where it does not lead to a free configuration by a free motion.
+/// A step of `size` (m, mass metric) among contacts, straight, and where it ends with those that it
+/// presses on kept closed; `None` where it does not lead to a free configuration by a free motion.
 fn slid(
     problem: &Problem,
     point: &Point,
-    straight: &Vector3<f64>,
-    (pressed, margin): (&[Touch], f64),
+    heading: &Heading,
     size: f64,
-) -> Option<Configuration> {
-    let moved = point.q.moved(*straight);
+) -> Option<(Vector3<f64>, Configuration)> {
+    let metric = problem.mass_metric(point.q.theta);
+    let margin = reach(problem, &(heading.direction * size)) + MARGIN;
+    let near = constraints(problem, &point.q, margin);
+    // All of the force: contacts that the step meets may take from those it starts with.
+    let force = heading.direction + heading.held;
+    let pushed = |by: f64| closest_admissible(force * by, &metric, &near);
+    let (mut straight, mut multipliers) = pushed(size)?;
+    let longer = length(&straight, &metric) / size;
+    if longer > 1.0 {
+        (straight, multipliers) = pushed(size / longer)?;
+    }
+    let binding = near.iter().zip(&multipliers).filter(|(_, m)| **m > 0.0);
+    let pressed: Vec<Touch> = binding.map(|(constraint, _)| constraint.touch).collect();
+    let moved = point.q.moved(straight);
     let closed = if pressed.is_empty() {
         moved
     } else {
@@ -198,7 +232,7 @@ fn slid(
     };
     let settled = settle(problem, &closed, size)?;
     let is_free = problem.motion_overlaps_at_most(&point.q, &settled, GRAZE);
-    is_free.then_some(settled)
+    is_free.then_some((straight, settled))
 }
 
 /// Whether the energy along a step, as energies and slopes at its ends tell of it by the cubic

@@ -13,10 +13,10 @@ use crate::problem::{Problem, Symmetry};
 /// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
 /// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
-/// direction at its end tells: shares of captures are the same with a tenth of it. With a tenfold, and
-/// without any such limit, tiles pass by slots and tabs that they would fall into ...
-const ASIDE: f64 = 1e-5;
-/// ... but steps no longer than this (m) may: where contact begins or ends the direction jumps.
+/// direction at its end tells. With a tenth of it shares of captures are the same; with a tenfold, a
+/// seventh of all far starts goes the wrong way around a tab.
+const ASIDE: f64 = 1e-6;
+/// But steps no longer than this (m) may: where contact begins or ends the direction jumps.
 const SHORT: f64 = TRY_NEWTON;
 /// A descent whose steps are shorter than this (m) has arrived.
 const SHORTEST_STEP: f64 = 1e-9;
@@ -124,25 +124,37 @@ fn follow(
     let mut size = LONGEST_STEP;
     let mut newton_below = TRY_NEWTON;
     let mut motion = None;
+    let mut before = None;
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
         if is_free(&here.q) {
             return Outcome::Free;
         }
         let along = motion.take().or_else(|| downhill(problem, &here));
-        let next = along
+        let bent = along.as_ref().map(|along| bent(along, &before, size));
+        let next = bent
             .as_ref()
-            .and_then(|along| step_along(problem, &here, along, size))
+            .and_then(|bent| step_along(problem, &here, bent, size))
             .map(|next| (next, downhill(problem, &next)));
         match next {
-            Some((next, after))
-                if strays(problem, &here, [&along, &after], size) <= aside || size <= SHORT =>
-            {
-                way.push(next);
-                motion = after;
-                size = (1.5 * size).min(LONGEST_STEP);
+            Some((next, after)) => {
+                let strays = strays(problem, &here, [&along, &bent, &after], size);
+                // Of second order: the error goes with the cube of the size.
+                let fitting = size * (0.8 * (aside / strays).cbrt()).clamp(0.3, 1.5);
+                if strays <= aside || size <= SHORT {
+                    way.push(next);
+                    motion = after;
+                    // Steps of first order are the longer ones in a steep valley.
+                    before = along
+                        .filter(|_| aside.is_finite())
+                        .map(|along| (along, size));
+                    size = fitting.min(LONGEST_STEP);
+                } else {
+                    motion = along;
+                    size = fitting.max(SHORT);
+                }
             }
-            _ => {
+            None => {
                 motion = along;
                 size *= 0.5;
             }
@@ -154,7 +166,7 @@ fn follow(
                 return Outcome::Minimum(Box::new(found));
             }
             // The way may go on from elsewhere.
-            motion = None;
+            (motion, before) = (None, None);
         }
         if size < SHORTEST_STEP {
             // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
@@ -164,19 +176,39 @@ fn follow(
             }
             size = LONGEST_STEP;
             newton_below = TRY_NEWTON;
-            motion = None;
+            (motion, before) = (None, None);
         }
     }
     Outcome::Stuck(way.last().expect("a way has a start").q)
 }
 
-/// How far (m, mass metric) a step of `size` from a point ends beside the motion that has these
-/// directions at both ends: half the step times their difference, as of Euler's method.
-fn strays(problem: &Problem, point: &Point, [from, to]: [&Option<Heading>; 2], size: f64) -> f64 {
-    let (Some((from, _)), Some((to, _))) = (from, to) else {
+/// The heading of a step of `size` (m) that goes on turning as the motion did since the one before,
+/// while the contacts pressed on are the same (Adams and Bashforth's method of second order).
+fn bent(along: &Heading, before: &Option<(Heading, f64)>, size: f64) -> Heading {
+    let mut bent = along.clone();
+    if let Some((earlier, by)) = before
+        && earlier.pressed == along.pressed
+    {
+        bent.direction += (along.direction - earlier.direction) * (size / (2.0 * by));
+    }
+    bent
+}
+
+/// How far (m, mass metric) a step of `size` from a point along `bent` ends beside the motion that has
+/// the directions `from` and `to` at its ends.
+fn strays(
+    problem: &Problem,
+    point: &Point,
+    [from, bent, to]: [&Option<Heading>; 3],
+    size: f64,
+) -> f64 {
+    let (Some(from), Some(bent), Some(to)) = (from, bent, to) else {
         return 0.0;
     };
-    size * length(&(to - from), &problem.mass_metric(point.q.theta)) / 2.0
+    let metric = problem.mass_metric(point.q.theta);
+    let error = (from.direction + to.direction) / 2.0 - bent.direction;
+    let beside = error - to.direction * to.direction.dot(&(metric * error));
+    size * length(&beside, &metric)
 }
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free

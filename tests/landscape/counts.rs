@@ -76,7 +76,7 @@ fn energies_of_a_descent() {
     let problem = portable(&design);
     let since = problem.evaluations();
     descend(&problem, &Configuration::new(0.5, 0.05, 0.2));
-    assert_eq!(problem.evaluations() - since, 84);
+    assert_eq!(problem.evaluations() - since, 83);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Descents to minima of real tiles.
 
+use std::f64::consts::FRAC_PI_2;
+
 use tilebind::design::{Design, MagnetModel};
 use tilebind::landscape::capture::{FarStarts, start};
 use tilebind::landscape::constrained::{Point, downhill, step_downhill};
@@ -91,14 +93,17 @@ fn tiles_slide_along_each_other_however_weak_the_force() {
     let flush = Configuration::new(-0.065, -2.0 * apothem, std::f64::consts::PI / 6.0);
     let point = Point::new(&problem, flush);
     assert!(point.gradient.xy().norm() < 1e-8, "{point:?}");
-    let (direction, pressed) = downhill(&problem, &point).unwrap();
-    assert!(!pressed.is_empty());
+    let heading = downhill(&problem, &point).unwrap();
+    assert!(!heading.pressed.is_empty());
     for scale in [1e-6, 1e6, 1e9] {
         let gradient = scale * point.gradient;
         let scaled = downhill(&problem, &Point { gradient, ..point });
-        let (same, touches) = scaled.unwrap();
-        assert!((same - direction).norm() < 1e-9, "{scale}");
-        assert_eq!(touches, pressed);
+        let same = scaled.unwrap();
+        assert!(
+            (same.direction - heading.direction).norm() < 1e-9,
+            "{scale}"
+        );
+        assert_eq!(same.pressed, heading.pressed);
     }
     let next = step_downhill(&problem, &point, 1e-3).unwrap();
     assert!(next.energy < point.energy);
@@ -142,4 +147,18 @@ fn tiles_do_not_pass_by_a_slot_that_they_would_fall_into() {
         }
     }
     assert!(bound > 20, "{bound}");
+}
+
+#[test]
+fn tiles_that_slide_flush_are_held_at_both_ends_of_their_faces() {
+    let problem = designs::load("shapes/sine-teeth-20mm.toml").problem();
+    // One end of the faces touches, 2 µm are free at the other: force enough presses on both.
+    let tilted = Configuration::new(-0.266_487_007, -0.430_002_624_331, 1.570_808_533);
+    let point = Point::new(&problem, tilted);
+    let next = step_downhill(&problem, &point, 1e-3)
+        .expect("they slide on")
+        .q;
+    assert!((next.theta - FRAC_PI_2).abs() < 1e-9, "{next:?}");
+    assert!((next.y + 0.43).abs() < 1e-9, "{next:?}");
+    assert!((next.x - tilted.x).abs() > 8e-4, "{next:?}");
 }
