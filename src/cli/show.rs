@@ -119,10 +119,11 @@ fn picture(design: &Design, found: &Inspection, file: &Path) -> Result<Vec<u8>, 
         false => Sheet::SCREEN,
     };
     let picture = glance::draw(design, found, &sheet)?;
-    Ok(match picture.pdf {
-        Some(pdf) => pdf,
-        None if ending == "png" => picture.png,
-        None => picture.svg.into_bytes(),
+    let svg = picture.svg.into_bytes();
+    Ok(match ending.to_str() {
+        Some("pdf") => picture.pdf.unwrap_or(svg),
+        Some("png") => picture.png.unwrap_or(svg),
+        _ => svg,
     })
 }
 

@@ -134,7 +134,11 @@ fn pictures(
     let mut files = Files::new();
     let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
     let is_full = contents.extent == Extent::Full;
-    for figure in plots::draw_all(&scene, &contents.sheet)? {
+    let sheet = match contents.extent {
+        Extent::Full => contents.sheet,
+        Extent::Compact => contents.sheet.without_bitmaps(),
+    };
+    for figure in plots::draw_all(&scene, &sheet)? {
         let kept = figure
             .files()
             .filter(|(name, _)| is_full || is_vector(name));

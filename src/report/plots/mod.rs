@@ -92,7 +92,7 @@ impl Figure {
         let pictures = self.pictures.into_iter().flat_map(|(stem, picture)| {
             let forms = [
                 ("svg", Some(picture.svg.into_bytes())),
-                ("png", Some(picture.png)),
+                ("png", picture.png),
                 ("pdf", picture.pdf),
             ];
             let named =

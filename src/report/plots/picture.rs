@@ -21,13 +21,13 @@ pub const UNITS: u32 = 10;
 /// What is drawn on, in [`UNITS`] of a pixel.
 pub type Area<'a> = DrawingArea<Canvas<'a>, Shift>;
 
-/// A drawing as SVG and as PNG.
+/// A drawing as SVG and, if wanted, as PNG and PDF.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// A whole document.
     pub svg: String,
-    /// A whole file.
-    pub png: Vec<u8>,
+    /// A whole file; unless there are to be no bitmaps.
+    pub png: Option<Vec<u8>>,
     /// A whole file; for print only.
     pub pdf: Option<Vec<u8>>,
 }
@@ -82,13 +82,15 @@ impl Picture {
         let size = (width * UNITS, height * UNITS);
         let pixels = [size.0, size.1].map(|side| (f64::from(side) * fine).round() as u32);
         let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
-        let mut raster = Raster::new(pixels[0], pixels[1], 1.0 / fine).ok_or_else(none)?;
+        let raster = || Raster::new(pixels[0], pixels[1], 1.0 / fine).ok_or_else(none);
+        let mut raster = (!sheet.vectors_only).then(raster).transpose()?;
         let lettering = Lettering::new().ok_or_else(|| PictureError::Layout("no font".into()))?;
         let mut pdf = sheet.millimetres().map(|_| PdfPage::new());
         let mut elements = String::new();
         let mut underlays = Vec::new();
         {
-            let mut painters: Vec<&mut dyn Painter> = vec![&mut raster];
+            let mut painters: Vec<&mut dyn Painter> = Vec::new();
+            painters.extend(raster.as_mut().map(|raster| raster as &mut dyn Painter));
             painters.extend(pdf.as_mut().map(|page| page as &mut dyn Painter));
             let canvas = Canvas::new(&mut elements, painters, lettering, size);
             let area = canvas.into_drawing_area();
@@ -98,7 +100,9 @@ impl Picture {
         let millimetres = sheet.millimetres();
         Ok(Self {
             svg: svg(&elements, &underlays, (width, height), millimetres)?,
-            png: png(&raster.into_pixmap(), &underlays, fine)?,
+            png: raster
+                .map(|raster| png(&raster.into_pixmap(), &underlays, fine))
+                .transpose()?,
             pdf: pdf.zip(millimetres).map(|(page, millimetres)| {
                 page.finish(title, &underlays, size, millimetres / unit)
             }),

@@ -17,6 +17,8 @@ pub struct Sheet {
     print: Option<Print>,
     /// Whether each panel is a picture of its own.
     pub(super) separate: bool,
+    /// Whether there is no bitmap.
+    pub(super) vectors_only: bool,
 }
 
 /// A layout for print.
@@ -33,6 +35,7 @@ impl Sheet {
     pub const SCREEN: Self = Self {
         print: None,
         separate: false,
+        vectors_only: false,
     };
 
     /// Pictures as on a screen, a pixel being so many millimetres, as PDF too.
@@ -42,7 +45,7 @@ impl Sheet {
                 width: None,
                 pixel: millimetres,
             }),
-            separate: false,
+            ..Self::SCREEN
         }
     }
 
@@ -64,7 +67,7 @@ impl Sheet {
                 width: Some(pixels),
                 pixel: width / pixels,
             }),
-            separate: false,
+            ..Self::SCREEN
         })
     }
 
@@ -73,6 +76,15 @@ impl Sheet {
     pub fn with_panels_apart(self) -> Self {
         Self {
             separate: true,
+            ..self
+        }
+    }
+
+    /// The same without bitmaps.
+    #[must_use]
+    pub fn without_bitmaps(self) -> Self {
+        Self {
+            vectors_only: true,
             ..self
         }
     }
