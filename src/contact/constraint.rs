@@ -206,6 +206,34 @@ impl Contact {
         }
     }
 
+    /// Whether the vertex is in front of the edge, no farther than `margin` (m).
+    pub fn faces(&self, touch: Touch, q: &Configuration, margin: f64) -> bool {
+        let [on_fixed, on_moving] = self.meetings(q);
+        let meeting = match touch.edge_of {
+            EdgeOf::Fixed => on_fixed,
+            EdgeOf::Moving => on_moving,
+        };
+        let at = meeting.vertex(touch.vertex);
+        let facing = meeting.facing(touch.vertex, at, touch.edge, margin);
+        matches!(facing, Facing::Edge)
+    }
+
+    /// The moving tile's vertices against the fixed one's edges, and the other way round.
+    fn meetings(&self, q: &Configuration) -> [Meeting<'_>; 2] {
+        [
+            Meeting {
+                a: self.moving(),
+                b: self.fixed(),
+                pose: Placement::of(q),
+            },
+            Meeting {
+                a: self.fixed(),
+                b: self.moving(),
+                pose: Placement::of(&q.inverse()),
+            },
+        ]
+    }
+
     /// The contacts with a gap of at most `margin` (m): a convex vertex of one tile in front of an
     /// edge of the other. Of two convex corners that coincide only one edge need separate them;
     /// the one that does so most clearly is taken.
@@ -214,17 +242,8 @@ impl Contact {
         if self.is_clear_by(q, margin.next_up()) {
             return found;
         }
-        let pose = Placement::of(q);
-        let on_fixed = Meeting {
-            a: self.moving(),
-            b: self.fixed(),
-            pose,
-        };
-        let on_moving = Meeting {
-            a: self.fixed(),
-            b: self.moving(),
-            pose: Placement::of(&q.inverse()),
-        };
+        let [on_fixed, on_moving] = self.meetings(q);
+        let pose = on_fixed.pose;
         let touch = |edge_of, edge, vertex| Touch {
             edge_of,
             edge,

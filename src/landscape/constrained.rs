@@ -216,20 +216,15 @@ fn slid(
     if longer > 1.0 {
         (straight, multipliers) = pushed(size / longer)?;
     }
-    let binding = near.iter().zip(&multipliers).filter(|(_, m)| **m > 0.0);
-    let pressed: Vec<Touch> = binding.map(|(constraint, _)| constraint.touch).collect();
     let moved = point.q.moved(straight);
-    let closed = if pressed.is_empty() {
-        moved
-    } else {
-        // A vertex that has slid past the end of its edge presses no longer.
-        let still: Vec<Touch> = constraints(problem, &moved, margin)
-            .iter()
-            .map(|constraint| constraint.touch)
-            .filter(|touch| pressed.contains(touch))
-            .collect();
-        close(problem, &still, &moved).unwrap_or(moved)
-    };
+    // A vertex that has slid past the end of its edge presses no longer.
+    let contact = problem.contact.as_ref()?;
+    let pressed = near.iter().zip(&multipliers).filter(|(_, m)| **m > 0.0);
+    let still: Vec<Touch> = pressed
+        .map(|(constraint, _)| constraint.touch)
+        .filter(|touch| contact.faces(*touch, &moved, margin))
+        .collect();
+    let closed = close(problem, &still, &moved).unwrap_or(moved);
     let settled = settle(problem, &closed, size)?;
     let is_free = problem.motion_overlaps_at_most(&point.q, &settled, GRAZE);
     is_free.then_some((straight, settled))
@@ -312,6 +307,9 @@ pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
 /// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` where
 /// none is found or the table ends.
 pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configuration> {
+    if problem.is_clear(q) {
+        return Some(*q);
+    }
     let mut q = *q;
     for _ in 0..12 {
         let near = constraints(problem, &q, size + MARGIN);
