@@ -11,10 +11,12 @@ mod constraint;
 mod lift;
 pub mod matching;
 mod motion;
+mod points;
 mod tree;
 
 pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
+pub use points::{ContactPoint, NearPairs, PointFinder};
 
 use nalgebra::{Rotation2, Vector2};
 use ordered_float::OrderedFloat;

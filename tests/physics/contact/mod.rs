@@ -5,6 +5,7 @@ mod constraint;
 mod lift;
 mod matching;
 mod motion;
+mod points;
 mod possible;
 
 use std::f64::consts::TAU;

@@ -1,0 +1,321 @@
+//! Where two outlines touch, or soon will: the points of contact within a margin, each with the
+//! normal that keeps the tiles apart there.
+//!
+//! Outlines that touch anywhere do so at a convex corner of one of them. What it meets is
+//!
+//! - an *edge* of the other: the corner must stay in front of the edge's line. Where the edge ends
+//!   in a notch (a concave corner), its line holds beyond the end as well, for what is in front of
+//!   both edges of a notch is outside; so a corner that slides along a chain of chords is stopped
+//!   by the next chord exactly where that begins to rise, and by no end of a chord;
+//! - or a *convex corner* of the other. Edges' lines say nothing beyond their ends there: a corner
+//!   may pass. Two such corners give one point: where each is nearest to the other, along the line
+//!   between them, otherwise along the normal of that one of their four edges that separates the
+//!   two corners most (separating axis theorem, corners cut off at twice the margin).
+
+use nalgebra::Vector2;
+
+use super::tree::CircleTree;
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+use crate::tile::outline::distance_to_segment;
+
+/// Overlaps are seen down to the margin; those above this share of it need not be asked whether
+/// they are in the tile, or behind an edge but before another one, past a sharp corner.
+const SHALLOW: f64 = 0.1;
+
+/// A point of contact, or of one to come. All in the fixed tile's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// The point of the moving tile (m).
+    pub on_moving: Vector2<f64>,
+    /// Unit vector from the fixed tile to the moving one.
+    pub normal: Vector2<f64>,
+    /// How far (m) the fixed tile's point lies behind along the normal; below 0 where the tiles
+    /// overlap.
+    pub gap: f64,
+}
+
+impl ContactPoint {
+    /// The point of the fixed tile (m).
+    pub fn on_fixed(&self) -> Vector2<f64> {
+        self.on_moving - self.normal * self.gap
+    }
+}
+
+/// Edges of one tile and convex corners of the other that are near each other.
+#[derive(Clone, Debug, Default)]
+pub struct NearPairs {
+    /// Edges of the fixed tile, vertices of the moving one.
+    on_fixed: Vec<[usize; 2]>,
+    /// The other way round.
+    on_moving: Vec<[usize; 2]>,
+}
+
+/// Finds points of contact.
+#[derive(Clone, Debug)]
+pub struct PointFinder {
+    fixed: Side,
+    moving: Side,
+}
+
+/// One outline with trees over its edges and its convex corners.
+#[derive(Clone, Debug)]
+struct Side {
+    outline: Outline,
+    edges: CircleTree,
+    corners: CircleTree,
+    /// The vertex of each piece of `corners`.
+    numbers: Vec<usize>,
+}
+
+impl Side {
+    fn new(outline: &Outline) -> Self {
+        let n = outline.vertices().len();
+        let circle = |i: usize| {
+            let (a, b) = outline.edge(i);
+            ((a + b) / 2.0, (b - a).norm() / 2.0)
+        };
+        let edges: Vec<_> = (0..n).map(circle).collect();
+        let numbers: Vec<_> = (0..n).filter(|&i| outline.convex_vertices()[i]).collect();
+        let corners: Vec<_> = numbers
+            .iter()
+            .map(|&i| (outline.vertices()[i], 0.0))
+            .collect();
+        Self {
+            edges: CircleTree::new(&edges),
+            corners: CircleTree::new(&corners),
+            numbers,
+            outline: outline.clone(),
+        }
+    }
+
+    fn next(&self, i: usize) -> usize {
+        (i + 1) % self.outline.vertices().len()
+    }
+
+    fn before(&self, i: usize) -> usize {
+        let n = self.outline.vertices().len();
+        (i + n - 1) % n
+    }
+
+    fn length(&self, edge: usize) -> f64 {
+        let (a, b) = self.outline.edge(edge);
+        (b - a).norm()
+    }
+
+    /// A corner as a triangle: itself and the ends of its two edges, cut off at `reach` (m).
+    fn corner(&self, i: usize, reach: f64) -> [Vector2<f64>; 3] {
+        let p = self.outline.vertices()[i];
+        let toward = |k: usize| {
+            let along = self.outline.vertices()[k] - p;
+            p + along * (reach / along.norm()).min(1.0)
+        };
+        [p, toward(self.next(i)), toward(self.before(i))]
+    }
+}
+
+/// A corner of one tile against the other tile, in the other's frame.
+enum Meeting {
+    /// In front of an edge, with the gap (m).
+    Edge(usize, f64),
+    /// Near a convex corner.
+    Corner(usize),
+}
+
+impl PointFinder {
+    /// For a fixed and a moving outline, each in its own tile's frame (m).
+    pub fn new(fixed: &Outline, moving: &Outline) -> Self {
+        Self {
+            fixed: Side::new(fixed),
+            moving: Side::new(moving),
+        }
+    }
+
+    /// What lies within `distance` (m) of the other tile.
+    pub fn near(&self, q: &Configuration, distance: f64) -> NearPairs {
+        let outlines = [&self.fixed.outline, &self.moving.outline];
+        let [a, b] = outlines.map(Outline::circumradius);
+        if q.x.hypot(q.y) > a + b + distance {
+            return NearPairs::default();
+        }
+        NearPairs {
+            on_fixed: near(&self.fixed, &self.moving, q, distance),
+            on_moving: near(&self.moving, &self.fixed, &q.inverse(), distance),
+        }
+    }
+
+    /// The points where the tiles are at most `margin` (m) apart, or overlap by no more than that,
+    /// among the pairs that are given: those within one and a half margins at least.
+    /// The margin is taken to be small against the tiles' edges and what is between them.
+    ///
+    /// Where there is none, the tiles are farther apart than the margin; where there are some, no
+    /// less than the least gap.
+    pub fn points(&self, q: &Configuration, margin: f64, pairs: &NearPairs) -> Vec<ContactPoint> {
+        let mut found = Vec::new();
+        let mut corners: Vec<[usize; 2]> = Vec::new();
+        let (fixed, moving) = (&self.fixed, &self.moving);
+        meet(
+            fixed,
+            moving,
+            q,
+            margin,
+            &pairs.on_fixed,
+            |i, p, what| match what {
+                Meeting::Corner(k) => corners.push([k, i]),
+                Meeting::Edge(edge, gap) => found.push(ContactPoint {
+                    on_moving: p,
+                    normal: fixed.outline.normals()[edge],
+                    gap,
+                }),
+            },
+        );
+        let rotation = q.rotation();
+        let back = q.inverse();
+        meet(
+            moving,
+            fixed,
+            &back,
+            margin,
+            &pairs.on_moving,
+            |k, _, what| match what {
+                Meeting::Corner(i) => corners.push([k, i]),
+                Meeting::Edge(edge, gap) => {
+                    let normal = -(rotation * moving.outline.normals()[edge]);
+                    found.push(ContactPoint {
+                        on_moving: fixed.outline.vertices()[k] + normal * gap,
+                        normal,
+                        gap,
+                    });
+                }
+            },
+        );
+        corners.sort_unstable();
+        corners.dedup();
+        let between = corners
+            .iter()
+            .map(|&pair| self.between_corners(pair, q, 2.0 * margin));
+        found.extend(between.filter(|point| point.gap <= margin));
+        found
+    }
+
+    /// The point of two convex corners, of the fixed and of the moving tile.
+    fn between_corners(&self, [k, i]: [usize; 2], q: &Configuration, reach: f64) -> ContactPoint {
+        let (rotation, position) = (q.rotation(), q.position());
+        let fixed = self.fixed.corner(k, reach);
+        let moving = self
+            .moving
+            .corner(i, reach)
+            .map(|p| position + rotation * p);
+        let ([b, ..], [p, ..]) = (fixed, moving);
+        let away = p - b;
+        let faces = |corner: &[Vector2<f64>; 3], toward: &Vector2<f64>| {
+            corner[1..]
+                .iter()
+                .all(|end| (end - corner[0]).dot(toward) < 0.0)
+        };
+        let distance = away.norm();
+        if distance > 0.0 && faces(&fixed, &away) && faces(&moving, &-away) {
+            return ContactPoint {
+                on_moving: p,
+                normal: away / distance,
+                gap: distance,
+            };
+        }
+        // The largest separation over the four edges, the moving tile's point there, and the normal.
+        let nearest = |points: &[Vector2<f64>; 3], normal: &Vector2<f64>, from: &Vector2<f64>| {
+            let gaps = points.map(|x| (normal.dot(&(x - from)), x));
+            let first = gaps[0];
+            gaps[1..]
+                .iter()
+                .fold(first, |a, b| if b.0 < a.0 { *b } else { a })
+        };
+        let of_fixed = [k, self.fixed.before(k)].map(|edge| {
+            let normal = self.fixed.outline.normals()[edge];
+            let (gap, on_moving) = nearest(&moving, &normal, &b);
+            ContactPoint {
+                on_moving,
+                normal,
+                gap,
+            }
+        });
+        let of_moving = [i, self.moving.before(i)].map(|edge| {
+            let normal = rotation * self.moving.outline.normals()[edge];
+            let (gap, on_fixed) = nearest(&fixed, &normal, &p);
+            ContactPoint {
+                on_moving: on_fixed - normal * gap,
+                normal: -normal,
+                gap,
+            }
+        });
+        let [first, rest @ ..] = [of_fixed[0], of_fixed[1], of_moving[0], of_moving[1]];
+        rest.into_iter()
+            .fold(first, |a, b| if b.gap > a.gap { b } else { a })
+    }
+}
+
+/// Edges of `ours`, and the convex corners of `theirs`, which lies at `pose` in the frame of `ours`,
+/// within `distance` (m) of them.
+fn near(ours: &Side, theirs: &Side, pose: &Configuration, distance: f64) -> Vec<[usize; 2]> {
+    let (rotation, position) = (pose.rotation(), pose.position());
+    let place = |p: Vector2<f64>| position + rotation * p;
+    let mut pairs = Vec::new();
+    let mut look = |edge, corner: usize| {
+        let i = theirs.numbers[corner];
+        let p = place(theirs.outline.vertices()[i]);
+        let (start, end) = ours.outline.edge(edge);
+        if distance_to_segment(p, start, end) <= distance {
+            pairs.push([edge, i]);
+        }
+        true
+    };
+    ours.edges
+        .near_pairs(&theirs.corners, &place, &|_| distance, &mut look);
+    pairs
+}
+
+/// Calls `found(vertex, where it is, what it meets)` for convex corners of `theirs` near `ours`,
+/// in whose frame `theirs` lies at `pose`.
+fn meet(
+    ours: &Side,
+    theirs: &Side,
+    pose: &Configuration,
+    margin: f64,
+    pairs: &[[usize; 2]],
+    mut found: impl FnMut(usize, Vector2<f64>, Meeting),
+) {
+    let (rotation, position) = (pose.rotation(), pose.position());
+    let outline = &ours.outline;
+    for &[edge, i] in pairs {
+        let p = position + rotation * theirs.outline.vertices()[i];
+        let next = ours.next(edge);
+        let (start, end) = outline.edge(edge);
+        let normal = outline.normals()[edge];
+        let gap = normal.dot(&(p - start));
+        if gap.abs() > margin {
+            continue;
+        }
+        // Normals point to the right of their edges.
+        let along = Vector2::new(-normal.y, normal.x);
+        let mut faces_it = true;
+        for (k, vertex, inwards) in [(edge, start, along), (next, end, -along)] {
+            let from = p - vertex;
+            let t = from.dot(&inwards);
+            if outline.convex_vertices()[k] {
+                if from.norm_squared() <= margin * margin {
+                    found(i, p, Meeting::Corner(k));
+                    faces_it = false;
+                }
+                faces_it &= t >= 0.0;
+            } else if t < 0.0 {
+                // Beyond a notch as far as its other edge goes.
+                let other = if k == edge { ours.before(edge) } else { next };
+                faces_it &= t >= -margin.min(ours.length(other));
+            }
+        }
+        let is_real = gap >= -SHALLOW * margin
+            || (faces_it && (outline.signed_distance(p) - gap).abs() <= 1e-3 * margin);
+        if faces_it && is_real {
+            found(i, p, Meeting::Edge(edge, gap));
+        }
+    }
+}
