@@ -19,8 +19,8 @@ use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
-1000 take some two seconds of a core for each barrier (the paper's tile has 23), for finely curved \
-shapes up to twenty";
+1000 take about a second of a core for each barrier (the paper's tile has 23), for curved \
+shapes up to five";
 
 /// Find the states, traps, barriers and pathways of a design, and draw them
 #[derive(Args)]

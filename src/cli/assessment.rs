@@ -10,7 +10,7 @@ use super::options::SurveyOptions;
 const DYNAMICS: &str = "\
 Check the way out of the bond and the deepest trap's escape by moving tiles, with RUNS \
 trajectories below each [default: 1000]; a contradiction ends the command with status 1 after all \
-results are written. 1000 take two seconds of a core and, for finely curved shapes, up to twenty";
+results are written. 1000 take a second of a core and, for curved shapes, up to five";
 
 /// How much work a design is worth.
 #[derive(Args)]

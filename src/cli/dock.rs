@@ -27,7 +27,7 @@ const SEED: &str =
     after_help = "\
 Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
 one, speed, and the velocity's direction about that to the fixed tile. Without --engine the table
-has its rim and the drag is 0.005 per second. On the paper's tile a trajectory takes some 10 ms of
+has its rim and the drag is 0.005 per second. On the paper's tile a trajectory takes some 4 ms of
 a core.
 
 Examples:

@@ -12,15 +12,15 @@
 //! on the step.
 //!
 //! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with
-//! step control, no step being longer than the clearance allows. Within the range of contact
-//! rapier takes over with short steps of fixed length; magnets and fans act on it as in the
-//! leapfrog method.
+//! step control, no step being longer than the clearance allows. Within the range of contact the
+//! leapfrog method takes over, in short steps, each held back at the
+//! [points](crate::contact::PointFinder) where corners of one tile meet edges or corners of the
+//! other, or the rim, by impulses that obey Coulomb's law.
 //!
 //! Measured on the paper's tile: without drag and contact, past the other tile's corner, the energy
 //! stays within 1e-5 of the bond's depth over 5 s; the bound equilibrium is the landscape's minimum
-//! within 10 um for steps in contact of 50 um to 200 um; and of the same 8000 starts of
-//! [`docking::DockingSettings::engine_comparison`] 9.6 % bind with steps of 100 um (the default) and
-//! 9.9 % with 200 um, each +- 0.65 %.
+//! within 10 um for steps in contact of 50 um to 200 um; and of 8000 starts of
+//! [`docking::DockingSettings::engine_comparison`] 9.1 % (8.4 to 9.7) bind.
 
 mod body;
 pub mod check;
@@ -32,6 +32,7 @@ mod force;
 mod settings;
 mod simulation;
 mod trajectory;
+mod vicinity;
 
 pub use body::{Body, Motion};
 pub use force::Fan;

@@ -1,13 +1,15 @@
 //! What a trajectory is made with and what comes of it.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use rand_chacha::ChaCha8Rng;
 
 use super::body::{Body, Motion, Phase};
-use super::collision::{Collision, Surface};
+use super::collision::Surface;
 use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
 use super::trajectory::Trajectory;
+use crate::configuration::Configuration;
+use crate::contact::PointFinder;
 use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
@@ -63,6 +65,7 @@ pub struct Simulation<'a> {
     pub(super) settings: &'a MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
+    pub(super) finder: Option<PointFinder>,
 }
 
 impl<'a> Simulation<'a> {
@@ -92,6 +95,10 @@ impl<'a> Simulation<'a> {
             body,
             settings,
             reach: circumradius + body.centre.norm(),
+            finder: problem
+                .contact
+                .as_ref()
+                .map(|contact| PointFinder::new(contact.fixed(), contact.moving())),
         }
     }
 
@@ -149,25 +156,42 @@ impl<'a> Simulation<'a> {
                     contact.clearance(&q)
                 }
             });
+        tile.min(self.rim_clearance(&q))
+    }
+
+    /// Distance (m) to the rim; a lower bound where it is large, infinite where there is none.
+    pub(super) fn rim_clearance(&self, q: &Configuration) -> f64 {
         let Some([x, y]) = self.rim() else {
-            return tile;
+            return f64::INFINITY;
         };
         let bound = (x - q.x.abs()).min(y - q.y.abs()) - self.reach - self.body.centre.norm();
         if bound > 0.0 {
-            return tile.min(bound);
+            return bound;
         }
-        let corners = self
-            .problem
-            .contact
-            .iter()
-            .flat_map(|c| c.moving().vertices());
-        corners
-            .map(|corner| q.transform(*corner))
+        self.corners(q)
             .map(|p| (x - p.x.abs()).min(y - p.y.abs()))
-            .fold(tile, f64::min)
+            .fold(f64::INFINITY, f64::min)
     }
 
-    fn rim(&self) -> Option<[f64; 2]> {
+    /// The moving tile's corners on the table (m).
+    pub(super) fn corners(&self, q: &Configuration) -> impl Iterator<Item = Vector2<f64>> {
+        let (rotation, position) = (q.rotation(), q.position());
+        let contact = self.problem.contact.iter();
+        let corners = contact.flat_map(|contact| contact.moving().vertices());
+        corners.map(move |corner| position + rotation * corner)
+    }
+
+    /// By how much more than it would go freely a point of the tile may move in a step when
+    /// something is hit: energy that is spread over all motions may gather in one. With the mass m,
+    /// the moment of inertia I and the reach R of the tile, the speed `|v| + R |w|` is at least
+    /// `sqrt(2 E / m)` (as `m R^2 >= I`) and at most `sqrt(1 + m R^2 / I)` times that.
+    pub(super) fn gathering(&self) -> f64 {
+        let Body { mass, inertia, .. } = self.body;
+        (1.0 + mass * self.reach * self.reach / inertia).sqrt()
+    }
+
+    /// Half the table's size (m) along x and y where it has a rim.
+    pub(super) fn rim(&self) -> Option<[f64; 2]> {
         self.settings.walls.then_some(self.problem.space.half_size)
     }
 
@@ -190,19 +214,10 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// `None` where there is nothing to touch.
-    pub(super) fn collision(&self) -> Option<Collision> {
-        let contact = self.problem.contact.as_ref()?;
-        let surface = Surface {
+    pub(super) fn surface(&self) -> Surface {
+        Surface {
             restitution: self.settings.restitution,
             friction: self.settings.friction,
-        };
-        Some(Collision::new(
-            (contact.fixed(), contact.moving()),
-            &self.body,
-            self.rim(),
-            surface,
-            self.settings.contact_range,
-        ))
+        }
     }
 }

@@ -7,13 +7,12 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::body::{Body, Motion, Phase};
-use super::collision::Collision;
+use super::collision;
 use super::flight;
 use super::force::Forces;
 use super::simulation::{Simulation, Snapshot, Stop};
+use super::vicinity::{Ahead, Vicinity};
 
-/// Contact steps between two looks at the clearance.
-const STEPS_BETWEEN_LOOKS: usize = 8;
 /// A tile in contact rests when no point of it moves faster than this (m/s) ...
 const REST_SPEED: f64 = 1e-5;
 /// ... for this long (s).
@@ -27,7 +26,6 @@ const SHORTEST_STEP: f64 = 1e-7;
 pub(super) struct Trajectory<'a, 'b> {
     simulation: &'b Simulation<'a>,
     forces: Forces<'a>,
-    collision: Option<Collision>,
     phase: Phase,
     time: f64,
     potential: f64,
@@ -37,6 +35,7 @@ pub(super) struct Trajectory<'a, 'b> {
     lag: f64,
     /// Distance (m) that no point of the tile may move before the clearance is looked at again.
     room: f64,
+    vicinity: Vicinity,
     free_step: f64,
     pub(super) free_steps: usize,
     pub(super) contact_steps: usize,
@@ -47,13 +46,13 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         Self {
             simulation,
             forces: simulation.forces(),
-            collision: None,
             phase: simulation.body.phase(start),
             time: 0.0,
             potential: 0.0,
             touching: false,
             lag: 0.0,
             room: 0.0,
+            vicinity: Vicinity::new(),
             free_step: 1e-3,
             free_steps: 0,
             contact_steps: 0,
@@ -177,24 +176,47 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         let simulation = self.simulation;
         let settings = simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
-        let mut collision = self.collision.take().or_else(|| simulation.collision())?;
-        collision.place(&self.phase);
         // The leapfrog's velocities belong to the middles of its steps: a step begins with the
         // push of half the step before and half of this one.
         let mut before = 0.0;
         let mut stop = None;
         let mut rested = 0.0;
-        for step in 1.. {
+        self.room = 0.0;
+        loop {
             let left = until - self.time;
             let travel = self.time_to_travel(&acceleration, settings.contact_travel);
             let h = travel.min(settings.contact_step).min(left);
-            let since = self.phase;
-            self.phase = collision.step(&(acceleration * (0.5 * (before + h) / h)), h);
+            let push = acceleration * (0.5 * (before + h));
+            let velocity = self.phase.velocity + push;
+            let way = h * simulation.fastest(&velocity);
+            let ahead = if self.room > way {
+                Ahead::Room(self.room)
+            } else {
+                self.vicinity.ahead(simulation, &self.phase, way)
+            };
+            match ahead {
+                Ahead::Room(room) if room > 2.0 * settings.contact_range => {
+                    self.phase.velocity += acceleration * (0.5 * before);
+                    self.lag = 0.0;
+                    self.room = room - 0.5 * settings.contact_range;
+                    self.touching = false;
+                    self.free_step = h;
+                    break;
+                }
+                Ahead::Room(room) => {
+                    self.phase.velocity = velocity;
+                    self.phase.place += velocity * h;
+                    self.room = room - way;
+                }
+                Ahead::Contact(points) => {
+                    let (body, surface) = (&simulation.body, simulation.surface());
+                    self.phase = collision::step(body, surface, &self.phase, &push, h, &points);
+                    self.room = 0.0;
+                }
+            }
             before = h;
-            self.phase.place.z += TAU * ((since.place.z - self.phase.place.z) / TAU).round();
             if self.forces.drag > 0.0 {
                 self.phase.velocity *= (-self.forces.drag * h).exp();
-                collision.set_velocity(&self.phase.velocity);
             }
             self.time = if h == left { until } else { self.time + h };
             self.contact_steps += 1;
@@ -214,19 +236,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             if self.time >= until {
                 break;
             }
-            if step % STEPS_BETWEEN_LOOKS == 0 {
-                let clearance = simulation.clearance(&self.phase);
-                if clearance > 2.0 * settings.contact_range {
-                    self.phase.velocity += acceleration * (0.5 * h);
-                    self.lag = 0.0;
-                    self.room = clearance - 0.5 * settings.contact_range;
-                    self.touching = false;
-                    self.free_step = h;
-                    break;
-                }
-            }
         }
-        self.collision = Some(collision);
         stop
     }
 

@@ -139,7 +139,7 @@ impl<'a> Experiment<'a> {
 }
 
 /// Where slow motion leads from `q`, lifted out of contact first where the tiles overlap by the
-/// little that rapier lets them.
+/// little that turning within a step lets them.
 pub fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Configuration> {
     let mut q = *q;
     if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {

@@ -87,9 +87,9 @@ impl DockingSettings {
 /// | | restitution | bound | slid by one magnet | other ends in contact |
 /// |---|---|---|---|---|
 /// | engine, as it is | 0.10 (0.01 to 0.20) | 7.2 % (6.6 to 7.8) | 4.2 % | 6.4 % |
-/// | here | 0.1 | 7.8 % (7.3 to 8.5) | | |
+/// | here | 0.1 | 6.9 % (6.3 to 7.4) | | |
 /// | engine, correction at most 1 cm/s | 0.02 | 9.1 % (8.4 to 9.7) | 5.4 % | 8.4 % |
-/// | here | 0.01 | 9.6 % (9.0 to 10.3) | 5.6 % | 8.2 % |
+/// | here | 0.01 | 9.1 % (8.4 to 9.7) | | |
 ///
 /// For the restitution that is stated, 0.01, the higher figure is right.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,13 +1,17 @@
-//! Tiles that really move: knocks, friction, drag, shaking and fans by the laws of mechanics.
+//! Tiles that really move: friction, drag, shaking and fans by the laws of mechanics.
 
 mod check;
 mod docking;
+mod knocks;
+
+use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tilebind::dynamics::{Body, Fan, Motion, MotionSettings, Run, Simulation, Snapshot, Stop};
 use tilebind::potential::Potential;
+use tilebind::tile::Outline;
 use tilebind::{Configuration, Design, Problem};
 
 use crate::designs;
@@ -125,47 +129,6 @@ fn energy_is_kept_past_strong_magnets() {
 }
 
 #[test]
-fn a_flush_knock_without_restitution_stops_the_tile() {
-    let (problem, body) = pushed(Vector3::zeros());
-    let start = ([0.5, 0.03, 0.0], [-0.4, 0.1, 0.0]);
-    let (run, _) = run(&problem, body, &ideal(), start, 1.0);
-    // Without friction it goes on along the face.
-    assert!((run.last.motion.velocity - Vector3::new(0.0, 0.1, 0.0)).norm() < 1e-4);
-    assert!((run.last.motion.configuration.x - 0.43).abs() < 1e-5);
-}
-
-#[test]
-fn a_knock_on_a_corner_turns_the_tile_as_impulses_say() {
-    // A corner of the moving tile hits the face with the normal (1, 0): with the lever r from the
-    // centre of mass to the corner, v_n = v.n the approach, and the impulse
-    // j = -(1 + e) v_n / (1/m + (r x n)^2 / I), the velocity changes by j/m n and the turning rate
-    // by j (r x n) / I.
-    let (problem, body) = pushed(Vector3::zeros());
-    let (theta, speed) = (0.3f64, 0.4);
-    for restitution in [0.0, 0.5, 1.0] {
-        let settings = MotionSettings {
-            restitution,
-            ..ideal()
-        };
-        let start = ([0.55, 0.0, theta], [-speed, 0.0, 0.0]);
-        let (run, _) = run(&problem, body, &settings, start, 0.3);
-        let corner = Configuration::new(0.0, 0.0, theta).transform([-0.215, 0.215].into());
-        let other = Configuration::new(0.0, 0.0, theta).transform([-0.215, -0.215].into());
-        let lever = if corner.x < other.x { corner } else { other };
-        let arm = -lever.y;
-        let impulse = (1.0 + restitution) * speed / (1.0 / body.mass + arm * arm / body.inertia);
-        let expected = Vector3::new(
-            -speed + impulse / body.mass,
-            0.0,
-            impulse * arm / body.inertia,
-        );
-        // While the corner stays on the face, the tile goes on turning about it.
-        let tolerance = if restitution > 0.0 { 1e-9 } else { 1e-4 };
-        assert!((run.last.motion.velocity - expected).norm() < tolerance);
-    }
-}
-
-#[test]
 fn a_tile_slides_to_rest_by_coulombs_law() {
     // Pressed against the face by F, the tile slows down by mu F / m.
     let force = 0.2;
@@ -184,6 +147,63 @@ fn a_tile_slides_to_rest_by_coulombs_law() {
     let way = 0.3f64.powi(2) / (2.0 * 0.3 * force / body.mass);
     assert_eq!(run.stop, Stop::Rest);
     assert!((run.last.motion.configuration.y + 0.1 - way).abs() < 1e-3 * way);
+}
+
+#[test]
+fn a_tile_slides_along_a_chain_of_chords_without_a_snag() {
+    // The fixed tile's face is cut into chords that go in and out by a micrometre. Pressed on and
+    // without friction, a tile that slides along them keeps its speed, and does not sink in.
+    let mut design = paper_tile();
+    let half = 0.215;
+    let chords = 43;
+    let wavy = (0..=chords).map(|k| {
+        let y = -half + 2.0 * half * f64::from(k) / f64::from(chords);
+        Vector2::new(half + if k % 2 == 0 { 0.0 } else { 1e-6 }, y)
+    });
+    let back = [[-half, half], [-half, -half]].map(Vector2::from);
+    let outline = Outline::new(wavy.chain(back).collect()).unwrap();
+    let pair = Arc::make_mut(&mut design.pair);
+    pair.fixed.outline = outline;
+    let body = Body::of_tile(&pair.moving);
+    let steady = Steady(Vector3::new(-0.2, 0.0, 0.0));
+    let problem = Problem::without_contact(design.space(), Box::new(steady));
+    let problem = problem.with_tiles(design.pair);
+    for restitution in [0.0, 0.9] {
+        let settings = MotionSettings {
+            restitution,
+            ..ideal()
+        };
+        let start = ([0.43001, -0.2, 0.0], [0.0, 0.3, 0.0]);
+        let (run, snapshots) = run(&problem, body, &settings, start, 1.2);
+        let motion = run.last.motion;
+        assert!((motion.velocity.y - 0.3).abs() < 1e-3, "{run:?}");
+        assert!(motion.configuration.y > 0.15, "{run:?}");
+        let contact = problem.contact.as_ref().unwrap();
+        for snapshot in snapshots.iter().step_by(20) {
+            let clearance = contact.clearance(&snapshot.motion.configuration);
+            assert!(clearance > -1e-6, "{clearance}");
+        }
+    }
+}
+
+#[test]
+fn mated_teeth_rest_where_they_fit() {
+    // Sine teeth pushed together from a little beside their mates slide down the flanks.
+    let design = designs::load("shapes/sine-teeth-20mm.toml");
+    let body = Body::of_tile(&design.pair.moving);
+    let steady = Steady(Vector3::new(-0.2, 0.0, 0.0));
+    let problem = Problem::without_contact(design.space(), Box::new(steady));
+    let bound = design.pair.bound;
+    let problem = problem.with_tiles(design.pair);
+    let settings = MotionSettings {
+        drag: 5.0,
+        ..ideal()
+    };
+    let start = ([bound.x + 0.01, bound.y + 0.004, 0.0], [0.0, 0.0, 0.0]);
+    let (run, _) = run(&problem, body, &settings, start, 20.0);
+    let q = run.last.motion.configuration;
+    assert!(problem.space.distance(&q, &bound) < 1e-5, "{run:?}");
+    assert_eq!(run.stop, Stop::Rest);
 }
 
 #[test]
