@@ -83,7 +83,7 @@
 //!   upper estimates; moving tiles found some of them too high. An escape is the lowest certified
 //!   way to the bond, to `free` or to the lower state that the roadmap found nearest; of other
 //!   lower states nothing is proved.
-//! - Docking shares depend on the restitution more than on anything else: 9.8 % at 0.01, 7.8 % at
+//! - Docking shares depend on the restitution more than on anything else: 9.7 % at 0.01, 6.9 % at
 //!   0.1, and no bounce of real tiles has been measured.
 //!
 //! # Working on it
