@@ -62,8 +62,8 @@ pub struct Assemble {
     side: Option<usize>,
 
     /// Blocks of K x K tiles in place of tiles, against errors
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=6))]
-    proofread: u8,
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = input::whole(1, 6))]
+    proofread: u16,
 
     /// Places of a face [default: the fewest that carry the words]
     #[arg(long, value_name = "L", value_parser = input::count)]

@@ -66,8 +66,7 @@ pub struct Calibrate {
     model: Option<MagnetModel>,
 
     /// Of so many rows one is held out of the fit
-    #[arg(long, value_name = "N", default_value_t = 5,
-          value_parser = clap::value_parser!(u16).range(2..))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = input::whole(2, u16::MAX))]
     hold_out: u16,
 
     /// Print JSON

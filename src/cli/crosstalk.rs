@@ -47,7 +47,7 @@ pub struct Crosstalk {
     out: Option<PathBuf>,
 
     /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
     threads: Option<u16>,
 
     #[command(flatten)]

@@ -92,6 +92,15 @@ pub fn count_or_none(text: &str) -> Result<usize, String> {
     found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
 }
 
+/// A whole number from `least` to `most`.
+pub fn whole(least: u16, most: u16) -> impl Fn(&str) -> Result<u16, String> + Clone {
+    move |text| {
+        let found = count_or_none(text).ok().and_then(|it| it.try_into().ok());
+        let found = found.filter(|number| (least..=most).contains(number));
+        found.ok_or_else(|| format!("a whole number from {least} to {most} is needed"))
+    }
+}
+
 /// A seed of random numbers.
 pub fn seed(text: &str) -> Result<u64, String> {
     let found = text.parse().ok();

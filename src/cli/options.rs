@@ -90,7 +90,7 @@ pub struct WorkOptions {
     pub seed: u64,
 
     /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
     threads: Option<u16>,
 }
 
