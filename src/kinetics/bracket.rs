@@ -9,6 +9,9 @@
 //! between two places, and in an integral of a committor, whose other problem is the mean time to
 //! any place.
 
+#[cfg(test)]
+mod tests;
+
 use rayon::prelude::*;
 
 use super::field::Field;
@@ -83,9 +86,7 @@ impl Bracket {
             }
         });
         let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
-        let network = field
-            .network(nodes, pins, asked.rim, &values[0])
-            .ok_or(Unsolved)?;
+        let network = field.network(nodes, pins, asked.rim).ok_or(Unsolved)?;
         let fluxes = network.fluxes();
         let source = |cell: usize| match (asked.left_out[cell], &mesh.leaves[cell].element) {
             (false, Some(element)) => element.load.iter().sum(),
@@ -116,10 +117,14 @@ impl Bracket {
                 (0..=i).map(with).collect()
             })
             .collect();
-        // The squares from what is known more closely than cell by cell.
+        // The squares as they are found otherwise, too: of the two the safer one, for of the mean time
+        // both leave out how the load differs from a tilted one within cells.
         let square = |place: usize| match capacities.get(place) {
             Some([lower, upper]) => upper - lower,
-            None => found[count].cost - held(&values[count]),
+            None => {
+                let by_cells: f64 = by_cells[count][count].iter().sum();
+                by_cells.max(found[count].cost - held(&values[count]))
+            }
         };
         let gaps = (0..=count).map(|i| {
             let with = |j: usize| match i == j {

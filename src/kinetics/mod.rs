@@ -26,7 +26,9 @@
 //! Two kinds of bounds. Those of mean exit times and of rates between places hold *on the mesh*: that
 //! a trial function bounds a capacity from above and a flux from below is a theorem, and what the
 //! flux loses on its way to rounding and to the solver's last step is subtracted. Two things are not
-//! in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come of Gauss' rule. And a basin is
+//! in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come of Gauss' rule; within cells e^(-U/kT) is
+//! taken to fall along s as between its ends and to be tilted along phi and theta, where the flux of
+//! the mean exit time has it for its source. And a basin is
 //! made of the cells whose mean of U lies below its limit; by Hadamard's formula, what that shifts
 //! capacities by is estimated, stated with each mesh, and makes the mesh be refined there.
 //! The capacity of the well about an exit's start against its ends, or of each basin against the

@@ -2,22 +2,25 @@
 
 use std::sync::{MutexGuard, PoisonError};
 
-use nalgebra::Matrix6;
 use rayon::prelude::*;
 
 use super::Field;
-use crate::kinetics::mesh::{Network, Nodes, Profile};
+use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
 
-/// What fluxes cost in cells (1/rad), as far as it is known, for fluxes spread as a profile says.
+/// What fluxes cost in cells (1/rad), as far as it is known.
 #[derive(Default)]
 pub(super) struct Costs {
-    profile: Option<Profile>,
-    of: Vec<Option<Box<Matrix6<f64>>>>,
+    /// Spread as one profile says for the whole mesh: it, and what they cost.
+    layer: (Option<Profile>, Vec<Option<Box<Resistance>>>),
+    /// Spread as the energy is: how that is from each cell, over its sides in the end, and the costs.
+    own: Vec<Option<Spread>>,
+    spreads: Vec<Spread>,
+    local: Vec<Option<Box<Resistance>>>,
 }
 
 impl Field<'_> {
     /// How a function's flux along contact falls off with the distance, on average.
-    pub fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
+    fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
         let (mut sum, mut all) = (0.0, 0.0);
         for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
             let energy = element.energy(&nodes.of(id, values));
@@ -34,25 +37,76 @@ impl Field<'_> {
                 all += energy;
             }
         }
-        Profile {
-            rate: if all > 0.0 { sum / all } else { 0.0 },
+        Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
+    }
+
+    /// The cells as conductors between places, for fluxes that follow e^(-U/kT) along s.
+    pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
+        let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = self.mesh.leaves.len();
+        costs.own.resize(count, None);
+        let is_known = |id: &usize| costs.own[*id].is_some();
+        let cells = self.mesh.live().map(|(id, ..)| id);
+        let new: Vec<usize> = cells.filter(|id| !is_known(id)).collect();
+        let found: Vec<_> = new.par_iter().map(|&id| self.falls(id)).collect();
+        for (id, spread) in new.into_iter().zip(found) {
+            costs.own[id] = Some(spread);
+        }
+        let spreads = spreads(&self.mesh, &costs.own);
+        costs.local.resize(count, None);
+        costs.spreads.resize(count, Spread::default());
+        let is_new = |id: &usize| costs.local[*id].is_none() || costs.spreads[*id] != spreads[*id];
+        let cells = self.mesh.live().map(|(id, ..)| id);
+        let new: Vec<usize> = cells.filter(is_new).collect();
+        let found = self.resistances(&new, |id| spreads[id]);
+        for (id, cost) in new.into_iter().zip(found) {
+            costs.local[id] = Some(cost);
+        }
+        costs.spreads = spreads;
+        Network::new(&self.mesh, nodes, pins, rim, &costs.spreads, &costs.local)
+    }
+
+    /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
+    fn falls(&self, id: usize) -> Spread {
+        let leaf = &self.mesh.leaves[id];
+        let ends = self.mesh.along(id);
+        let at = |aside: [f64; 2]| {
+            let size = leaf.size() as f64;
+            let [_, phi, theta] = self.mesh.chart.coordinates([
+                0.0,
+                leaf.low[1] as f64 + aside[0] * size,
+                leaf.low[2] as f64 + aside[1] * size,
+            ]);
+            let qs = self.mesh.chart.places([phi, theta], ends);
+            let weight = |q| self.integrator.power(self.problem.energy(&q));
+            let [near, far] = qs.map(weight);
+            Profile::falling((near - far).clamp(-MOST, MOST), ends)
+        };
+        let sides = [[0.0, 0.5], [1.0, 0.5], [0.5, 0.0], [0.5, 1.0], [0.5, 0.5]];
+        Spread {
+            profiles: sides.map(at),
+            tilts: leaf.element.as_ref().map_or([0.0; 2], |it| it.tilts()),
         }
     }
 
-    /// The cells as conductors between places, for fluxes like a function's.
-    pub fn network(
+    fn resistances(
         &self,
-        nodes: &Nodes,
-        pins: &[Option<usize>],
-        rim: usize,
-        like: &[f64],
-    ) -> Option<Network> {
-        let (profile, costs) = self.costs(nodes, like);
-        Network::new(&self.mesh, nodes, pins, rim, profile, &costs.of)
+        cells: &[usize],
+        spread: impl Fn(usize) -> Spread + Sync,
+    ) -> Vec<Box<Resistance>> {
+        let resistance = |&id: &usize| {
+            let leaf = &self.mesh.leaves[id];
+            let of = self
+                .integrator
+                .resistance(&self.mesh.chart, leaf, &spread(id));
+            Box::new(of)
+        };
+        cells.par_iter().map(resistance).collect()
     }
 
-    /// The same between places given by the cells that they are made of, through none of the cells
-    /// left out, with how fluxes are spread.
+    /// The cells as conductors between places given by the cells that they are made of, through none
+    /// of the cells left out, for fluxes like a function's; with how fluxes are spread, all over the
+    /// mesh in the same way.
     pub fn network_between(
         &self,
         nodes: &Nodes,
@@ -62,7 +116,9 @@ impl Field<'_> {
         like: &[f64],
     ) -> Option<(Network, Profile)> {
         let (profile, costs) = self.costs(nodes, like);
-        let network = Network::between(&self.mesh, place, is_left_out, rim, profile, &costs.of)?;
+        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
+        let (mesh, known) = (&self.mesh, &costs.layer.1);
+        let network = Network::between(mesh, place, is_left_out, rim, &spreads, known)?;
         Some((network, profile))
     }
 
@@ -70,23 +126,23 @@ impl Field<'_> {
     fn costs(&self, nodes: &Nodes, like: &[f64]) -> (Profile, MutexGuard<'_, Costs>) {
         let found = self.profile(nodes, like);
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let profile = costs.profile.filter(|known| known.is_like(&found));
+        let (known, of) = &mut costs.layer;
+        let profile = known.filter(|known| known.is_like(&found));
         let profile = profile.unwrap_or_else(|| {
-            costs.of.clear();
-            *costs.profile.insert(found)
+            of.clear();
+            *known.insert(found)
         });
-        costs.of.resize(self.mesh.leaves.len(), None);
-        let is_known = |id: &usize| costs.of[*id].is_some();
+        of.resize(self.mesh.leaves.len(), None);
         let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(|id| !is_known(id)).collect();
-        let resistance = |&id: &usize| {
-            let leaf = &self.mesh.leaves[id];
-            Box::new(self.integrator.resistance(&self.mesh.chart, leaf, &profile))
-        };
-        let found: Vec<_> = new.par_iter().map(resistance).collect();
+        let new: Vec<usize> = cells.filter(|id| of[*id].is_none()).collect();
+        let found = self.resistances(&new, |_| Spread::even(profile));
         for (id, cost) in new.into_iter().zip(found) {
-            costs.of[id] = Some(cost);
+            of[id] = Some(cost);
         }
         (profile, costs)
     }
 }
+
+/// Powers of e by which the density of a flux falls over a cell, at most: over more of them it would
+/// hardly follow.
+const MOST: f64 = 4.0;

@@ -136,6 +136,11 @@ impl Chart {
         self.wall.ray(at, self.radius)
     }
 
+    /// The configurations at two s on the ray at (phi, theta).
+    pub(in crate::kinetics) fn places(&self, at: [f64; 2], s: [f64; 2]) -> [Configuration; 2] {
+        self.wall.places(at, self.radius, s)
+    }
+
     /// The place of a configuration, folded, in smallest units.
     pub(in crate::kinetics) fn place(&self, q: &Configuration) -> [f64; 3] {
         let phi = q.y.atan2(q.x);

@@ -48,6 +48,21 @@ impl Element {
         self.stiffness[i * 8 - i * (i + 1) / 2 + j]
     }
 
+    /// How the load is tilted along phi and theta: as 1 + tilt (2 u - 1) at the part u of the size,
+    /// the mean of u as it is; no more than falls to 0.
+    pub fn tilts(&self) -> [f64; 2] {
+        let all: f64 = self.load.iter().sum();
+        [1, 2].map(|axis| {
+            let upper = (0..8).filter(|corner| corner >> axis & 1 == 1);
+            let mean = upper.map(|corner| self.load[corner]).sum::<f64>() / all;
+            if mean.is_finite() {
+                (6.0 * mean - 3.0).clamp(-1.0, 1.0)
+            } else {
+                0.0
+            }
+        })
+    }
+
     /// The integral of w grad f . grad f for values at the corners (rad).
     pub fn energy(&self, values: &[f64; 8]) -> f64 {
         self.times(values)

@@ -17,7 +17,7 @@ use super::element::shapes;
 use super::equations::{Entries, Equations, Unsolved};
 use super::nodes::Nodes;
 use super::octree::Octree;
-use super::profile::Profile;
+use super::profile::{Resistance, Spread};
 use super::sides::{Side, sides};
 
 /// A cell with what flows out of it: `out = share * source - matrix * potentials` by sides.
@@ -28,6 +28,11 @@ struct Conductor {
     share: Vector6<f64>,
     /// What it costs to let so much out (1/rad).
     cost: Matrix6<f64>,
+    /// What it costs besides to have a source of 1 where it is, together with what goes out through
+    /// each side and by itself (1/rad).
+    placing: (Vector6<f64>, f64),
+    /// Where fluxes cross the sides on average, and where the source is, in parts of its size.
+    means: [[f64; 3]; 7],
 }
 
 /// All fluxes on a mesh whose chart begins at contact, between places whose potential is given.
@@ -39,7 +44,6 @@ pub(in crate::kinetics) struct Fluxes<'a> {
 /// The cells of a mesh as conductors.
 pub(in crate::kinetics) struct Network {
     conductors: Vec<Conductor>,
-    profile: Profile,
     /// For each face the place that it is the end of.
     ends: Vec<Option<usize>>,
 }
@@ -49,14 +53,14 @@ impl Network {
     /// belongs to a place if all of its corners do, so that a function which is 1 at the place's
     /// corners is so all over it. `None` where the chart holds what is blocked.
     ///
-    /// `resistance` has what fluxes cost in a cell, spread as the profile says.
+    /// `resistance` has what fluxes cost in a cell, spread as `spreads` says.
     pub fn new(
         mesh: &Octree,
         nodes: &Nodes,
         pins: &[Option<usize>],
         rim: usize,
-        profile: Profile,
-        resistance: &[Option<Box<Matrix6<f64>>>],
+        spreads: &[Spread],
+        resistance: &[Option<Box<Resistance>>],
     ) -> Option<Self> {
         let place = |id: usize| -> Option<usize> {
             let sources = nodes.corners[id]
@@ -66,7 +70,7 @@ impl Network {
             let first = places.next()??;
             places.all(|other| other == Some(first)).then_some(first)
         };
-        Self::between(mesh, &place, &|_| false, rim, profile, resistance)
+        Self::between(mesh, &place, &|_| false, rim, spreads, resistance)
     }
 
     /// Between places given by the cells that they are made of, and the rim, through none of the
@@ -76,13 +80,13 @@ impl Network {
         place: &dyn Fn(usize) -> Option<usize>,
         is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
-        profile: Profile,
-        resistance: &[Option<Box<Matrix6<f64>>>],
+        spreads: &[Spread],
+        resistance: &[Option<Box<Resistance>>],
     ) -> Option<Self> {
         if !mesh.chart.is_fitted() {
             return None;
         }
-        let (sides, mut ends) = sides(mesh, rim, &profile);
+        let (sides, mut ends) = sides(mesh, rim, spreads);
         let mut cells = Vec::new();
         for (id, ..) in mesh.live().filter(|(id, ..)| !is_left_out(*id)) {
             let Some(place) = place(id) else {
@@ -93,13 +97,12 @@ impl Network {
                 ends[face] = Some(place);
             }
         }
-        let conductor = |&id: &usize| Conductor::new(id, sides[id], resistance[id].as_deref()?);
+        let conductor = |&id: &usize| {
+            let means = spreads[id].means(mesh.along(id));
+            Conductor::new(id, sides[id], resistance[id].as_deref()?, means)
+        };
         let conductors = cells.par_iter().map(conductor).collect::<Option<_>>()?;
-        Some(Self {
-            conductors,
-            profile,
-            ends,
-        })
+        Some(Self { conductors, ends })
     }
 
     fn entries(&self) -> Entries<'_> {
@@ -130,7 +133,12 @@ impl Network {
 }
 
 impl Conductor {
-    fn new(cell: usize, sides: [Side; 6], resistances: &Matrix6<f64>) -> Option<Self> {
+    fn new(
+        cell: usize,
+        sides: [Side; 6],
+        resistances: &Resistance,
+        means: [[f64; 3]; 7],
+    ) -> Option<Self> {
         // Flux is counted outwards from here on.
         let outwards = |a: usize| if a.is_multiple_of(2) { -1.0 } else { 1.0 };
         let is_closed = |a: usize| sides[a] == Side::Closed;
@@ -139,6 +147,10 @@ impl Conductor {
             true => 0.0,
             false => resistances[(a, b)] * outwards(a) * outwards(b),
         });
+        let beside = Vector6::from_fn(|a, _| match is_closed(a) {
+            true => 0.0,
+            false => resistances[(a, 6)] * outwards(a),
+        });
         let mut conductance = cost.try_inverse()?;
         for a in (0..6).filter(|a| is_closed(*a)) {
             conductance.row_mut(a).fill(0.0);
@@ -146,13 +158,25 @@ impl Conductor {
         }
         let sums = conductance.column_sum();
         let share = sums / sums.sum();
+        let matrix = conductance - sums * share.transpose();
         Some(Self {
             cell,
             sides,
-            matrix: conductance - sums * share.transpose(),
-            share,
+            matrix,
+            share: share - matrix * beside,
             cost,
+            placing: (beside, resistances[(6, 6)]),
+            means,
         })
+    }
+
+    /// What two fluxes out through the sides cost together, each with its source in the cell.
+    fn together(&self, (out, source): (&Vector6<f64>, f64), other: (&Vector6<f64>, f64)) -> f64 {
+        let (beside, own) = &self.placing;
+        out.dot(&(self.cost * other.0))
+            + source * beside.dot(other.0)
+            + other.1 * beside.dot(out)
+            + source * other.1 * own
     }
 
     /// What flows out through the sides, with potentials on the faces and a source in the cell.
@@ -204,7 +228,7 @@ impl Fluxes<'_> {
 
     /// From a source in each cell to the places. Its cost is no less than the integral of the source
     /// times the function that it belongs to, but for the quadrature and for how the source changes
-    /// within cells. Found from a guess of the potentials.
+    /// within cells otherwise than its spread has it. Found from a guess of the potentials.
     ///
     /// # Errors
     /// Where the linear system is not solved.
@@ -247,7 +271,7 @@ impl Fluxes<'_> {
         let (mut cost, mut lost) = (0.0, 0.0);
         for (conductor, out) in self.network.conductors.iter().zip(&all) {
             let own = source(conductor.cell);
-            cost += out.dot(&(conductor.cost * out));
+            cost += conductor.together((out, own), (out, own));
             lost += (out.sum() - own).abs() + ROUNDING * out.abs().sum();
             for (side, flux) in conductor.sides.iter().zip(out) {
                 for (face, share) in side.faces() {
@@ -311,18 +335,19 @@ impl Fluxes<'_> {
             let Some(element) = &mesh.leaves[id].element else {
                 continue;
             };
-            let mean = self.network.profile.mean(mesh.along(id));
+            let means = &conductor.means;
             let of = |gap: &Gap| (gap.flux.out[number], nodes.of(id, gap.values));
             let ((out, own), (others_out, others)) = (of(first), of(second));
-            let flows = out.dot(&(conductor.cost * others_out));
+            let sources = [first, second].map(|gap| (gap.source)(id));
+            let flows = conductor.together((&out, sources[0]), (&others_out, sources[1]));
             let slopes: f64 = element
                 .times(&own)
                 .iter()
                 .zip(others)
                 .map(|(a, b)| a * b)
                 .sum();
-            let mixed = carried(&out, (first.source)(id), &others, mean)
-                + carried(&others_out, (second.source)(id), &own, mean);
+            let mixed = carried(&out, sources[0], &others, means)
+                + carried(&others_out, sources[1], &own, means);
             products[id] = flows + slopes + mixed;
         }
         products
@@ -338,8 +363,8 @@ pub(in crate::kinetics) struct Gap<'a> {
 }
 
 /// The integral of J . grad f over a cell: what f has at the sides, less what it has at the source.
-/// Where J crosses the sides on average is given in parts of the cell's depth.
-fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], mean: f64) -> f64 {
+/// Where J crosses the sides on average and where the source is, is given in parts of the cell's size.
+fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], means: &[[f64; 3]; 7]) -> f64 {
     let at = |part: [f64; 3]| -> f64 {
         shapes(part)
             .iter()
@@ -347,10 +372,6 @@ fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], mean: f64) -> f64
             .map(|(shape, value)| shape * value)
             .sum()
     };
-    let across = (0..6).map(|side| {
-        let mut part = [mean, 0.5, 0.5];
-        part[side / 2] = (side % 2) as f64;
-        out[side] * at(part)
-    });
-    across.sum::<f64>() - source * at([mean, 0.5, 0.5])
+    let across = (0..6).map(|side| out[side] * at(means[side]));
+    across.sum::<f64>() - source * at(means[6])
 }

@@ -20,6 +20,7 @@ pub use equations::Unsolved;
 pub(super) use flux::{Gap, Network};
 pub(super) use nodes::Nodes;
 pub(super) use octree::{Leaf, Octree};
-pub(super) use profile::Profile;
+pub(super) use profile::{Profile, Resistance, Spread};
 pub(super) use quadrature::Integrator;
+pub(super) use sides::spreads;
 pub(super) use system::{System, loads};

@@ -1,40 +1,63 @@
 //! How fluxes are spread over the sides of cells.
 
-use nalgebra::Vector6;
+use nalgebra::SMatrix;
 
 /// Rates that differ by this share are much the same.
 const ALIKE: f64 = 0.1;
 
-/// What flows along contact does so within the layer that e^(-U/kT) leaves: as `e^(-rate s)`, and
-/// evenly where little of that is left.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What flows along contact does so within the layer that e^(-U/kT) leaves: as `e^(-rate (s - start))`
+/// and, besides, evenly.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinetics) struct Profile {
-    /// One over the decay length in s.
+    /// One over the decay length in s; below 0 where the density grows.
     pub rate: f64,
+    /// Where the density is 1 and what is even.
+    start: f64,
+    /// What is even.
+    even: f64,
 }
 
 impl Profile {
-    /// The density that is left far from contact: beyond four times the decay length, of which
-    /// this is the part e^-4, fluxes are spread evenly.
+    /// The density that is left far from contact where one profile serves for a whole mesh: beyond
+    /// four times the decay length, of which this is the part e^-4, fluxes are spread evenly.
     pub(in crate::kinetics) const EVENLY: f64 = 0.018_315_638_888_734_18;
+
+    /// Of a layer about contact, for a whole mesh.
+    pub fn layer(rate: f64) -> Self {
+        Self {
+            rate,
+            start: 0.0,
+            even: Self::EVENLY,
+        }
+    }
+
+    /// From one s to another, between which the density falls by this power of e.
+    pub fn falling(fall: f64, [from, to]: [f64; 2]) -> Self {
+        Self {
+            rate: fall / (to - from),
+            start: from,
+            even: 0.0,
+        }
+    }
 
     /// Whether it is much the same as another: any profile gives bounds.
     pub(in crate::kinetics) fn is_like(&self, other: &Self) -> bool {
         (self.rate - other.rate).abs() <= ALIKE * other.rate
     }
 
-    /// The integral of the density from contact to s.
+    /// The integral of the density from its start to s.
     fn below(&self, s: f64) -> f64 {
-        let even = Self::EVENLY * s;
-        match self.rate > 0.0 {
-            true => -(-self.rate * s).exp_m1() / self.rate + even,
-            false => s + even,
+        let along = s - self.start;
+        let even = self.even * along;
+        match self.rate == 0.0 {
+            true => along + even,
+            false => -(-self.rate * along).exp_m1() / self.rate + even,
         }
     }
 
     /// The density at s.
     pub(in crate::kinetics) fn density(&self, s: f64) -> f64 {
-        (-self.rate * s).exp() + Self::EVENLY
+        (-self.rate * (s - self.start)).exp() + self.even
     }
 
     /// The integral of the density between two s.
@@ -48,25 +71,142 @@ impl Profile {
         (self.below(s) - below) / (self.below(to) - below)
     }
 
-    /// The densities at a point, given in parts of the size of a cell that lies between two s, of
-    /// the fluxes that are 1 through one of the six sides and 0 through the others. Sides 2 i and
-    /// 2 i + 1 are the lower and upper ones along coordinate i, and all fluxes are counted upwards.
-    pub fn fluxes(&self, part: [f64; 3], ends: [f64; 2]) -> Vector6<f64> {
-        let [from, to] = ends;
-        let s = from + part[0] * (to - from);
-        let share = self.share(s, ends);
-        let density = self.density(s) * (to - from) / (self.below(to) - self.below(from));
-        let [_, v, w] = part;
-        let [lower, upper] = [1.0 - v, v].map(|part| part * density);
-        let [before, behind] = [1.0 - w, w].map(|part| part * density);
-        Vector6::from([1.0 - share, share, lower, upper, before, behind])
-    }
-
     /// The mean of where fluxes cross the sides of a cell between two s, as a part of its size.
-    pub fn mean(&self, [from, to]: [f64; 2]) -> f64 {
+    fn mean(&self, [from, to]: [f64; 2]) -> f64 {
         let size = to - from;
         let points = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
         let densities = points.map(|part| self.density(from + part * size));
         (points[0] * densities[0] + points[1] * densities[1]) / (densities[0] + densities[1])
+    }
+}
+
+/// How fluxes are spread over the sides of one cell, and a source in it over the cell. Sides 2 i and
+/// 2 i + 1 are the lower and upper ones along coordinate i; through those along s fluxes are even.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::kinetics) struct Spread {
+    /// Through sides 2 to 5, and, last, along s of the source.
+    pub profiles: [Profile; 5],
+    /// Along phi and theta the source has the density 1 + tilt (2 u - 1) at the part u of the size.
+    pub tilts: [f64; 2],
+}
+
+/// What is integrated over a cell for products of fluxes: six sides, and the source.
+pub(in crate::kinetics) type Resistance = SMatrix<f64, 7, 7>;
+
+impl Spread {
+    /// The same everywhere.
+    pub fn even(profile: Profile) -> Self {
+        Self {
+            profiles: [profile; 5],
+            tilts: [0.0; 2],
+        }
+    }
+
+    /// The profile of a side, 2 or more.
+    pub fn of(&self, side: usize) -> &Profile {
+        &self.profiles[side - 2]
+    }
+
+    /// At a point of a cell between two s, given in parts of the cell's size, the fluxes along s, phi
+    /// and theta that are 1 through one of the six sides and 0 through the others, all counted
+    /// upwards. What a side's profile has otherwise than the source's flows along s within the cell,
+    /// so that all that is lost or added is so as the source's profile has it. Last what carries a
+    /// source of 1 from evenly over phi and theta to where its tilts have it, through no side.
+    pub fn fluxes(&self, part: [f64; 3], ends: [f64; 2]) -> SMatrix<f64, 3, 7> {
+        let [from, to] = ends;
+        let s = from + part[0] * (to - from);
+        let source = self.profiles[4].share(s, ends);
+        let density = |profile: &Profile| profile.density(s) * (to - from) / profile.between(ends);
+        let mut fluxes = SMatrix::zeros();
+        (fluxes[(0, 0)], fluxes[(0, 1)]) = (1.0 - source, source);
+        for side in 2..6 {
+            let (profile, along) = (self.of(side), part[side / 2]);
+            let upper = side % 2 == 1;
+            let aside = profile.share(s, ends) - source;
+            fluxes[(side / 2, side)] = density(profile) * if upper { along } else { 1.0 - along };
+            fluxes[(0, side)] = if upper { -aside } else { aside };
+        }
+        let ([_, v, w], [by_v, by_w]) = (part, self.tilts);
+        let own = density(&self.profiles[4]);
+        fluxes[(1, 6)] = own * by_v * v * (v - 1.0);
+        fluxes[(2, 6)] = own * (1.0 + by_v * (2.0 * v - 1.0)) * by_w * w * (w - 1.0);
+        fluxes
+    }
+
+    /// The means of where fluxes cross the sides of a cell between two s, and, last, of where its
+    /// source is, as parts of its size.
+    pub fn means(&self, ends: [f64; 2]) -> [[f64; 3]; 7] {
+        let depth = self.profiles.map(|profile| profile.mean(ends));
+        std::array::from_fn(|side| {
+            let mut part = [0.5; 3];
+            match side {
+                6 => {
+                    part = [
+                        depth[4],
+                        0.5 + self.tilts[0] / 6.0,
+                        0.5 + self.tilts[1] / 6.0,
+                    ]
+                }
+                2.. => part[0] = depth[side - 2],
+                _ => {}
+            }
+            if side < 6 {
+                part[side / 2] = (side % 2) as f64;
+            }
+            part
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What goes through the sides comes from the source, where that is: by differences.
+    #[test]
+    fn fluxes_have_no_sources_but_the_one_that_they_are_told() {
+        let ends = [0.2, 0.3];
+        let falling = |fall: f64| Profile::falling(fall, ends);
+        let spread = Spread {
+            profiles: [3.0, -2.0, 0.0, 1.0, 2.5].map(falling),
+            tilts: [0.4, -0.7],
+        };
+        let out = [0.3, -0.2, 1.0, 0.5, -0.4, 0.9, 1.0];
+        let flux = |part: [f64; 3]| {
+            let all = spread.fluxes(part, ends);
+            let sum = |axis: usize| (0..7).map(|k| all[(axis, k)] * out[k]).sum::<f64>();
+            [0, 1, 2].map(sum)
+        };
+        let source = |part: [f64; 3], of_sides: f64| {
+            let s = ends[0] + part[0] * (ends[1] - ends[0]);
+            let density = spread.profiles[4].density(s) * (ends[1] - ends[0])
+                / spread.profiles[4].between(ends);
+            let tilted = |k: usize| 1.0 + spread.tilts[k] * (2.0 * part[k + 1] - 1.0);
+            density * (of_sides + tilted(0) * tilted(1) - 1.0)
+        };
+        // Upwards through the upper sides, less that through the lower ones.
+        let of_sides = out[1] - out[0] + out[3] - out[2] + out[5] - out[4];
+        for part in [[0.1, 0.2, 0.3], [0.5, 0.5, 0.5], [0.9, 0.1, 0.7]] {
+            let step = 1e-5;
+            let slope = |axis: usize| {
+                let beside = |aside: f64| {
+                    let mut at = part;
+                    at[axis] += aside;
+                    flux(at)[axis]
+                };
+                (beside(step) - beside(-step)) / (2.0 * step)
+            };
+            let found: f64 = (0..3).map(slope).sum();
+            assert!((found - source(part, of_sides)).abs() < 1e-6, "{found}");
+        }
+        // Through a side goes what is told, spread as its profile has it, whatever else flows.
+        for side in 2..6 {
+            let mut part = [0.37; 3];
+            part[side / 2] = (side % 2) as f64;
+            let s = ends[0] + part[0] * (ends[1] - ends[0]);
+            let own = spread.of(side);
+            let density = own.density(s) * (ends[1] - ends[0]) / own.between(ends);
+            assert!((flux(part)[side / 2] - out[side] * density).abs() < 1e-12);
+        }
     }
 }

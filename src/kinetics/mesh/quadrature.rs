@@ -3,12 +3,12 @@
 
 use std::cell::{Cell, RefCell};
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::Matrix3;
 
 use super::chart::Chart;
 use super::element::{Element, Sum};
 use super::octree::Leaf;
-use super::profile::Profile;
+use super::profile::{Resistance, Spread};
 use super::wall::Ray;
 use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells};
@@ -129,6 +129,11 @@ impl<'a> Integrator<'a> {
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
 
+    /// The power of e that the weight at an energy (J) is, kept in bounds.
+    pub fn power(&self, energy: f64) -> f64 {
+        ((self.level - energy) / self.kt).clamp(LEAST, GREATEST)
+    }
+
     /// The integral of the load (m^2 rad) over where U in a cell is below a limit (J).
     pub fn held_below(&self, chart: &Chart, leaf: &Leaf, limit: f64) -> f64 {
         let mut sum = Sum::new(chart, leaf);
@@ -143,20 +148,20 @@ impl<'a> Integrator<'a> {
         held.get()
     }
 
-    /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart.
-    pub fn resistance(&self, chart: &Chart, leaf: &Leaf, profile: &Profile) -> Matrix6<f64> {
+    /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart, where
+    /// they are spread so.
+    pub fn resistance(&self, chart: &Chart, leaf: &Leaf, spread: &Spread) -> Resistance {
         let mut sum = Sum::new(chart, leaf);
         let ends = [0.0, 1.0].map(|part| sum.along(part));
-        let cost = RefCell::new(Matrix6::zeros());
+        let cost = RefCell::new(Resistance::zeros());
         let add = |sum: &mut Sum, point: &Point| {
             let (metric, _) = sum.metric(point.part, point.ray, &point.inverse);
             let Some(inverse) = metric.try_inverse() else {
                 return;
             };
-            let fluxes = profile.fluxes(point.part, ends);
+            let fluxes = spread.fluxes(point.part, ends);
             let scale = point.share / point.weights[0];
-            *cost.borrow_mut() +=
-                Matrix6::from_fn(|a, b| scale * fluxes[a] * inverse[(a / 2, b / 2)] * fluxes[b]);
+            *cost.borrow_mut() += fluxes.transpose() * (inverse * scale) * fluxes;
         };
         self.fill(&mut sum, [[0.0, 1.0]; 2], false, 0, &add);
         cost.into_inner()

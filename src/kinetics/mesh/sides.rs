@@ -1,7 +1,7 @@
 //! The sides of cells, and the faces that they are made of.
 
 use super::octree::Octree;
-use super::profile::Profile;
+use super::profile::Spread;
 
 /// What lies beyond a cell's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl Side {
 pub(super) fn sides(
     mesh: &Octree,
     rim: usize,
-    profile: &Profile,
+    spreads: &[Spread],
 ) -> (Vec<[Side; 6]>, Vec<Option<usize>>) {
     let mut sides = vec![[Side::Closed; 6]; mesh.leaves.len()];
     let mut ends = Vec::new();
@@ -72,7 +72,10 @@ pub(super) fn sides(
             let (whole, [from, to]) = (mesh.along(cell), mesh.along(part));
             match side / 2 {
                 0 => 0.25,
-                _ => 0.5 * (profile.share(to, whole) - profile.share(from, whole)),
+                _ => {
+                    let profile = spreads[cell].of(side);
+                    0.5 * (profile.share(to, whole) - profile.share(from, whole))
+                }
             }
         };
         let faces: Vec<_> = four.iter().map(|part| (part.2, share(part.3))).collect();
@@ -81,4 +84,29 @@ pub(super) fn sides(
         }
     }
     (sides, ends)
+}
+
+/// How fluxes are spread over the sides of each cell: over one that two cells share as the larger of
+/// them has it, or the lower. `own` says how that is from a cell itself, by its sides 2 to 5 and its
+/// middle.
+pub(in crate::kinetics) fn spreads(mesh: &Octree, own: &[Option<Spread>]) -> Vec<Spread> {
+    let mut spreads = vec![Spread::default(); mesh.leaves.len()];
+    for (id, leaf, _) in mesh.live() {
+        let mut spread = own[id].unwrap_or_default();
+        for side in 2..6 {
+            let half = leaf.size() / 2;
+            let mut place = leaf.low.map(|low| low + half);
+            let (axis, is_upper) = (side / 2, side % 2 == 1);
+            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
+            let beyond = mesh.find(place).filter(|&other| {
+                let level = mesh.leaves[other].level;
+                level < leaf.level || level == leaf.level && !is_upper
+            });
+            if let Some(other) = beyond.and_then(|other| own[other]) {
+                spread.profiles[side - 2] = *other.of(side ^ 1);
+            }
+        }
+        spreads[id] = spread;
+    }
+    spreads
 }

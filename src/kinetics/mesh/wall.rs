@@ -62,6 +62,16 @@ impl Wall {
         }
     }
 
+    /// The configurations at two s on a ray out to a radius (m).
+    pub fn places(&self, at: [f64; 2], radius: f64, s: [f64; 2]) -> [Configuration; 2] {
+        let wall = self.begins(at);
+        let (sin, cos) = at[0].sin_cos();
+        s.map(|s| {
+            let r = wall + s * (radius - wall);
+            Configuration::new(r * cos, r * sin, at[1])
+        })
+    }
+
     /// The ray out to a radius (m).
     pub fn ray(&self, at: [f64; 2], radius: f64) -> Ray {
         let wall = self.begins(at);

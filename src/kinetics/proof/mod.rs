@@ -135,7 +135,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
         rho,
         profile,
     };
-    let even = ground(Profile { rate: 0.0 });
+    let even = ground(Profile::layer(0.0));
     let mut cells = Vec::new();
     for _ in 0..=DIVISIONS {
         let energies = energies(field, &even, sets);

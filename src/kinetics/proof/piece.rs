@@ -229,7 +229,7 @@ impl Ground<'_> {
     /// Of what flows between the ends of a cell: the share below s, and the density by the part of
     /// the cell's size, see [`Profile`].
     fn spread(&self, s: Expansion, ends: [f64; 2]) -> [Expansion; 2] {
-        let Profile { rate } = self.profile;
+        let Profile { rate, .. } = self.profile;
         let whole = self.profile.between(ends);
         let least = s.range()[0];
         let density = s.decay(rate) + Expansion::constant(Profile::EVENLY);
