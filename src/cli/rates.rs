@@ -120,36 +120,41 @@ impl Rates {
         interrupt::prepare()?;
         let design = self.design.load()?;
         let model = design.interaction.model;
+        let problem = design.problem();
         if self.prove
-            && let Some(why) = why_unprovable(&design.problem(), model)
+            && let Some(why) = why_unprovable(&problem, model)
         {
             return Err(Failure::Usage(why));
         }
         self.work.use_threads()?;
         match self.start {
-            Some(start) => self.exit(&design, start),
-            None => self.table(&design),
+            Some(start) => self.exit(&design, &problem, start),
+            None => self.table(&design, problem),
         }
     }
 
-    fn exit(&self, design: &Design, start: Configuration) -> Result<(), Failure> {
+    fn exit(
+        &self,
+        design: &Design,
+        problem: &Problem,
+        start: Configuration,
+    ) -> Result<(), Failure> {
         input::doubt_pose(design, &start);
-        let problem = design.problem();
-        let half = || half_bond(&problem, &design.pair.bound);
+        let half = || half_bond(problem, &design.pair.bound);
         let basin = self.basin_energy.unwrap_or_else(half);
         let asked = ExitSettings {
             certify: Some(self.certified(Certify::of_exit)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
-        let found = exit(&problem, &design.pair.bound, &asked).map_err(|error| match error {
+        let found = exit(problem, &design.pair.bound, &asked).map_err(|error| match error {
             ExitError::Unsolved(_) => Failure::Run(error.to_string()),
             _ => Failure::Usage(error.to_string()),
         })?;
         let motion = report::Motion::new(design, self.kt, self.drag);
-        let mean = found.finest().time / motion.diffusion;
+        let mean = found.time() / motion.diffusion;
         let checked = self.check.map(|runs| {
             let runs = self.runs(&asked, runs, mean);
-            self.let_go(&problem, &Body::of_tile(&design.pair.moving), &runs)
+            self.let_go(problem, &Body::of_tile(&design.pair.moving), &runs)
         });
         let checked = checked.transpose()?;
         print(&if self.print.json {
@@ -207,7 +212,7 @@ impl Rates {
         self.free_at.unwrap_or(design.space().free_distance)
     }
 
-    fn table(&self, design: &Design) -> Result<(), Failure> {
+    fn table(&self, design: &Design, problem: Problem) -> Result<(), Failure> {
         if let Some(folder) = &self.out {
             input::check_folder(folder)?;
             input::check_folder(&folder.join(writer::PICTURES))?;
@@ -215,7 +220,7 @@ impl Rates {
         let settings = self.survey();
         memory::check(settings.milestones, None, 1)?;
         let progress = self.print.progress();
-        let analysis = pipeline::analyse(design, &settings, &progress);
+        let analysis = pipeline::analyse_problem(design, problem, &settings, &progress);
         progress.stage("rates", 0.9);
         let places = report::Place::held(&analysis, self.kt, self.traps, self.basin_energy);
         let basins = places.iter().map(report::Place::basin);

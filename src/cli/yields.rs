@@ -168,7 +168,9 @@ impl YieldCommand {
 fn failure(error: YieldError) -> Failure {
     match error {
         YieldError::Docking(error) => Failure::Usage(error.to_string()),
-        YieldError::Hot(..) | YieldError::Cold(_) => Failure::Usage(error.to_string()),
+        YieldError::Hot(..) | YieldError::Cold(_) | YieldError::Lost => {
+            Failure::Usage(error.to_string())
+        }
         YieldError::Rates(error) if !matches!(error, RatesError::Unsolved(_)) => {
             Failure::Usage(error.to_string())
         }

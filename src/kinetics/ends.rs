@@ -83,6 +83,11 @@ impl Ends {
         })
     }
 
+    /// Whether the start lies so deep in its well that it is as good as anywhere else there.
+    pub fn is_deep(&self) -> bool {
+        self.well.is_some()
+    }
+
     /// The start's well, half way up to the pass, and the bond's basin, as sets whose capacity is
     /// proved.
     pub fn sets(field: &Field, bond: &Configuration, asked: &ExitSettings) -> [Set; 2] {

@@ -6,7 +6,7 @@ use super::ends::Ends;
 use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::{Nodes, Unsolved};
 use super::proof::{self, Capacity};
-use super::rates::enough;
+use super::rates::{DEEPEST, enough};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -78,6 +78,10 @@ pub struct Exit {
     /// the integrals over cells are off by. None where the start lies in no well; from below only,
     /// the upper ones infinite, where the tiles' outlines are not convex.
     pub bounds: Vec<[f64; 2]>,
+    /// What lies midway between the bounds, if the finest mesh's mean exit time does not lie between
+    /// them: far below the passes cells that do not begin at contact may be too coarse for what the
+    /// well holds.
+    pub midway: Option<f64>,
     /// Proved bounds of the capacity of the well about the start, half way up to the pass, against
     /// the ends, where they are asked for and can be had.
     pub proved: Option<Capacity>,
@@ -86,6 +90,11 @@ pub struct Exit {
 }
 
 impl Exit {
+    /// The mean exit time times D (m^2).
+    pub fn time(&self) -> f64 {
+        self.midway.unwrap_or(self.finest().time)
+    }
+
     /// What the finest mesh says.
     pub fn finest(&self) -> MeshExit {
         *self.meshes.last().expect("there is a mesh")
@@ -147,6 +156,12 @@ pub enum ExitError {
         "no way leads from the start to the bond or to where tiles are free; {}", .0.told()
     )]
     Closed(Way),
+    /// At this kT (J) the start lies so many kT deep.
+    #[error(
+        "at kT = {} the start is {:.0} kT deep, and no tile ever leaves it; exits are told up to \
+         {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
+    )]
+    Cold(f64, f64),
     /// The mean exit time is no number any more.
     #[error("at kT = {} no tile ever leaves: choose a larger --kt", si(*.0, "J", 4))]
     Never(f64),
@@ -198,9 +213,21 @@ pub fn exit(
                 let lower = ends.lower_bound(&field, &nodes)?;
                 bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
             }
+            let own = meshes[meshes.len() - 1].time;
+            let mut midway = None;
+            if let Some(&[lower, upper]) = bounds.last()
+                && !(lower..=upper).contains(&own)
+            {
+                // A start that is not deep in its well may well take a time that the well does not.
+                match ends.is_deep() && upper.is_finite() {
+                    true => midway = Some((lower * upper).sqrt()),
+                    false => bounds.clear(),
+                }
+            }
             return Ok(Exit {
                 meshes,
                 bounds,
+                midway,
                 proved,
                 way,
             });
@@ -245,6 +272,10 @@ fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Resul
     if !problem.is_clear(&asked.start) {
         let clearance = problem.clearance(&asked.start);
         return Err(ExitError::Overlap(asked.start, clearance));
+    }
+    let depth = -problem.energy(&asked.start) / asked.kt;
+    if depth > DEEPEST {
+        return Err(ExitError::Cold(asked.kt, depth));
     }
     let energy = problem.energy(bond);
     if energy >= asked.basin_energy {

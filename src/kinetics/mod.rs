@@ -57,6 +57,7 @@
 
 pub mod basin;
 pub mod bond;
+mod bounded;
 mod bracket;
 mod certify;
 pub mod chain;
@@ -68,6 +69,7 @@ pub mod exit;
 mod field;
 mod frame;
 mod line;
+mod links;
 pub mod map;
 mod mesh;
 pub mod mixture;

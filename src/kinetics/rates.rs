@@ -2,13 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::certify::{Certify, narrowed};
+use super::bounded::bounded;
+pub use super::bounded::{Leaving, RateBounds};
+use super::certify::Certify;
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
+use super::links::links;
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
-use super::places::{DEEP, Places};
-use super::proof::{self, Capacity, Set};
+use super::places::Places;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -134,66 +136,6 @@ pub struct Rates {
     pub proved: Vec<Option<Leaving>>,
 }
 
-/// What is proved of how a basin is left for any other or free tiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leaving {
-    /// Its capacity against the others and free tiles.
-    pub capacity: Capacity,
-    /// Where the others' proofs say that this basin is reached: it lies below this (J).
-    pub end_below: f64,
-}
-
-/// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
-/// over cells are off by. Where the tiles' outlines are not convex, those from below are 0: fluxes
-/// that contact lets through are laid along rays, which such outlines cut.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateBounds {
-    /// Out of each place.
-    pub leaving: Vec<[f64; 2]>,
-    /// From place i (row) to place j; of no meaning on the diagonal.
-    pub rates: Vec<Vec<[f64; 2]>>,
-}
-
-impl RateBounds {
-    /// Whether a mesh's rates lie between them, those out of places as well.
-    fn hold(&self, mesh: &MeshRates) -> bool {
-        let lies = |rate: f64, [lower, upper]: [f64; 2]| lower <= rate && rate <= upper;
-        let mut places = mesh.rates.iter().enumerate();
-        places.all(|(from, rates)| {
-            let mut others = rates.iter().enumerate().filter(|(to, _)| *to != from);
-            lies(rates.iter().sum(), self.leaving[from])
-                && others.all(|(to, rate)| lies(*rate, self.rates[from][to]))
-        })
-    }
-
-    /// Whether there are bounds from above only.
-    pub fn are_one_sided(&self) -> bool {
-        self.leaving.iter().all(|[lower, _]| *lower == 0.0)
-    }
-
-    /// The same without what is not known for want of a way, and with 0 where contact proves that
-    /// there is none.
-    fn known(mut self, links: &[Vec<Way>]) -> Self {
-        const NOTHING: [f64; 2] = [0.0, f64::INFINITY];
-        for (from, links) in links.iter().enumerate() {
-            for (to, way) in links.iter().enumerate() {
-                match way {
-                    Way::Open => {}
-                    Way::Blocked => self.rates[from][to] = [0.0; 2],
-                    Way::Lost => self.rates[from][to] = NOTHING,
-                }
-            }
-            let mut others = links.iter().enumerate().filter(|(to, _)| *to != from);
-            if others.clone().any(|(_, way)| *way == Way::Lost) {
-                self.leaving[from] = NOTHING;
-            } else if others.all(|(_, way)| *way == Way::Blocked) {
-                self.leaving[from] = [0.0; 2];
-            }
-        }
-        self
-    }
-}
-
 impl Rates {
     /// What the finest mesh says.
     pub fn finest(&self) -> &MeshRates {
@@ -205,17 +147,6 @@ impl Rates {
         let of_bounds = usize::from(self.is_between_bounds);
         let meshes = &self.meshes[..self.meshes.len() - of_bounds];
         meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
-    }
-
-    /// Whether anything is known of a rate: a way was found between the two places, or contact
-    /// proves that there is none.
-    pub fn is_known(&self, from: usize, to: usize) -> bool {
-        self.links[from][to] != Way::Lost
-    }
-
-    /// The same of the rate out of a place, by all ways.
-    pub fn is_known_out(&self, from: usize) -> bool {
-        (0..self.links.len()).all(|to| to == from || self.is_known(from, to))
     }
 
     /// By how much a rate differs on the two finest meshes, relative. An estimate of the error, no
@@ -256,7 +187,7 @@ pub enum RatesError {
 
 /// Wells deeper than this, in kT, have no rates: weights that far apart are lost to rounding in sums
 /// over a mesh, and the times are many powers of ten of any table's life.
-const DEEPEST: f64 = 300.0;
+pub(super) const DEEPEST: f64 = 300.0;
 
 /// The rates between basins and `free`.
 ///
@@ -357,127 +288,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// What is known of ways between every two places, the last of which is `free`: from which basins a
-/// way leads there, which the mesh has no way out of, and what contact blocks.
-fn links(ways: &[Way], closed: &[bool], blocked: &[Vec<bool>]) -> Vec<Vec<Way>> {
-    let is_free = |place: usize| place == ways.len();
-    let is_open = |place: usize| is_free(place) || ways[place] == Way::Open;
-    let is_closed = |place: usize| !is_free(place) && closed[place];
-    let link = |from: usize, to: usize| match () {
-        () if from == to => Way::Open,
-        () if blocked[from][to] => Way::Blocked,
-        () if is_closed(from) || is_closed(to) || is_open(from) != is_open(to) => Way::Lost,
-        () => Way::Open,
-    };
-    let all = 0..=ways.len();
-    all.clone()
-        .map(|from| all.clone().map(|to| link(from, to)).collect())
-        .collect()
-}
-
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.
 pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
-}
-
-/// What a mesh with bounds says, these, and what is proved on it.
-type Certified = (Option<MeshRates>, Option<RateBounds>, Vec<Option<Leaving>>);
-
-/// What the finest of meshes that begin at contact says, and its bounds, if there are any. Energies
-/// are counted from `ground` (J), and `beyond` is the occupation of the table outside the mesh.
-fn bounded(
-    problem: &Problem,
-    settings: &RateSettings,
-    [ground, beyond]: [f64; 2],
-) -> Result<Option<Certified>, RatesError> {
-    let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
-    let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
-    let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok(None);
-    };
-    let mut all = narrowed(&mut field, &certify, |field| {
-        let places = Places::new(field, settings)?;
-        let nodes = Nodes::new(&field.mesh);
-        Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
-    })?;
-    let count = settings.basins.len() + 1;
-    let proved = proved(&mut field, settings);
-    Ok(all.pop().map(|step| {
-        let rates = step.bounds[count..].chunks(count);
-        let bounds = RateBounds {
-            leaving: step.bounds[..count].to_vec(),
-            rates: rates.map(<[_]>::to_vec).collect(),
-        };
-        (step.rates, Some(bounds), proved)
-    }))
-}
-
-/// What can be proved of how each basin is left, where that is asked for. Basins reach as high as on
-/// the mesh where they are reached, and below their limits where they are left.
-fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
-    let Some(asked) = settings.certify.and_then(|certify| certify.proof()) else {
-        return Vec::new();
-    };
-    let deep = field.level() - DEEP * field.kt;
-    let end = |basin: &Basin| Set {
-        at: basin.at,
-        below: basin.below.max(deep),
-        wide: basin.below.max(deep),
-    };
-    let basins = settings.basins.iter().enumerate();
-    basins
-        .map(|(own, basin)| {
-            let first = Set {
-                below: basin.below,
-                ..end(basin)
-            };
-            let others = settings.basins.iter().enumerate();
-            let others = others.filter(|(other, _)| *other != own);
-            let sets: Vec<Set> = [first]
-                .into_iter()
-                .chain(others.map(|(_, other)| end(other)))
-                .collect();
-            Some(Leaving {
-                capacity: proof::capacity(field, &sets, asked)?,
-                end_below: end(basin).below,
-            })
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Three basins: one with a way out, one that contact shuts in, one without a known way.
-    #[test]
-    fn nothing_is_claimed_without_a_way_and_none_where_contact_blocks_all() {
-        let ways = [Way::Open, Way::Blocked, Way::Lost];
-        let closed = [false, true, true];
-        let no_way = |from: usize, to: usize| (from == 1) != (to == 1);
-        let blocked: Vec<Vec<bool>> = (0..4)
-            .map(|from| (0..4).map(|to| no_way(from, to)).collect())
-            .collect();
-        let links = links(&ways, &closed, &blocked);
-        let bounds = RateBounds {
-            leaving: vec![[1.0, 2.0]; 4],
-            rates: vec![vec![[1.0, 2.0]; 4]; 4],
-        };
-        let known = bounds.known(&links);
-        let nothing = [0.0, f64::INFINITY];
-        assert_eq!(known.rates[0][3], [1.0, 2.0]);
-        assert_eq!(known.rates[3][0], [1.0, 2.0]);
-        for other in [0, 2, 3] {
-            assert_eq!(known.rates[1][other], [0.0; 2]);
-            assert_eq!(known.rates[other][1], [0.0; 2]);
-        }
-        for other in [0, 3] {
-            assert_eq!(known.rates[2][other], nothing);
-            assert_eq!(known.rates[other][2], nothing);
-        }
-        assert_eq!(known.leaving[1], [0.0; 2]);
-        for from in [0, 2, 3] {
-            assert_eq!(known.leaving[from], nothing);
-        }
-    }
 }

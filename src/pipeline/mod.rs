@@ -28,7 +28,17 @@ use crate::roadmap::{Roadmap, RoadmapSettings};
 /// The main job. The same design and settings give the same result on any number of threads, as
 /// long as the certificate keeps within its time.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
-    let problem = Arc::new(design.problem());
+    analyse_problem(design, design.problem(), settings, observer)
+}
+
+/// The same of a design's problem that has been set up.
+pub fn analyse_problem(
+    design: &Design,
+    problem: Problem,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Analysis {
+    let problem = Arc::new(problem);
     let roadmap = settings.roadmap(&problem);
     let mut clock = Clock::new(&problem, observer);
 

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection;
-use crate::landscape::{Barrier, Inventory, Kind, Place, Proportion};
+use crate::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
 use crate::report::figures::percent;
@@ -70,20 +70,19 @@ pub fn summary(
     text
 }
 
+/// What is said of states that were found and are not listed, the lowest of which has this energy.
+pub(super) fn left_out(left: LeftOut, lowest: &str) -> String {
+    let more = match left.kinds {
+        1 => "1 more kind of trap was".to_owned(),
+        kinds => format!("{kinds} more kinds of trap were"),
+    };
+    format!("{more} found, {lowest} at the lowest, and not looked at (--kinds N: the N deepest)")
+}
+
 /// Whether states may be missing from the list.
 fn write_completeness(text: &mut String, analysis: &Analysis) {
     if let Some(left) = analysis.counts.left_out {
-        let _ = writeln!(
-            text,
-            "{} more {} found, {} at the lowest, and not looked at (--kinds N: the N deepest)",
-            left.kinds,
-            if left.kinds == 1 {
-                "kind of trap was"
-            } else {
-                "kinds of trap were"
-            },
-            si(left.lowest, "J", 4)
-        );
+        let _ = writeln!(text, "{}", left_out(left, &si(left.lowest, "J", 4)));
     }
     let known = match &analysis.completeness {
         Ok(known) => known,

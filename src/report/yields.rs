@@ -31,7 +31,8 @@ pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {
         "yield": finite(best.bound),
         "yield_interval": best.interval.map(finite),
         "best_kT_J": best.kt,
-        "settings": found.outcomes.iter().map(outcome).collect::<Value>(),
+        // By kT, in the order asked for; null where there is no answer, and why.
+        "settings": question.kts.iter().map(|kt| setting(found, *kt)).collect::<Value>(),
         // One kT after another, blind to the tiles, in equal slots; no schedule yields more than
         // the upper bound, not even one that sees the tiles.
         "mixture": found.mixture.as_ref().map(|(tiles, mixture)| json!({
@@ -50,9 +51,20 @@ pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {
     })
 }
 
+fn setting(found: &Yields, kt: f64) -> Value {
+    match found.outcomes.iter().find(|outcome| outcome.kt == kt) {
+        Some(found) => outcome(found),
+        None => {
+            let why = found.without.iter().find(|(other, _)| *other == kt);
+            json!({"kT_J": kt, "yield": null, "why_not": why.map(|it| it.1.to_string())})
+        }
+    }
+}
+
 fn outcome(outcome: &Outcome) -> Value {
     json!({
         "kT_J": outcome.kt,
+        "why_not": null,
         "yield": finite(outcome.bound),
         "yield_interval": outcome.interval.map(finite),
         "trapped": finite(outcome.trapped),
@@ -158,9 +170,10 @@ pub fn files(question: &Question, found: &Yields) -> Vec<(String, Vec<u8>)> {
 /// The sentence that answers.
 pub fn headline(design: &Design, question: &Question, found: &Yields) -> String {
     let best = found.best();
-    let among = match found.outcomes.len() {
-        1 => String::new(),
-        n => format!(", the best of {n} shakings"),
+    let among = match (found.outcomes.len(), found.without.len()) {
+        (1, _) => String::new(),
+        (n, 0) => format!(", the best of {n} shakings"),
+        (n, _) => format!(", the best of {n} shakings that have an answer"),
     };
     format!(
         "{}: {} of all pairs are bound after {} at kT = {}{among}",
@@ -196,8 +209,11 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
         "out of bond",
     ];
     let mut rows = vec![head.map(str::to_owned)];
-    rows.extend(found.outcomes.iter().map(row));
+    rows.extend(question.kts.iter().map(|kt| row(found, *kt)));
     write_table(&mut text, &rows);
+    for (_, why) in &found.without {
+        let _ = writeln!(text, "{why}");
+    }
     if let Some((tiles, mixture)) = &found.mixture {
         let kts = mixture.schedule.chunk_by(|a, b| a == b);
         let phases: Vec<String> = kts
@@ -246,7 +262,12 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
     text
 }
 
-fn row(outcome: &Outcome) -> [String; 7] {
+fn row(found: &Yields, kt: f64) -> [String; 7] {
+    let Some(outcome) = found.outcomes.iter().find(|outcome| outcome.kt == kt) else {
+        let mut row = std::array::from_fn(|_| "-".to_owned());
+        row[0] = si(kt, "J", 3);
+        return row;
+    };
     let time = |time: f64| match time.is_finite() {
         true => si(time, "s", 2),
         false => "never".to_owned(),

@@ -6,7 +6,7 @@ use super::{Question, YieldError};
 use crate::dynamics::MotionSettings;
 use crate::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
 use crate::kinetics::bond::Hold;
-use crate::kinetics::rates::{Basin, RateSettings, RatesError, rates};
+use crate::kinetics::rates::{Basin, RateSettings, rates};
 use crate::landscape::Inventory;
 use crate::pipeline::Analysis;
 use crate::problem::Problem;
@@ -129,20 +129,20 @@ pub(super) fn attached(
             (kind == 0 || Basin::holds(height, kt)).then_some(basin)
         })
         .collect();
-    Ok(solve(problem, &basins, kt, effort.motion.drag)?)
+    solve(problem, &basins, kt, effort.motion.drag)
 }
 
 /// The rates of overdamped motion at `kt` (J) and a drag rate (1/s) to the kinds of states with these
 /// basins; 0 to those that are `None`.
 ///
 /// # Errors
-/// As [`rates()`].
+/// As [`rates()`], and where nothing is known of the bond's rate, the first one.
 pub fn solve(
     problem: &Problem,
     basins: &[Option<Basin>],
     kt: f64,
     drag: f64,
-) -> Result<Attachments, RatesError> {
+) -> Result<Attachments, YieldError> {
     let held: Vec<Basin> = basins.iter().copied().flatten().collect();
     let settings = RateSettings {
         certify: None,
@@ -151,6 +151,9 @@ pub fn solve(
     let found = rates(problem, &settings)?;
     let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
     let free = settings.basins.len();
+    if !found.is_known(free, 0) {
+        return Err(YieldError::Lost);
+    }
     let mut place = 0;
     let solved = basins.iter().map(|basin| {
         basin.map_or([0.0; 2], |_| {

@@ -80,6 +80,23 @@ pub enum YieldError {
     /// The bond's basin has no volume.
     #[error("the bond has no play at all: shaken tiles never find it, and nothing is yielded")]
     NoPlay,
+    /// The mesh has no way into the bond, and contact does not prove that there is none.
+    #[error(
+        "no way into the bond was found, so that nothing is known of how fast tiles attach: count \
+         them in docking runs (--rates docking)"
+    )]
+    Lost,
+}
+
+impl YieldError {
+    /// Whether another kT may have an answer.
+    fn is_of_one_kt(&self) -> bool {
+        match self {
+            Self::Hot(..) | Self::Cold(_) => true,
+            Self::Rates(error) => matches!(error, RatesError::Joined(_) | RatesError::Cold(..)),
+            _ => false,
+        }
+    }
 }
 
 /// One kind of state at one setting.
@@ -143,6 +160,8 @@ pub struct Yields {
     pub crowd: Crowd,
     /// By kT, in the order asked for.
     pub outcomes: Vec<Outcome>,
+    /// The kT (J) that have none, and why; in the order asked for.
+    pub without: Vec<(f64, YieldError)>,
     /// Schedules of the settings, for this many tiles at most six; `None` for one setting.
     pub mixture: Option<(usize, Mixture)>,
 }
@@ -156,10 +175,10 @@ impl Yields {
     }
 }
 
-/// Answers a question about a design.
+/// Answers a question about a design, at those kT that have an answer.
 ///
 /// # Errors
-/// See [`YieldError`].
+/// See [`YieldError`]; what is of one kT only where no other is left.
 pub fn yields(
     design: &Design,
     question: &Question,
@@ -169,24 +188,21 @@ pub fn yields(
     let (problem, inventory) = (&analysis.problem, &analysis.inventory);
     let bond = Bond::new(problem, inventory)?;
     let hold = bond.hold();
-    if let Some(&hot) = question.kts.iter().find(|kt| !hold.holds_at(**kt)) {
-        // Tiles that fast meet things a million times in a run, and nothing comes of it.
-        return Err(YieldError::Hot(hot, hold.energy));
-    }
-    if let Some(&cold) = question.kts.iter().find(|kt| hold.is_too_cold(**kt)) {
-        return Err(YieldError::Cold(cold));
-    }
-    let coldest = question.kts.iter().copied().fold(f64::INFINITY, f64::min);
+    let usable = |kt: &&f64| hold.holds_at(**kt) && !hold.is_too_cold(**kt);
+    let coldest = question.kts.iter().filter(usable);
+    let coldest = coldest.copied().fold(f64::INFINITY, f64::min);
     let traps = traps(problem, inventory, coldest);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
-    let mut outcomes = Vec::new();
-    for (k, &kt) in question.kts.iter().enumerate() {
-        observer.stage(
-            question.effort.stage(),
-            k as f64 / question.kts.len() as f64,
-        );
+    let at = |kt: f64| {
+        if !hold.holds_at(kt) {
+            // Tiles that fast meet things a million times in a run, and nothing comes of it.
+            return Err(YieldError::Hot(kt, hold.energy));
+        }
+        if hold.is_too_cold(kt) {
+            return Err(YieldError::Cold(kt));
+        }
         let attached = attachment::attached(&analysis, &holds, kt, question)?;
         let shaking = Shaking {
             kt,
@@ -203,13 +219,29 @@ pub fn yields(
         {
             return Err(YieldError::NoPlay);
         }
-        outcomes.push(outcome(kt, states, attached, &crowd, tile_area, question));
+        Ok(outcome(kt, states, attached, &crowd, tile_area, question))
+    };
+    let (mut outcomes, mut without) = (Vec::new(), Vec::new());
+    for (k, &kt) in question.kts.iter().enumerate() {
+        observer.stage(
+            question.effort.stage(),
+            k as f64 / question.kts.len() as f64,
+        );
+        match at(kt) {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(error) if error.is_of_one_kt() => without.push((kt, error)),
+            Err(error) => return Err(error),
+        }
+    }
+    if let (true, Some((_, error))) = (outcomes.is_empty(), without.first()) {
+        return Err(error.clone());
     }
     let mixture = (outcomes.len() > 1).then(|| mixed(&outcomes, question, tile_area));
     Ok(Yields {
         tile_area,
         crowd,
         outcomes,
+        without,
         mixture,
     })
 }

@@ -319,6 +319,33 @@ fn bounds_hold_the_paper_tiles_exit() {
     assert!(found.bounds[0][1] > upper || found.bounds[0][0] < lower);
 }
 
+/// Cells that do not begin at contact are too coarse for what this well holds, 100 kT deep.
+#[test]
+fn far_below_the_passes_the_mean_time_lies_between_its_bounds() {
+    let design = designs::load("shapes/paper-tile.toml");
+    let problem = design.problem();
+    let start = Configuration::new(0.43, -0.04, 0.0);
+    let basin = 0.5 * problem.energy(&design.pair.bound);
+    let settings = ExitSettings {
+        tolerance: 0.3,
+        unknowns: 1,
+        certify: Some(Certify {
+            pieces: 0,
+            distance: 0.5,
+            unknowns: 20_000,
+        }),
+        ..ExitSettings::new(1.6e-4, start, basin, 0.61)
+    };
+    let found = exit(&problem, &design.pair.bound, &settings).unwrap();
+    let [lower, upper] = found.bracket().unwrap();
+    assert!(upper < 1.5 * lower, "{lower} {upper}");
+    assert!(lower <= found.time() && found.time() <= upper, "{found:?}");
+    assert!(
+        found.midway.is_some() && found.finest().time > upper,
+        "{found:?}"
+    );
+}
+
 fn double_well_basins() -> Vec<Basin> {
     let basin = |r: f64, below: f64| Basin { at: at(r), below };
     vec![basin(0.3, BASIN), basin(0.5, 0.0)]

@@ -233,7 +233,7 @@ def test_wrong_arguments_are_told(design):
         design.analyse(milestone=3)
     with pytest.raises(TypeError, match="seed"):
         design.analyse(seed="one")
-    for wrong in ({"milestones": 0}, {"tolerance": -1.0}, {"settled": 2.0}, {"milestones": 10**12}):
+    for wrong in ({"milestones": 0}, {"tolerance": -1.0}, {"settled": 2.0}, {"kinds": 0}, {"milestones": 10**12}):
         with pytest.raises(ValueError):
             design.analyse(**wrong)
 

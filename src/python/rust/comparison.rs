@@ -37,6 +37,7 @@ pub fn settings<'a>(
     given.finish()?;
     fault::count("milestones", settings.milestones)?;
     fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
+    fault::count("kinds", settings.most_kinds.unwrap_or(1))?;
     fault::fraction("settled", settings.settled)?;
     fault::positive("tolerance", settings.tolerance)?;
     job::check_memory(settings.milestones, settings.neighbours)?;

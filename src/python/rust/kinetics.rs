@@ -32,10 +32,10 @@ pub struct Asked {
 }
 
 impl Asked {
-    fn check(&self, design: &Design) -> PyResult<()> {
+    fn check(&self, design: &Design, problem: &Problem) -> PyResult<()> {
         let model = design.interaction.model;
         if self.prove
-            && let Some(why) = why_unprovable(&design.problem(), model)
+            && let Some(why) = why_unprovable(problem, model)
         {
             return Err(fault::value(why));
         }
@@ -65,7 +65,7 @@ pub fn exits<'py>(
     start: &Bound<'py, PyAny>,
     asked: &Asked,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check(design)?;
+    asked.check(design, problem)?;
     let start = barrier::pose(start)?;
     let bound = &design.pair.bound;
     let basin = asked
@@ -93,7 +93,7 @@ pub fn rates<'py>(
     asked: &Asked,
     traps: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check(design)?;
+    asked.check(design, &analysis.problem)?;
     let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
     let basins = places.iter().map(report::Place::basin).collect();
     let free_at = asked.free_at(design);
@@ -160,7 +160,9 @@ pub fn yielded<'py>(
     }
     let found = job::run(py, progress, |told| yields(design, question, told))?;
     let found = found.map_err(|error| match error {
-        YieldError::Docking(_) | YieldError::Hot(..) | YieldError::Cold(_) => fault::value(error),
+        YieldError::Docking(_) | YieldError::Hot(..) | YieldError::Cold(_) | YieldError::Lost => {
+            fault::value(error)
+        }
         _ => fault::run(error),
     })?;
     convert::json(

@@ -7,12 +7,13 @@ use serde_json::json;
 use super::pathways::Played;
 use super::{Column, Fact, Table, finite};
 use crate::design::Design;
-use crate::landscape::{Kind, LeftOut, Place};
+use crate::landscape::{Kind, Place};
 use crate::pipeline::Analysis;
 use crate::report::columns::{self, Cell, Output, StateRow};
 use crate::report::figures::percent;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
+use crate::report::summary::left_out;
 use crate::units::{si, si_range};
 
 /// Significant digits of numbers in tables.
@@ -107,16 +108,6 @@ fn fact(name: &str, value: String, note: String) -> Fact {
     }
 }
 
-/// States that were found and are not listed.
-fn left_out(left: LeftOut) -> String {
-    let lowest = minus(&si(left.lowest, "J", 4));
-    let more = match left.kinds {
-        1 => "1 more kind was".to_owned(),
-        kinds => format!("{kinds} more kinds were"),
-    };
-    format!("; {more} found, {lowest} at the lowest, and not looked at: --kinds asks for more")
-}
-
 /// Whether states may be missing from the list.
 fn completeness(analysis: &Analysis) -> Fact {
     let (value, note) = match &analysis.completeness {
@@ -143,7 +134,11 @@ fn completeness(analysis: &Analysis) -> Fact {
             }
         }
     };
-    let note = note + &analysis.counts.left_out.map(left_out).unwrap_or_default();
+    let note = note
+        + &analysis.counts.left_out.map_or(String::new(), |left| {
+            let lowest = minus(&si(left.lowest, "J", 4));
+            format!("; {}", left_out(left, &lowest))
+        });
     fact("list of states", value.to_owned(), note)
 }
 

@@ -34,6 +34,13 @@ impl Page {
             let note = format!("{tiles} tiles; no schedule yields more than {bound}");
             facts.push(fact("kT after kT", percent(mixture.value), &note));
         }
+        for (kt, why) in &found.without {
+            facts.push(fact(
+                &format!("at {}", si(*kt, "J", 3)),
+                "no answer".to_owned(),
+                &why.to_string(),
+            ));
+        }
         let pictures = yield_charts::all(question, found);
         Self {
             subtitle: headline(design, question, found),

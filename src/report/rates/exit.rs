@@ -27,7 +27,9 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
     let [time, bound] = exit.spread();
     json!({
         "diffusion_m2_s": motion.diffusion,
-        "mean_exit_s": finest.time / motion.diffusion,
+        "mean_exit_s": exit.time() / motion.diffusion,
+        // Midway between the bounds, as the mesh is too coarse for it, or what the mesh has.
+        "mean_exit_midway": exit.midway.is_some(),
         "mean_exit_bounds_s": bounds(motion, exit),
         // Proved are the inequalities, not the integrals over cells.
         "bounds_hold": exit.bracket().map(|_| "on the mesh"),
@@ -51,18 +53,26 @@ pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
     })
 }
 
+/// By how much the mean exit time may be off, relative, as far as meshes tell.
+fn error(exit: &Exit) -> f64 {
+    match (exit.midway, exit.bracket()) {
+        (Some(midway), Some([_, upper])) => upper / midway - 1.0,
+        _ => exit.spread()[0].max(exit.finest().error),
+    }
+}
+
 /// An exit in a few lines.
 pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit: &Exit) -> String {
     let finest = exit.finest();
     let [time, bound] = exit.spread().map(|spread| 100.0 * spread);
-    let mean = finest.time / motion.diffusion;
+    let mean = exit.time() / motion.diffusion;
     let share = 100.0 * finest.bound;
     let [x, y, theta] = asked.start.to_array();
     let mut text = format!(
         "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first in \
          {share:.1} % of all cases, free first in {:.1} %\n",
         design.name,
-        duration(mean, digits(exit.spread()[0].max(finest.error))),
+        duration(mean, digits(error(exit))),
         100.0 - share,
     );
     let _ = writeln!(
@@ -71,7 +81,7 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         si(asked.kt, "J", 4),
         motion.drag,
         si(motion.diffusion, "m²/s", 4),
-        area(finest.time),
+        area(exit.time()),
     );
     let _ = writeln!(
         text,
@@ -88,6 +98,14 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
         100.0 * finest.of_rims,
         100.0 * finest.error,
     );
+    if exit.midway.is_some() {
+        let _ = writeln!(
+            text,
+            "  this mesh has {}, which is not between the bounds below: what is told lies midway \
+             between them",
+            duration(finest.time / motion.diffusion, 2),
+        );
+    }
     if exit.way != Way::Open {
         let _ = writeln!(text, "  {}", exit.way.told());
     }
@@ -128,7 +146,7 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
 
 /// What moving tiles say of an exit, as an object; ratios are theirs over the overdamped motion's.
 pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
-    let mean = exit.finest().time / motion.diffusion;
+    let mean = exit.time() / motion.diffusion;
     let [bound, free] = runs.ends;
     json!({
         "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
@@ -145,7 +163,7 @@ const WARM: f64 = 0.1;
 
 /// What moving tiles say of an exit, in a few lines.
 pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
-    let mean = exit.finest().time / motion.diffusion;
+    let mean = exit.time() / motion.diffusion;
     let [bound, free] = runs.ends;
     let [time, error] = runs.time;
     let mut text = format!(

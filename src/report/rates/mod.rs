@@ -1,9 +1,11 @@
 //! Exits and rates of overdamped motion, for people and for programs.
 
+mod csv;
 mod exit;
 mod files;
 mod over_kt;
 mod place;
+mod summary;
 mod table;
 
 pub use exit::{check_entry, check_summary, exit_entry, exit_summary};

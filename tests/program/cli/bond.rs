@@ -72,6 +72,44 @@ fn what_is_wrong_with_a_shaking_is_told() {
     }
 }
 
+/// Of a list the kT that have an answer get one; of the others it is said why they have none.
+#[test]
+fn shakings_without_an_answer_leave_the_others_theirs() {
+    let file = design(PAPER);
+    let asked = |kts: &str| {
+        vec![
+            "yield".to_owned(),
+            file.clone(),
+            format!("--kt={kts}"),
+            "--tiles=4".to_owned(),
+            "--time=60".to_owned(),
+            "--runs=10".to_owned(),
+            "--duration=0.5".to_owned(),
+            "--simulations=0".to_owned(),
+        ]
+    };
+    let told = asked("1e-9,3e-3,1");
+    let told: Vec<&str> = told.iter().map(String::as_str).collect();
+    let found = json(&[&told[..], &["--json"]].concat());
+    let settings = found["settings"].as_array().unwrap();
+    let kts: Vec<f64> = settings
+        .iter()
+        .map(|it| it["kT_J"].as_f64().unwrap())
+        .collect();
+    assert_eq!(kts, [1e-9, 3e-3, 1.0]);
+    assert!(settings[0]["yield"].is_null() && settings[2]["yield"].is_null());
+    assert!(settings[1]["yield"].is_number() && settings[1]["why_not"].is_null());
+    let why = |k: usize| settings[k]["why_not"].as_str().unwrap().to_owned();
+    assert!(why(0).contains("choose a larger --kt"), "{}", why(0));
+    assert!(why(2).contains("below 32.7 mJ"), "{}", why(2));
+    assert_eq!(found["best_kT_J"], 3e-3);
+    let alone = json(&[&told[..2], &["--kt=3e-3"], &told[3..], &["--json"]].concat());
+    assert_eq!(alone["settings"][0], settings[1]);
+    let output = tilebind(&told);
+    assert!(output.status.success());
+    assert!(stdout(&output).contains("at kT = 1.000 J the bond"));
+}
+
 #[test]
 fn a_yield_with_its_three_views() {
     let file = design(PAPER);

@@ -113,15 +113,42 @@ fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
     let tiles = ["--tiles", "10", "--time", "600"];
     for (command, kt, more, said) in [
         ("yield", "1e3", &tiles[..], "choose a --kt below 32.7 mJ"),
-        ("yield", "3e-3,1e3", &tiles, "kT = 1.000 kJ"),
+        ("yield", "1e2,1e3", &tiles, "kT = 100.0 J"),
         ("yield", "1e-9", &tiles, "choose a larger --kt"),
         ("rates", "1e-9", &[], "choose a larger --kt"),
+        (
+            "rates",
+            "5e-5",
+            &["--start", "0.43,-0.04,0"],
+            "the start is 321 kT deep",
+        ),
     ] {
         refused(
             &[&[command, "shapes/paper-tile.toml", "--kt", kt][..], more].concat(),
             &[said],
         );
     }
+}
+
+/// A dovetail does not come out sideways: contact proves that, so that the rates are 0 and known to be.
+#[test]
+fn of_a_bond_that_contact_shuts_in_the_rates_are_known_to_be_none() {
+    let dovetail = ["rates", "shapes/dovetail.toml", "--kt", "3e-3"];
+    let entry = json(&[&dovetail[..], &["--json"]].concat());
+    for rate in entry["rates"].as_array().unwrap() {
+        for key in ["lower_per_s", "value_per_s", "upper_per_s"] {
+            assert_eq!(rate[key], 0.0, "{rate}");
+        }
+        assert!(rate["first"].is_null() && rate["mean_first_passage_s"].is_null());
+    }
+    let bond = &entry["places"][0];
+    assert_eq!(bond["way_out"], "blocked");
+    assert_eq!(bond["leaving_bounds_per_s"], serde_json::json!([0.0, 0.0]));
+    assert!(bond["mean_exit_s"].is_null());
+    let output = tilebind(&dovetail);
+    let text = stdout(&output);
+    assert!(text.contains("no tile ever binds or comes off: contact blocks every way"));
+    assert!(!text.contains("at most"), "{text}");
 }
 
 /// Square teeth slide into each other without any play: no mesh has a way there, and none is excluded.

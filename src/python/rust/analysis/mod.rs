@@ -49,6 +49,7 @@ fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyR
     given.finish()?;
     fault::count("milestones", settings.milestones)?;
     fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
+    fault::count("kinds", settings.most_kinds.unwrap_or(1))?;
     fault::count("repeats", settings.repeats)?;
     fault::positive("boltzmann", settings.boltzmann)?;
     fault::positive("thermal_energy", settings.thermal_energy)?;
