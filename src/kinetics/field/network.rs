@@ -7,6 +7,10 @@ use rayon::prelude::*;
 use super::Field;
 use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
 
+/// Powers of e by which the density of a flux falls over a cell, at most: over more of them it would
+/// hardly follow.
+const MOST: f64 = 4.0;
+
 /// What fluxes cost in cells (1/rad), as far as it is known.
 #[derive(Default)]
 pub(super) struct Costs {
@@ -60,7 +64,7 @@ impl Field<'_> {
         let new: Vec<usize> = cells.filter(is_new).collect();
         let found = self.resistances(&new, |id| spreads[id]);
         for (id, cost) in new.into_iter().zip(found) {
-            costs.local[id] = Some(cost);
+            costs.local[id] = Some(Box::new(cost));
         }
         costs.spreads = spreads;
         Network::new(&self.mesh, nodes, pins, rim, &costs.spreads, &costs.local)
@@ -93,13 +97,11 @@ impl Field<'_> {
         &self,
         cells: &[usize],
         spread: impl Fn(usize) -> Spread + Sync,
-    ) -> Vec<Box<Resistance>> {
+    ) -> Vec<Resistance> {
         let resistance = |&id: &usize| {
             let leaf = &self.mesh.leaves[id];
-            let of = self
-                .integrator
-                .resistance(&self.mesh.chart, leaf, &spread(id));
-            Box::new(of)
+            self.integrator
+                .resistance(&self.mesh.chart, leaf, &spread(id))
         };
         cells.par_iter().map(resistance).collect()
     }
@@ -137,12 +139,8 @@ impl Field<'_> {
         let new: Vec<usize> = cells.filter(|id| of[*id].is_none()).collect();
         let found = self.resistances(&new, |_| Spread::even(profile));
         for (id, cost) in new.into_iter().zip(found) {
-            of[id] = Some(cost);
+            of[id] = Some(Box::new(cost));
         }
         (profile, costs)
     }
 }
-
-/// Powers of e by which the density of a flux falls over a cell, at most: over more of them it would
-/// hardly follow.
-const MOST: f64 = 4.0;

@@ -52,6 +52,8 @@ pub fn over_kt(
         };
         let finest = found.as_ref().map(Rates::finest);
         let rate = |place: usize| -> Option<f64> {
+            // Where no way was found nothing is known.
+            found.as_ref().filter(|found| found.is_known_out(place))?;
             Some(finest?.rates[place].iter().sum::<f64>() * motion.diffusion)
         };
         let by_corner = |place: usize| -> Option<f64> {

@@ -188,6 +188,9 @@ fn of_a_bond_without_a_known_way_nothing_is_claimed() {
     assert!(entry["mesh"]["error"].is_null());
     let table = std::fs::read_to_string(out.join("rates.csv")).unwrap();
     assert!(table.contains("\nbond A,free,,,,,,,"), "{table}");
+    for at in entry["over_kT"].as_array().unwrap() {
+        assert!(at["leaving_per_s"]["bond A"].is_null(), "{at}");
+    }
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("no way into the bond was found"));
     for wrong in [" 0 /s", "inf", "NaN", "e0 %"] {
