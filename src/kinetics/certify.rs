@@ -36,6 +36,9 @@ pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     ))
 }
 
+/// Part of the distance asked for to which meshes are refined where bounds are to be proved: fluxes
+/// are laid in the same way all over the mesh then, and cost more.
+const TO_PROVE: f64 = 0.6;
 /// Share of the distance asked for that integrals' enclosures may take.
 const OF_INTEGRALS: f64 = 0.5;
 
@@ -76,6 +79,14 @@ impl Certify {
         }
     }
 
+    /// How near each other bounds are to be on a mesh.
+    fn on_mesh(&self) -> f64 {
+        match self.pieces {
+            0 => self.distance,
+            _ => TO_PROVE * self.distance,
+        }
+    }
+
     /// How closely integrals are to be enclosed, if bounds are to be proved.
     pub(super) fn proof(&self) -> Option<Closeness> {
         (self.pieces > 0).then_some(Closeness {
@@ -109,6 +120,7 @@ pub(super) fn narrowed<E>(
     certify: &Certify,
     step: impl Fn(&mut Field) -> Result<Option<Step>, E>,
 ) -> Result<Vec<Step>, E> {
+    let goal = certify.on_mesh();
     let mut all: Vec<Step> = Vec::new();
     loop {
         let Some(found) = step(field)? else {
@@ -118,9 +130,9 @@ pub(super) fn narrowed<E>(
         let distances = deciding.map(|[lower, upper]| upper / lower - 1.0);
         // What is no number is far, too.
         let farthest = distances.fold(0.0, |far: f64, one| if one <= far { far } else { one });
-        let is_done = farthest <= certify.distance || found.unknowns > certify.unknowns;
+        let is_done = farthest <= goal || found.unknowns > certify.unknowns;
         // Cells that are divided keep about a third of their share.
-        let missing = 1.5 * (1.0 - certify.distance / farthest) + MARGIN;
+        let missing = 1.5 * (1.0 - goal / farthest) + MARGIN;
         let part = if missing < DIVIDED { missing } else { DIVIDED };
         let is_done = is_done || !field.refine(&found.shares, part);
         all.push(found);

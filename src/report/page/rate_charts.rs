@@ -25,12 +25,13 @@ const FAINT: f64 = 0.05;
 /// The pictures: stem of the file, title, SVG.
 pub fn all(table: &Table, over_kt: &[AtKt]) -> Vec<(&'static str, &'static str, String)> {
     let mut all = Vec::new();
-    if let Some(map) = &table.found.map {
+    if let Some(map) = table.map() {
         let title =
             "Committor: how often the bond comes before free, and where the flux into it goes";
         all.push(("committor", title, committor(table, map)));
     }
-    if !over_kt.is_empty() {
+    let mut rates_known = over_kt.iter().flat_map(|at| &at.leaving).flatten();
+    if rates_known.any(|rate| *rate > 0.0) {
         let title = "Rates out of states over kT; dotted: with the wells as corners in closed form";
         all.push(("rates", title, rates(table, over_kt)));
     }

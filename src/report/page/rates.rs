@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
 use crate::report::rates::{
-    AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, per_second, share,
+    AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, outwards, per_second, share,
 };
 use crate::units::{duration, si};
 
@@ -40,11 +40,12 @@ impl Page {
         ];
         for (number, place) in table.places.iter().enumerate() {
             let note = match table.bounds_out(number) {
+                [_, Some(0.0)] => "contact blocks every way".to_owned(),
                 [Some(lower), Some(upper)] => {
-                    let [lower, upper] = [lower, upper].map(|end| per_second(end, 3));
+                    let [lower, upper] = outwards([lower, upper]).map(|end| per_second(end, 3));
                     format!("between {lower} and {upper}")
                 }
-                [_, Some(upper)] => format!("at most {}", per_second(upper, 3)),
+                [_, Some(upper)] => format!("at most {}", per_second(outwards([0.0, upper])[1], 3)),
                 _ => "no bounds".to_owned(),
             };
             let name = format!("{} is left", place.name);
@@ -105,6 +106,8 @@ fn of_pairs(table: &Table) -> Sorted {
     };
     let row = |(from, to): (usize, usize)| {
         let [lower, upper] = table.bounds(from, to);
+        let lower = lower.map(|lower| outwards([lower, lower])[0]);
+        let upper = upper.map(|upper| outwards([upper, upper])[1]);
         let digits = table.digits(from, to);
         let time = table.mean_first_passage(from, to);
         vec![

@@ -50,7 +50,7 @@ pub fn files(table: &Table, over_kt: &[AtKt]) -> Vec<(String, Vec<u8>)> {
     if let Some(proved) = table.proved_csv() {
         files.push(("proved.csv".to_owned(), proved.into_bytes()));
     }
-    if let Some(map) = &table.found.map {
+    if let Some(map) = table.map() {
         files.push(("committor.csv".to_owned(), squares(map).into_bytes()));
     }
     let pictures = rate_charts::all(table, over_kt).into_iter();

@@ -80,14 +80,34 @@ fn mean_exit(motion: &Motion, proved: &Capacity) -> [f64; 2] {
     proved.mean_exit().map(|end| end / motion.diffusion)
 }
 
+/// Bounds rounded outwards, to three digits of either.
+pub(in crate::report) fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
+    let unit = |end: f64| 10f64.powi(end.log10().floor() as i32 - 2);
+    let to = |end: f64, round: fn(f64) -> f64| match end > 0.0 && end.is_finite() {
+        true => round(end / unit(end)) * unit(end),
+        false => end,
+    };
+    [to(lower, f64::floor), to(upper, f64::ceil)]
+}
+
+/// As many digits of a value, from `digits` on, as keep it between its bounds.
+fn digits_between(value: f64, digits: usize, [lower, upper]: [Option<f64>; 2]) -> usize {
+    /// More are not told.
+    const MOST: usize = 6;
+    let is_between = |digits: &usize| {
+        let told: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+        lower.is_none_or(|lower| lower <= told) && upper.is_none_or(|upper| told <= upper)
+    };
+    (digits..MOST).find(is_between).unwrap_or(MOST)
+}
+
 /// Proved bounds in words, rounded outwards: how often per second.
 fn proved_words([lower, upper]: [f64; 2]) -> String {
-    let order = upper.log10().floor() as i32;
-    let unit = 10f64.powi(order - 2);
-    let [low, high] = [(lower / unit).floor() * unit, (upper / unit).ceil() * unit];
-    let apart = apart([lower, upper]);
-    let [low, high] = [low, high].map(|end| plain(end, 3));
-    format!("{low} to {high} times per second ({apart} apart)")
+    let [low, high] = outwards([lower, upper]).map(|end| plain(end, 3));
+    format!(
+        "{low} to {high} times per second ({} apart)",
+        apart([lower, upper])
+    )
 }
 
 /// Bounds that are farther apart than so many times say nothing worth telling.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{
     NO_BOUNDS, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, Table, apart, mean_exit_words,
-    per_second, share,
+    outwards, per_second, share,
 };
 use crate::kinetics::Way;
 use crate::kinetics::bond::LEAST_DEPTH;
@@ -135,7 +135,12 @@ impl Table<'_> {
                 let name = self.name(number);
                 match self.bounds_out(number)[1] {
                     Some(0.0) => format!("{name} never"),
-                    Some(upper) => format!("{name} at most {}", per_second(upper, 3)),
+                    Some(upper) => {
+                        format!(
+                            "{name} at most {}",
+                            per_second(outwards([0.0, upper])[1], 3)
+                        )
+                    }
                     None => format!("{name} unknown"),
                 }
             });

@@ -3,10 +3,11 @@
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-use super::{Motion, NOT_BOUNDED, Place, digits, finite, proved_entry};
+use super::{Motion, NOT_BOUNDED, Place, digits, digits_between, finite, proved_entry};
 use crate::design::Design;
 use crate::kinetics::Way;
 use crate::kinetics::chain::Chain;
+use crate::kinetics::map::Map;
 use crate::kinetics::rates::{Leaving, RateSettings, Rates};
 use crate::report::values;
 
@@ -31,6 +32,12 @@ impl Table<'_> {
 
     pub(in crate::report) fn name(&self, place: usize) -> &str {
         self.places.get(place).map_or("free", |place| &place.name)
+    }
+
+    /// The map of the committor, where tiles come to the bond at all.
+    pub(in crate::report) fn map(&self) -> Option<&Map> {
+        let bind = self.known_rate(self.places.len(), 0)?;
+        self.found.map.as_ref().filter(|_| bind > 0.0)
     }
 
     /// Rate (1/s) from one place to another, where anything is known of it.
@@ -66,10 +73,12 @@ impl Table<'_> {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
-    /// How many digits of a rate are known, as far as meshes tell.
+    /// How many digits of a rate are known, as far as meshes tell; or as many as keep it between its
+    /// bounds.
     pub(in crate::report) fn digits(&self, from: usize, to: usize) -> usize {
         let spread = finite(self.found.spread(from, to)).unwrap_or(0.0);
-        digits(spread.max(self.found.error()))
+        let known = digits(spread.max(self.found.error()));
+        digits_between(self.rate(from, to), known, self.bounds(from, to))
     }
 
     /// How many digits of the rate out of a place are known: as many as of the largest that it is made
@@ -77,7 +86,8 @@ impl Table<'_> {
     pub(in crate::report) fn digits_out(&self, from: usize) -> usize {
         let others = (0..self.count()).filter(|to| *to != from);
         let largest = others.max_by(|a, b| self.rate(from, *a).total_cmp(&self.rate(from, *b)));
-        largest.map_or(1, |to| self.digits(from, to))
+        let known = largest.map_or(1, |to| self.digits(from, to));
+        digits_between(self.rate_out(from), known, self.bounds_out(from))
     }
 
     /// Bounds (1/s) of the rate from one place to another, where there are any.
