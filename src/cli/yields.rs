@@ -23,7 +23,9 @@ use super::{Failure, input, interrupt, tell_of_kept};
 Half of the tiles are of the fixed tile's kind, half of the moving one's; each binds one partner at
 most. Attachment rates are counted in docking runs of shaken tiles (or, with --rates overdamped, solved
 for overdamped motion as `tilebind rates` does), detachment rates follow by detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
-that has a temperature: contact that swallows energy, which shaking does not give back, has none.
+that has a temperature: contact that swallows energy, which shaking does not give back, has none. Of
+several kT those at which the bond holds nothing, or moves less than contact is known, are left out, and
+it is said why.
 
 Examples:
   tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
