@@ -151,5 +151,5 @@ fn kinds_that_are_left_out_are_told_of() {
     let kinds = left["kinds"].as_u64().unwrap();
     assert!(kinds > 0 && left["lowest_J"].as_f64().unwrap() < 0.0);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains(&format!("{kinds} more kinds were found")));
+    assert!(page.contains(&format!("{kinds} more kinds of trap were found")));
 }
