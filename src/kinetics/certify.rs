@@ -36,9 +36,9 @@ pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     ))
 }
 
-/// Part of the distance asked for to which meshes are refined where bounds are to be proved: fluxes
-/// are laid in the same way all over the mesh then, and cost more.
-const TO_PROVE: f64 = 0.6;
+/// Where bounds are to be proved they are no farther apart on the mesh: fluxes are laid in the same
+/// way all over it then, and cost more.
+const TO_PROVE: f64 = 0.5;
 /// Share of the distance asked for that integrals' enclosures may take.
 const OF_INTEGRALS: f64 = 0.5;
 
@@ -83,7 +83,7 @@ impl Certify {
     fn on_mesh(&self) -> f64 {
         match self.pieces {
             0 => self.distance,
-            _ => TO_PROVE * self.distance,
+            _ => self.distance.min(TO_PROVE),
         }
     }
 
