@@ -9,7 +9,7 @@ use super::page::yield_charts;
 use super::terminal::write_table;
 use super::writer::PICTURES;
 use crate::design::Design;
-use crate::units::si;
+use crate::units::{duration, si};
 use crate::yields::attachment::Source;
 use crate::yields::{Outcome, Question, StateRates, Yields};
 
@@ -269,7 +269,7 @@ fn row(found: &Yields, kt: f64) -> [String; 7] {
         return row;
     };
     let time = |time: f64| match time.is_finite() {
-        true => si(time, "s", 2),
+        true => duration(time, 2),
         false => "never".to_owned(),
     };
     [
