@@ -155,7 +155,7 @@ const HELD: f64 = 10.0;
 pub struct Heading {
     /// The motion's direction, of length 1 in the mass metric.
     pub direction: Vector3<f64>,
-    /// The part of the force that contact takes, in units of what it leaves, but [`HELD`] at most.
+    /// The part of the force that contact takes, in units of what it leaves, but ten times that at most.
     pub held: Vector3<f64>,
     /// The contacts pressed on.
     pub pressed: Vec<Touch>,
