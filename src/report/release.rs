@@ -6,7 +6,7 @@ use super::docking::rate_entry;
 use super::json;
 use crate::design::Design;
 use crate::dynamics::docking::{DockingSettings, Release, off_rate};
-use crate::units::si;
+use crate::units::{plain, si};
 
 /// The off-rate, and everything that reproduces it.
 pub fn json(design: &Design, settings: &DockingSettings, releases: &[Release]) -> String {
@@ -42,14 +42,14 @@ pub fn summary(design: &Design, settings: &DockingSettings, releases: &[Release]
         (_, false) => "times between detachments refute an exponential distribution".to_owned(),
     };
     format!(
-        "{}: bound tiles shaken at kT = {} come loose {:.3e} times a second ({:.3e} to {:.3e})\n  \
+        "{}: bound tiles shaken at kT = {} come loose {} times a second ({} to {})\n  \
          {} of {} left the bond within {} each; {exponential}\n  drag {} per s, restitution {}; \
          the rate is of these, and of no temperature alone\n",
         design.name,
         si(kt, "J", 3),
-        rate.rate,
-        rate.interval[0],
-        rate.interval[1],
+        plain(rate.rate, 3),
+        plain(rate.interval[0], 3),
+        plain(rate.interval[1], 3),
         rate.attachments,
         releases.len(),
         si(settings.duration, "s", 3),
