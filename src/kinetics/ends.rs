@@ -5,7 +5,7 @@ use super::certify::Step;
 use super::corridor::Way;
 use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
-use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
+use super::mesh::{Nodes, System, Unsolved, loads};
 use super::proof::Set;
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
@@ -120,13 +120,12 @@ impl Ends {
     /// For each corner whether its value is given. Where ends meet, which they do on coarse meshes
     /// only, being free comes first.
     fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Pin> {
-        let outer = field.mesh.chart.cells[0] * UNITS;
         let mut pins = vec![Pin::None; nodes.len()];
         for (id, leaf, _) in field.mesh.live() {
             let in_well = well.is_some_and(|well| well[id]);
             for (number, &node) in nodes.corners[id].iter().enumerate() {
                 let pin = &mut pins[node as usize];
-                if leaf.corner(number)[0] == outer {
+                if field.mesh.chart.is_outer(leaf.corner(number)) {
                     *pin = Pin::Free;
                 } else if self.bound[id] {
                     *pin = Pin::Bound;

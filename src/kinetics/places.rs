@@ -3,7 +3,7 @@
 use super::bracket::{Asked, Bounded, Bracket};
 use super::certify::Step;
 use super::field::{Earlier, Field};
-use super::mesh::{Nodes, System, UNITS, Unsolved, loads};
+use super::mesh::{Nodes, System, Unsolved, loads};
 use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
@@ -96,19 +96,7 @@ impl Places {
 
     /// For each corner the place in which its value is given.
     fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
-        let outer = field.mesh.chart.cells[0] * UNITS;
-        let mut pins = vec![None; nodes.len()];
-        for (id, leaf, _) in field.mesh.live() {
-            for (number, &node) in nodes.corners[id].iter().enumerate() {
-                let pin = &mut pins[node as usize];
-                if leaf.corner(number)[0] == outer {
-                    *pin = Some(self.count - 1);
-                } else if pin.is_none() {
-                    *pin = self.of[id];
-                }
-            }
-        }
-        pins
+        nodes.pins(&field.mesh, self.count - 1, |id| self.of[id])
     }
 
     /// The rates on a mesh, and the committors of all places but `free`. `beyond` is the occupation

@@ -5,11 +5,11 @@ use std::collections::BinaryHeap;
 
 use ordered_float::OrderedFloat;
 
-use super::mesh::{Leaf, Octree, UNITS};
+use super::mesh::{Leaf, Octree};
 
 /// Whether a cell lies along the outer end of the chart.
 pub(super) fn is_at_the_rim(mesh: &Octree, leaf: &Leaf) -> bool {
-    leaf.low[0] + leaf.size() == mesh.chart.cells[0] * UNITS
+    mesh.chart.is_outer(leaf.corner(7))
 }
 
 /// The cells joined to some of `from` by cells whose mean lies below an energy (J); those of `from`

@@ -189,7 +189,7 @@ pub(super) fn step_along(
     let (straight, settled) = if problem.has_room(&point.q, margin) {
         (wanted, point.q.moved(wanted))
     } else {
-        slid(problem, point, heading, size)?
+        slid(problem, point, heading, (size, margin))?
     };
     let promised = point.gradient.dot(&straight);
     let next = Point::new(problem, settled);
@@ -197,16 +197,15 @@ pub(super) fn step_along(
     (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
 }
 
-/// A step of `size` (m, mass metric) among contacts, straight, and where it ends with those that it
-/// presses on kept closed; `None` where it does not lead to a free configuration by a free motion.
+/// A step of `size` (m, mass metric) among contacts within a margin (m), straight, and where it ends with
+/// those that it presses on kept closed; `None` where it does not lead to a free configuration by a free motion.
 fn slid(
     problem: &Problem,
     point: &Point,
     heading: &Heading,
-    size: f64,
+    (size, margin): (f64, f64),
 ) -> Option<(Vector3<f64>, Configuration)> {
     let metric = problem.mass_metric(point.q.theta);
-    let margin = reach(problem, &(heading.direction * size)) + MARGIN;
     let near = constraints(problem, &point.q, margin);
     // All of the force: contacts that the step meets may take from those it starts with.
     let force = heading.direction + heading.held;

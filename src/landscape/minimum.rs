@@ -131,14 +131,16 @@ fn follow(
             return Outcome::Free;
         }
         let along = motion.take().or_else(|| downhill(problem, &here));
-        let bent = along.as_ref().map(|along| bent(along, &before, size));
-        let next = bent
-            .as_ref()
-            .and_then(|bent| step_along(problem, &here, bent, size))
-            .map(|next| (next, downhill(problem, &next)));
+        let next = along.as_ref().and_then(|along| {
+            let bent = bent(along, &before, size);
+            let next = step_along(problem, &here, &bent, size)?;
+            let after = downhill(problem, &next);
+            let strays = |after| strays(problem, &here, [along, &bent, after], size);
+            let strays = after.as_ref().map_or(0.0, strays);
+            Some((next, after, strays))
+        });
         match next {
-            Some((next, after)) => {
-                let strays = strays(problem, &here, [&along, &bent, &after], size);
+            Some((next, after, strays)) => {
                 // Of second order: the error goes with the cube of the size.
                 let fitting = size * (0.8 * (aside / strays).cbrt()).clamp(0.3, 1.5);
                 if strays <= aside || size <= SHORT {
@@ -196,15 +198,7 @@ fn bent(along: &Heading, before: &Option<(Heading, f64)>, size: f64) -> Heading 
 
 /// How far (m, mass metric) a step of `size` from a point along `bent` ends beside the motion that has
 /// the directions `from` and `to` at its ends.
-fn strays(
-    problem: &Problem,
-    point: &Point,
-    [from, bent, to]: [&Option<Heading>; 3],
-    size: f64,
-) -> f64 {
-    let (Some(from), Some(bent), Some(to)) = (from, bent, to) else {
-        return 0.0;
-    };
+fn strays(problem: &Problem, point: &Point, [from, bent, to]: [&Heading; 3], size: f64) -> f64 {
     let metric = problem.mass_metric(point.q.theta);
     let error = (from.direction + to.direction) / 2.0 - bent.direction;
     let beside = error - to.direction * to.direction.dot(&(metric * error));

@@ -52,12 +52,9 @@ pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {
 }
 
 fn setting(found: &Yields, kt: f64) -> Value {
-    match found.outcomes.iter().find(|outcome| outcome.kt == kt) {
-        Some(found) => outcome(found),
-        None => {
-            let why = found.without.iter().find(|(other, _)| *other == kt);
-            json!({"kT_J": kt, "yield": null, "why_not": why.map(|it| it.1.to_string())})
-        }
+    match found.at(kt) {
+        Ok(found) => outcome(found),
+        Err(why) => json!({"kT_J": kt, "yield": null, "why_not": why.map(ToString::to_string)}),
     }
 }
 
@@ -263,7 +260,7 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
 }
 
 fn row(found: &Yields, kt: f64) -> [String; 7] {
-    let Some(outcome) = found.outcomes.iter().find(|outcome| outcome.kt == kt) else {
+    let Ok(outcome) = found.at(kt) else {
         let mut row = std::array::from_fn(|_| "-".to_owned());
         row[0] = si(kt, "J", 3);
         return row;

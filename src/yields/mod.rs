@@ -167,6 +167,15 @@ pub struct Yields {
 }
 
 impl Yields {
+    /// What was found at one of the kT (J) asked for, or why there is no answer.
+    pub fn at(&self, kt: f64) -> Result<&Outcome, Option<&YieldError>> {
+        let found = self.outcomes.iter().find(|outcome| outcome.kt == kt);
+        found.ok_or_else(|| {
+            let mut without = self.without.iter();
+            without.find(|(other, _)| *other == kt).map(|(_, why)| why)
+        })
+    }
+
     /// The setting that yields most.
     pub fn best(&self) -> &Outcome {
         let all = self.outcomes.iter();
@@ -188,20 +197,22 @@ pub fn yields(
     let (problem, inventory) = (&analysis.problem, &analysis.inventory);
     let bond = Bond::new(problem, inventory)?;
     let hold = bond.hold();
-    let usable = |kt: &&f64| hold.holds_at(**kt) && !hold.is_too_cold(**kt);
-    let coldest = question.kts.iter().filter(usable);
-    let coldest = coldest.copied().fold(f64::INFINITY, f64::min);
+    let refused = |kt: f64| match () {
+        // Tiles that fast meet things a million times in a run, and nothing comes of it.
+        () if !hold.holds_at(kt) => Some(YieldError::Hot(kt, hold.energy)),
+        () if hold.is_too_cold(kt) => Some(YieldError::Cold(kt)),
+        () => None,
+    };
+    let usable = question.kts.iter().copied();
+    let usable = usable.filter(|kt| refused(*kt).is_none());
+    let coldest = usable.fold(f64::INFINITY, f64::min);
     let traps = traps(problem, inventory, coldest);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
     let at = |kt: f64| {
-        if !hold.holds_at(kt) {
-            // Tiles that fast meet things a million times in a run, and nothing comes of it.
-            return Err(YieldError::Hot(kt, hold.energy));
-        }
-        if hold.is_too_cold(kt) {
-            return Err(YieldError::Cold(kt));
+        if let Some(why) = refused(kt) {
+            return Err(why);
         }
         let attached = attachment::attached(&analysis, &holds, kt, question)?;
         let shaking = Shaking {

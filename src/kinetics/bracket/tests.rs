@@ -1,9 +1,7 @@
 //! Gaps of functions and fluxes.
 
 use super::*;
-use crate::configuration::Configuration;
 use crate::design::Design;
-use crate::kinetics::mesh::UNITS;
 
 /// What a function and a flux are apart by is known cell by cell and, otherwise, in all: of the
 /// mean time by what the flux costs and what the function holds, which is nothing less than 0 and
@@ -16,20 +14,8 @@ fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
     let field = Field::fitted(&problem, 8e-3, 0.61, 0.0, &[bond]).unwrap();
     let mesh = &field.mesh;
     let nodes = Nodes::new(mesh);
-    let outer = mesh.chart.cells[0] * UNITS;
-    let mut pins = vec![None; nodes.len()];
-    for (id, leaf, _) in mesh.live() {
-        for (number, &node) in nodes.corners[id].iter().enumerate() {
-            if leaf.corner(number)[0] == outer {
-                pins[node as usize] = Some(1);
-            }
-        }
-    }
-    for cell in mesh.holding(&Configuration::new(bond.x, bond.y, bond.theta)) {
-        for &node in &nodes.corners[cell] {
-            pins[node as usize] = Some(0);
-        }
-    }
+    let held = mesh.holding(&bond);
+    let pins = nodes.pins(mesh, 1, |id| held.contains(&id).then_some(0));
     let left_out = vec![false; mesh.leaves.len()];
     let network = field.network(&nodes, &pins, 1).unwrap();
     let fluxes = network.fluxes();

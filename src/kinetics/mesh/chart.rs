@@ -160,6 +160,11 @@ impl Chart {
         self.cells.map(|n| (n * UNITS) as f64)
     }
 
+    /// Whether a place is at the outer end of s.
+    pub(in crate::kinetics) fn is_outer(&self, [s, ..]: Place) -> bool {
+        s == self.cells[0] * UNITS
+    }
+
     /// A whole place, folded; `None` beyond the ends of s, the outer one included where `closed` is
     /// false.
     pub(in crate::kinetics) fn fold(&self, place: Place, closed: bool) -> Option<Place> {

@@ -55,6 +55,28 @@ impl Nodes {
             .is_some_and(|corners| *corners != [0; 8])
     }
 
+    /// For each corner the place in which its value is given: `rim` at the outer end, otherwise that
+    /// of the first cell about it that belongs to one.
+    pub fn pins(
+        &self,
+        mesh: &Octree,
+        rim: usize,
+        place: impl Fn(usize) -> Option<usize>,
+    ) -> Vec<Option<usize>> {
+        let mut pins = vec![None; self.len()];
+        for (id, leaf, _) in mesh.live() {
+            for (number, &node) in self.corners[id].iter().enumerate() {
+                let pin = &mut pins[node as usize];
+                if mesh.chart.is_outer(leaf.corner(number)) {
+                    *pin = Some(rim);
+                } else if pin.is_none() {
+                    *pin = place(id);
+                }
+            }
+        }
+        pins
+    }
+
     /// The values at a cell's corners.
     pub fn of(&self, cell: usize, values: &[f64]) -> [f64; 8] {
         self.corners[cell].map(|node| values[node as usize])

@@ -39,7 +39,7 @@ mod wall;
 use rayon::prelude::*;
 
 use super::field::Field;
-use super::mesh::{Leaf, Nodes, Profile, System, UNITS};
+use super::mesh::{Leaf, Nodes, Profile, System};
 use super::sets::is_at_the_rim;
 use crate::configuration::Configuration;
 use piece::{Ground, Piece, Range};
@@ -182,10 +182,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
         }
         Some(())
     };
-    let outer = mesh.chart.cells[0] * UNITS;
     for (id, leaf, _) in mesh.live() {
         for (number, &node) in nodes.corners[id].iter().enumerate() {
-            if narrow[id] || leaf.corner(number)[0] == outer {
+            if narrow[id] || mesh.chart.is_outer(leaf.corner(number)) {
                 pin(node, rim)?;
             }
             for set in (0..sets.len()).filter(|&set| cells[set].wide[id]) {

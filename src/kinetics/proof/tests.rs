@@ -193,19 +193,8 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
     field.set_level(-1e-3);
     let mesh = &field.mesh;
     let nodes = Nodes::new(mesh);
-    let outer = mesh.chart.cells[0] * UNITS;
-    let mut pins = vec![None; nodes.len()];
-    for (id, leaf, _) in mesh.live() {
-        for (number, &node) in nodes.corners[id].iter().enumerate() {
-            if leaf.corner(number)[0] == outer {
-                pins[node as usize] = Some(1);
-            }
-        }
-    }
     let held = mesh.holding(&trap);
-    for &node in held.iter().flat_map(|&id| &nodes.corners[id]) {
-        pins[node as usize] = Some(0);
-    }
+    let pins = nodes.pins(mesh, 1, |id| held.contains(&id).then_some(0));
     let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
     let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
     let given: Vec<f64> = pins.iter().map(one).collect();
