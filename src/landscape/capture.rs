@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::minimum::{Outcome, Verified, approach};
+use super::minimum::{Descent, Known, Outcome, approach};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -20,6 +20,9 @@ pub struct FarStarts {
     /// Of their random numbers.
     pub seed: u64,
 }
+
+/// Far starts that are followed before any is known to come on another's way.
+const FIRST: usize = 32;
 
 /// Inner and outer radius (m) of the ring of far starts; equal where the table leaves no room.
 pub fn ring(problem: &Problem) -> [f64; 2] {
@@ -43,20 +46,24 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 
 /// Where each far start comes to rest by overdamped motion (mass metric, sliding along contact);
 /// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
-/// corners of both tiles meet, the last check may fail a micrometre from one. `known` are minima
-/// that need not be verified again.
-pub fn ends(problem: &Problem, starts: &FarStarts, known: &Verified) -> Vec<Option<Configuration>> {
-    (0..starts.count)
-        .into_par_iter()
-        .map(|number| {
-            let start = start(problem, starts, number);
-            match approach(problem, &start, known).outcome {
+/// corners of both tiles meet, the last check may fail a micrometre from one.
+pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Option<Configuration>> {
+    let mut ends = Vec::new();
+    while ends.len() < starts.count {
+        // As many again as there were, which may come on the slides of those.
+        let next = (2 * ends.len()).max(FIRST).min(starts.count);
+        let follow = |number| approach(problem, &start(problem, starts, number), &known);
+        let descents: Vec<Descent> = (ends.len()..next).into_par_iter().map(follow).collect();
+        for descent in descents {
+            ends.push(match &descent.outcome {
                 Outcome::Minimum(found) => Some(found.point.q),
-                Outcome::Stuck(q) => Some(q),
+                Outcome::Stuck(q) => Some(*q),
                 Outcome::Free => None,
-            }
-        })
-        .collect()
+            });
+            known.slides.add(descent.stretches, descent.outcome);
+        }
+    }
+    ends
 }
 
 /// The far starts that come to rest, each with where it does.

@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use nalgebra::Vector3;
 
 use super::constrained::{self, Heading, Point, downhill, length, step_along};
+use super::slides::{Slides, Stretch};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
@@ -45,8 +46,10 @@ pub enum Outcome {
 /// A descent: its way, start and end included, and where it ended.
 #[derive(Clone, Debug)]
 pub struct Descent {
-    /// Where it went, from start to end.
+    /// Where it went, from start to end, or to where it is known where motions go on to.
     pub way: Vec<Point>,
+    /// The steps of it on which contact left no choice; an image is given none.
+    pub stretches: Vec<Stretch>,
     /// Where it ended.
     pub outcome: Outcome,
 }
@@ -61,64 +64,84 @@ impl Descent {
         };
         Self {
             way: self.way.iter().map(|point| point.image(symmetry)).collect(),
+            stretches: Vec::new(),
             outcome,
         }
     }
 }
 
-/// Minima around which all is known to lie higher: a motion that ends in one of them need not look
-/// around again.
+/// What is known of where motions end.
 #[derive(Clone, Debug, Default)]
-pub struct Verified(Vec<Configuration>);
+pub struct Known {
+    /// Minima around which all is known to lie higher: a motion that ends in one of them need not
+    /// look around again.
+    minima: Vec<Configuration>,
+    /// A motion that comes on one of them need not be followed any farther.
+    pub slides: Slides,
+}
 
-impl Verified {
+impl Known {
     /// These minima.
-    pub fn new<'a>(minima: impl Iterator<Item = &'a Stationary>) -> Self {
-        Self(minima.map(|minimum| minimum.point.q).collect())
+    pub fn minima<'a>(minima: impl Iterator<Item = &'a Stationary>) -> Self {
+        Self {
+            minima: minima.map(|minimum| minimum.point.q).collect(),
+            slides: Slides::default(),
+        }
     }
 
-    fn hold(&self, problem: &Problem, q: &Configuration) -> bool {
+    fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
         let is_same = |known: &Configuration| problem.space.distance(known, q) <= SAME;
-        self.0.iter().any(is_same)
+        self.minima.iter().any(is_same)
     }
 }
 
 /// Down from `start` roughly by overdamped motion, `v = -M^-1 grad U`, sliding along contact, until a
 /// minimum or far apart: where ways part, it may take the other one.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
-    descend_among(problem, start, &Verified::default())
+    descend_among(problem, start, &Known::default())
 }
 
-/// The same where some minima are known.
-pub fn descend_among(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
-    let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, known, f64::INFINITY, |q| {
+/// The same where something is known.
+pub fn descend_among(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
+    follow(problem, start, known, f64::INFINITY, |q| {
         problem.space.is_far(q)
-    });
-    Descent { way, outcome }
+    })
 }
 
 /// Where overdamped motion from `start` leads: into a minimum or over the table's rim.
 pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
-    approach(problem, start, &Verified::default()).outcome
+    approach(problem, start, &Known::default()).outcome
 }
 
 /// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim, where
-/// some minima are known.
-pub fn approach(problem: &Problem, start: &Configuration, known: &Verified) -> Descent {
-    let mut way = vec![Point::new(problem, *start)];
-    let outcome = follow(problem, &mut way, known, ASIDE, |q| {
-        !problem.space.contains(q)
-    });
-    Descent { way, outcome }
+/// something is known.
+pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
+    follow(problem, start, known, ASIDE, |q| !problem.space.contains(q))
 }
 
 /// Follows the motion to where it comes to rest or is free; a step may end so far `aside` of it (m).
 fn follow(
     problem: &Problem,
-    way: &mut Vec<Point>,
-    known: &Verified,
+    start: &Configuration,
+    known: &Known,
     aside: f64,
+    is_free: impl Fn(&Configuration) -> bool,
+) -> Descent {
+    let mut way = vec![Point::new(problem, *start)];
+    let mut stretches = Vec::new();
+    let outcome = trace(problem, &mut way, &mut stretches, (known, aside), is_free);
+    Descent {
+        way,
+        stretches,
+        outcome,
+    }
+}
+
+fn trace(
+    problem: &Problem,
+    way: &mut Vec<Point>,
+    stretches: &mut Vec<Stretch>,
+    (known, aside): (&Known, f64),
     is_free: impl Fn(&Configuration) -> bool,
 ) -> Outcome {
     let mut size = LONGEST_STEP;
@@ -131,6 +154,11 @@ fn follow(
             return Outcome::Free;
         }
         let along = motion.take().or_else(|| downhill(problem, &here));
+        if let Some(along) = &along
+            && let Some(outcome) = known.slides.lead(problem, &here.q, along)
+        {
+            return outcome.clone();
+        }
         let next = along.as_ref().and_then(|along| {
             let bent = bent(along, &before, size);
             let next = step_along(problem, &here, &bent, size)?;
@@ -145,6 +173,8 @@ fn follow(
                 let fitting = size * (0.8 * (aside / strays).cbrt()).clamp(0.3, 1.5);
                 if strays <= aside || size <= SHORT {
                     way.push(next);
+                    let ends = [along.as_ref(), after.as_ref()];
+                    stretches.extend(Stretch::between([here.q, next.q], ends));
                     motion = after;
                     // Steps of first order are the longer ones in a steep valley.
                     before = along
@@ -207,18 +237,14 @@ fn strays(problem: &Problem, point: &Point, [from, bent, to]: [&Heading; 3], siz
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free
 /// configuration around it lies lower. Where one does, the way goes on from there.
-fn verified_minimum(
-    problem: &Problem,
-    way: &mut Vec<Point>,
-    known: &Verified,
-) -> Option<Stationary> {
+fn verified_minimum(problem: &Problem, way: &mut Vec<Point>, known: &Known) -> Option<Stationary> {
     let here = *way.last()?;
     let found = stationary::minimum(problem, &here.q)?;
     let noise = problem.potential().noise() * found.point.energy.abs();
     if found.point.energy > here.energy + noise || !problem.is_free(&found.point.q) {
         return None;
     }
-    if !known.hold(problem, &found.point.q)
+    if !known.holds(problem, &found.point.q)
         && let Some(lower) = lower_neighbour(problem, &found.point)
     {
         way.push(lower);

@@ -14,6 +14,7 @@ pub mod network;
 mod orientation;
 pub mod pathway;
 pub mod results;
+pub mod slides;
 pub mod stationary;
 pub mod survey;
 pub mod volume;

@@ -51,7 +51,7 @@ pub fn analyse_problem(
     }
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
-    let ends = capture::ends(&problem, &far_starts, &survey.verified());
+    let ends = capture::ends(&problem, &far_starts, survey.known());
     let shallow = -settings.least_depth * problem.depth();
     survey.add_rests(&problem, &ends, shallow, &settings.survey(&roadmap));
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);

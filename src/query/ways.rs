@@ -63,8 +63,8 @@ impl<'a> Search<'a> {
                 count: FAR_STARTS,
                 seed: self.query.settings.seed,
             };
-            let known = survey.verified();
-            let ends = capture::ends(self.problem, &far_starts, &known);
+            let known = survey.known();
+            let ends = capture::ends(self.problem, &far_starts, known);
             capture::arrivals(self.problem, &far_starts, &ends)
         });
         survey.add_arrivals(self.problem, arrivals);

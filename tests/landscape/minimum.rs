@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use tilebind::design::{Design, MagnetModel};
-use tilebind::landscape::capture::{FarStarts, start};
+use tilebind::landscape::capture::{self, FarStarts, start};
 use tilebind::landscape::constrained::{Point, downhill, step_downhill};
-use tilebind::landscape::minimum::{Outcome, Verified, approach, descend, drift};
+use tilebind::landscape::minimum::{Known, Outcome, approach, descend, drift};
 use tilebind::landscape::stationary;
 use tilebind::{Configuration, Problem};
 
@@ -116,7 +116,7 @@ fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
     let problem = designs::load("shapes/shielded-backs.toml").problem();
     let mut lost = 0;
     for start in far_starts(&problem, 20) {
-        let way = approach(&problem, &start, &Verified::default()).way;
+        let way = approach(&problem, &start, &Known::default()).way;
         for point in way.iter().step_by(7) {
             let before = problem.evaluations();
             let found = stationary::minimum(&problem, &point.q);
@@ -161,4 +161,29 @@ fn tiles_that_slide_flush_are_held_at_both_ends_of_their_faces() {
     assert!((next.theta - FRAC_PI_2).abs() < 1e-9, "{next:?}");
     assert!((next.y + 0.43).abs() < 1e-9, "{next:?}");
     assert!((next.x - tilted.x).abs() > 8e-4, "{next:?}");
+}
+
+/// Two contacts leave the tiles one way only: what comes on a known way along them ends where that
+/// one does, and is followed no farther.
+#[test]
+fn far_starts_that_come_on_a_known_slide_end_where_it_does() {
+    let count = 200;
+    let design = || designs::load("shapes/tab-20mm.toml").problem();
+    let (alone, together) = (design(), design());
+    let followed = far_starts(&alone, count).map(|q| match drift(&alone, &q) {
+        Outcome::Minimum(found) => Some(found.point.q),
+        Outcome::Stuck(q) => Some(q),
+        Outcome::Free => None,
+    });
+    let starts = FarStarts { count, seed: 1 };
+    let ends = capture::ends(&together, &starts, Known::default());
+    for (number, (one, other)) in followed.zip(&ends).enumerate() {
+        let apart = match (one, other) {
+            (Some(one), Some(other)) => alone.space.distance(&one, other),
+            (None, None) => 0.0,
+            _ => f64::INFINITY,
+        };
+        assert!(apart < 1e-6, "start {number} ends {apart} m away");
+    }
+    assert!(together.evaluations() < alone.evaluations() * 9 / 10);
 }

@@ -10,7 +10,7 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::capture::{FarStarts, ends};
 use tilebind::landscape::certificate::{Certifier, Effort, End};
 use tilebind::landscape::map::{EnergyMap, Window};
-use tilebind::landscape::minimum::{Outcome, Verified, drift};
+use tilebind::landscape::minimum::{Known, Outcome, drift};
 use tilebind::potential::Potential;
 use tilebind::potential::bounds::{CellBounds, Enclosure};
 use tilebind::problem::Problem;
@@ -245,11 +245,7 @@ fn far_starts_end_in_either_well_alike() {
     let problem = Problem::without_contact(SPACE, Box::new(AT_ORIGIN));
     let count = 200;
     let mut captured = [0, 0];
-    for end in ends(
-        &problem,
-        &FarStarts { count, seed: 1 },
-        &Verified::default(),
-    ) {
+    for end in ends(&problem, &FarStarts { count, seed: 1 }, Known::default()) {
         captured[AT_ORIGIN.well_at(&end.unwrap()).unwrap()] += 1;
     }
     // Five standard deviations of a fair coin's count.

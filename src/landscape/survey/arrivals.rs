@@ -32,7 +32,7 @@ impl Survey {
     ) {
         let is_new = |end: &&Configuration| self.state_at(problem, end, SAME).is_none();
         let new: Vec<&Configuration> = ends.iter().flatten().filter(is_new).collect();
-        let known = self.verified();
+        let known = self.known();
         let found: Vec<Stationary> = new
             .into_par_iter()
             .filter_map(|end| match descend_among(problem, end, &known).outcome {
@@ -59,7 +59,7 @@ impl Survey {
         };
         let starts: Vec<Configuration> =
             far.iter().filter(wanted).map(|(start, _)| *start).collect();
-        let known = self.verified();
+        let known = self.known();
         let descents: Vec<_> = starts
             .par_iter()
             .map(|q| approach(problem, q, &known))

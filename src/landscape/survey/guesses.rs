@@ -75,7 +75,7 @@ impl Survey {
             .into_iter()
             .filter(|q| self.state_at(problem, q, KNOWN).is_none())
             .collect();
-        let verified = self.verified();
+        let verified = self.known();
         let descents: Vec<Descent> = places
             .par_iter()
             .map(|q| descend_among(problem, q, &verified))

@@ -32,7 +32,7 @@ use std::collections::{HashMap, HashSet};
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
-use super::minimum::{Descent, Outcome, Verified, descend_among};
+use super::minimum::{Descent, Known, Outcome, descend_among};
 use super::network::{Merge, Network};
 use super::stationary::Stationary;
 use crate::configuration::Configuration;
@@ -204,7 +204,7 @@ impl Survey {
         }));
         // What some find the next ones need not verify.
         for some in starts.chunks(TOGETHER) {
-            let known = self.verified();
+            let known = self.known();
             let descents: Vec<Descent> = some
                 .par_iter()
                 .map(|(_, q)| descend_among(problem, q, &known))
@@ -250,8 +250,8 @@ impl Survey {
     }
 
     /// The minima found so far.
-    pub fn verified(&self) -> Verified {
-        Verified::new(self.states.iter().map(|state| &state.minimum))
+    pub fn known(&self) -> Known {
+        Known::minima(self.states.iter().map(|state| &state.minimum))
     }
 
     /// The node in which a descent ended, made if need be.

@@ -9,7 +9,7 @@ use super::copies::distinct;
 use super::{SAME, Survey};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::{self, Point};
-use crate::landscape::minimum::{Descent, Verified, descend_among};
+use crate::landscape::minimum::{Descent, Known, descend_among};
 use crate::landscape::network::{Merge, Way};
 use crate::landscape::stationary::{self, Stationary};
 use crate::problem::{Problem, Symmetry};
@@ -54,7 +54,7 @@ impl Survey {
                 fresh.push(found);
             }
         }
-        let known = self.verified();
+        let known = self.known();
         let joined: Vec<[Option<Descent>; 2]> = fresh
             .par_iter()
             .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
@@ -105,12 +105,7 @@ impl Survey {
 }
 
 /// The descent from a transition state to one of its sides.
-fn off_saddle(
-    problem: &Problem,
-    saddle: &Stationary,
-    sign: f64,
-    known: &Verified,
-) -> Option<Descent> {
+fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64, known: &Known) -> Option<Descent> {
     let unstable = saddle.modes.first()?.1;
     let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
     let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
