@@ -44,9 +44,11 @@ impl Contact {
     ) -> bool {
         let step = a.step_to(b);
         let reach = step.xy().norm() + self.moving().circumradius() * step.z.abs();
-        // What is closer to an end than its clearance is free, and a motion that brings no point
-        // farther than their sum passes from the one's surroundings into the other's.
-        clearances[0].max(0.0) + clearances[1].max(0.0) >= reach
+        // What is closer to an end than its clearance is free, what is a little farther overlaps by
+        // that little, and a motion that brings no point farther than both together passes from the
+        // one's surroundings into the other's.
+        let around = clearances.map(|clearance| clearance.max(0.0) + allowed.max(0.0));
+        around[0] + around[1] >= reach
             || reach <= SHORTEST
             || self.stretches_overlap_at_most([*a, *b], reach, allowed)
     }

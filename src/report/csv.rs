@@ -148,44 +148,21 @@ pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
-    let text = format!("{value:.9e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let unsigned = mantissa.trim_start_matches('-');
-    let digits = unsigned.replace('.', "");
-    let digits = digits.trim_end_matches('0');
-    if digits.is_empty() {
+    let rounded = format!("{value:.9e}").parse::<f64>().unwrap_or(value);
+    if rounded == 0.0 {
         return "0".to_owned();
     }
-    let sign = if unsigned.len() < mantissa.len() {
-        "-"
-    } else {
-        ""
-    };
-    let (first, rest) = digits.split_at(1);
-    let point = if rest.is_empty() { "" } else { "." };
-    let scientific = format!("{sign}{first}{point}{rest}e{exponent}");
-    let plain = plain(sign, digits, exponent);
+    let plain = rounded.to_string();
+    // Between these it is never the longer one.
+    if (1e-2..1e3).contains(&rounded.abs()) {
+        return plain;
+    }
+    let scientific = format!("{rounded:e}");
     if scientific.len() < plain.len() {
         scientific
     } else {
         plain
     }
-}
-
-/// Digits with the decimal point `exponent` places behind the first of them.
-fn plain(sign: &str, digits: &str, exponent: i32) -> String {
-    let before = exponent + 1;
-    if before <= 0 {
-        let zeros = before.unsigned_abs() as usize;
-        return format!("{sign}0.{:0<zeros$}{digits}", "");
-    }
-    let before = before as usize;
-    if before >= digits.len() {
-        return format!("{sign}{digits:0<before$}");
-    }
-    let (whole, fraction) = digits.split_at(before);
-    format!("{sign}{whole}.{fraction}")
 }
 
 #[cfg(test)]
