@@ -193,7 +193,7 @@ fn trace(
         }
         if size < newton_below {
             // Ever finer, so that a failing attempt costs little.
-            newton_below = size / 8.0;
+            newton_below = size / 64.0;
             if let Some(found) = verified_minimum(problem, way, known) {
                 return Outcome::Minimum(Box::new(found));
             }

@@ -87,6 +87,12 @@ pub trait Potential: Sync {
     /// is known.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64;
 
+    /// The same, and that of the third derivative, per cube of the displacement. Infinite where nothing
+    /// is known.
+    fn bend_bounds(&self, q: &Configuration, reach: f64) -> [f64; 2] {
+        [self.curvature_bound(q, reach), f64::INFINITY]
+    }
+
     /// The same of the fourth derivative, per fourth power of the displacement. Infinite where
     /// nothing is known.
     fn fourth_derivative_bound(&self, _q: &Configuration, _reach: f64) -> f64 {

@@ -5,7 +5,7 @@ use ordered_float::OrderedFloat;
 
 use super::Milestone;
 use super::parted::Parted;
-use super::stretch::{Motion, Stretch};
+use super::stretch::{Bends, Motion, Stretch};
 use crate::problem::Problem;
 
 /// How closely a profile follows the energy.
@@ -48,9 +48,11 @@ impl Profile {
     ///
     /// * the cubic through them is off by at most `h^4 / 384` times the largest fourth derivative
     ///   (the error of Hermite's interpolation; Davis, *Interpolation and Approximation*, theorem
-    ///   3.5.1), or
-    /// * where no bound of that is known, `U(t) <= U_a + s_a t + B t^2 / 2` with B a bound of the
-    ///   second derivative, and the same from the other end, exceed the larger end by no more.
+    ///   3.5.1), or by `h^3 / 96` times the largest third one (the integral of Peano's kernel,
+    ///   theorem 3.7.1), or
+    /// * where no bound of the fourth one is known, `U(t) <= U_a + s_a t + B t^2 / 2` with
+    ///   B a bound of the second derivative, and the same from the other end, exceed the larger end
+    ///   by no more.
     ///
     /// Blocks in contact have no bound of the one and only a very wide one of the other. There a
     /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
@@ -91,7 +93,7 @@ impl Profile {
             .map(|number| Stretch {
                 number,
                 ends: motions[number].ends(pairs[number]),
-                fourth: f64::INFINITY,
+                bends: Bends::NONE,
                 depth: 0,
             })
             .collect();
@@ -100,7 +102,7 @@ impl Profile {
         while !open.is_empty() {
             open.retain_mut(|stretch| {
                 let is_settled = stretch.depth >= DEEPEST
-                    || motions[stretch.number].is_settled(&stretch.ends, &mut stretch.fourth);
+                    || motions[stretch.number].is_settled(&stretch.ends, &mut stretch.bends);
                 if is_settled {
                     settled.push((stretch.number, stretch.ends));
                 }
@@ -120,7 +122,7 @@ impl Profile {
                 };
                 let [a, b] = stretch.ends;
                 let halves = [[a, middle], [middle, b]];
-                if stretch.fourth == f64::INFINITY && motion.is_foreseen(&a, &middle, &b) {
+                if stretch.bends.is_none() && motion.is_foreseen(&a, &middle, &b) {
                     settled.extend(halves.map(|half| (stretch.number, half)));
                 } else {
                     finer.extend(halves.map(|ends| Stretch {

@@ -13,9 +13,37 @@ pub(super) struct Stretch {
     /// Of the motion.
     pub number: usize,
     pub ends: [Knot; 2],
-    /// A bound of the fourth derivative that holds on a stretch around this one.
-    pub fourth: f64,
+    /// Bounds that hold on a stretch around this one.
+    pub bends: Bends,
     pub depth: u32,
+}
+
+/// Bounds of the energy's derivatives along a motion, by its displacement.
+#[derive(Clone, Copy)]
+pub(super) struct Bends {
+    /// J/m^3.
+    pub third: f64,
+    /// J/m^4.
+    pub fourth: f64,
+}
+
+impl Bends {
+    /// Nothing is known.
+    pub const NONE: Self = Self {
+        third: f64::INFINITY,
+        fourth: f64::INFINITY,
+    };
+
+    pub fn is_none(&self) -> bool {
+        self.third == f64::INFINITY && self.fourth == f64::INFINITY
+    }
+
+    /// How far (J) the cubic through the ends of a stretch of this displacement (m) may be off.
+    pub fn error(&self, displacement: f64) -> f64 {
+        let [third, fourth] = [(self.third, 3, 96.0), (self.fourth, 4, 384.0)]
+            .map(|(bound, power, share)| bound * displacement.powi(power) / share);
+        third.min(fourth)
+    }
 }
 
 impl Stretch {
@@ -77,29 +105,34 @@ impl<'a> Motion<'a> {
             && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
     }
 
-    /// Whether a stretch is known within the tolerance; narrows the bound of its fourth derivative
-    /// where that is worth while.
-    pub fn is_settled(&self, [a, b]: &[Knot; 2], fourth: &mut f64) -> bool {
+    /// Whether a stretch is known within the tolerance; narrows the bounds of its derivatives where
+    /// that is worth while.
+    pub fn is_settled(&self, [a, b]: &[Knot; 2], bends: &mut Bends) -> bool {
         let allowed = self.allowed(a, b);
         let duration = b.t - a.t;
-        let is_close =
-            |fourth: f64| fourth * (self.displacement * duration).powi(4) <= 384.0 * allowed;
-        if is_close(*fourth) {
+        let displacement = self.displacement * duration;
+        if bends.error(displacement) <= allowed {
             return true;
         }
         let middle = self.at((a.t + b.t) / 2.0);
-        let reach = self.displacement * duration / 2.0;
+        let reach = displacement / 2.0;
         let potential = self.problem.potential();
-        *fourth = fourth.min(potential.fourth_derivative_bound(&middle, reach));
-        if fourth.is_finite() {
-            return is_close(*fourth);
+        bends.fourth = bends
+            .fourth
+            .min(potential.fourth_derivative_bound(&middle, reach));
+        if bends.fourth.is_finite() {
+            return bends.error(displacement) <= allowed;
         }
         // Where the middle can be asked it tells more, and sooner.
         if potential.feature_length() > 0.0 {
             return false;
         }
-        let bound = potential.curvature_bound(&middle, reach);
-        let curvature = bound * self.displacement * self.displacement;
+        let [second, third] = potential.bend_bounds(&middle, reach);
+        bends.third = bends.third.min(third);
+        if bends.error(displacement) <= allowed {
+            return true;
+        }
+        let curvature = second * self.displacement * self.displacement;
         upper_bound(a, b, duration, curvature) - a.energy.max(b.energy) <= allowed
     }
 }
@@ -155,6 +188,39 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// The functions that Hermite's cubic misses by most, |t|^3 and t^4, miss it by what is said.
+    #[test]
+    fn the_cubic_is_off_by_its_error_at_most() {
+        for (power, bends) in [
+            (
+                3,
+                Bends {
+                    third: 6.0,
+                    ..Bends::NONE
+                },
+            ),
+            (
+                4,
+                Bends {
+                    fourth: 24.0,
+                    ..Bends::NONE
+                },
+            ),
+        ] {
+            for half in [1.0_f64, 0.3] {
+                let slope = f64::from(power) * half.powi(power - 1);
+                let knot = |sign: f64| Knot {
+                    t: sign * half,
+                    energy: half.powi(power),
+                    slope: sign * slope,
+                };
+                let off = cubic(&knot(-1.0), &knot(1.0), 0.0).abs();
+                assert!((bends.error(2.0 * half) / off - 1.0).abs() < 1e-12);
+            }
+        }
+        assert!(Bends::NONE.is_none() && Bends::NONE.error(1.0) == f64::INFINITY);
     }
 
     #[test]

@@ -103,11 +103,12 @@ fn without_shields_it_is_the_bare_model() {
 }
 
 #[test]
-fn forces_and_torques_are_derivatives_and_the_curvature_is_bounded() {
+fn forces_and_torques_are_derivatives_and_bends_are_bounded() {
     let (fixed, moving) = tiles();
     let shields = shields(ShieldRule::Smooth, Some(SHIELD));
     for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
         let potential = ShieldedPotential::new(model, &fixed, &moving, &shields);
+        let mut tightest = f64::INFINITY;
         for q in poses() {
             let (_, gradient) = potential.energy_and_gradient(&q);
             let scale = gradient.norm();
@@ -128,7 +129,20 @@ fn forces_and_torques_are_derivatives_and_the_curvature_is_bounded() {
             let displacement = potential.displacement(step);
             let second = (along(1.0) - 2.0 * along(0.0) + along(-1.0)) / displacement.powi(2);
             assert!(second.abs() <= potential.curvature_bound(&q, displacement));
+            let step = step * 10.0;
+            let along = |n: f64| potential.energy(&q.moved(step * n));
+            let displacement = potential.displacement(step);
+            let third = along(2.0) - 2.0 * along(1.0) + 2.0 * along(-1.0) - along(-2.0);
+            let third = third.abs() / (2.0 * displacement.powi(3));
+            let bound = potential.bend_bounds(&q, 2.0 * displacement)[1];
+            assert!(third <= bound, "{model:?} {q:?}: {third} {bound}");
+            tightest = tightest.min(bound / third);
         }
+        // A bound that lost its sense would be nowhere near.
+        assert!(
+            model == MagnetModel::Cuboid || tightest < 50.0,
+            "{tightest}"
+        );
     }
 }
 

@@ -190,23 +190,33 @@ impl Potential for ShieldedPotential {
         self.sum::<true>(q)
     }
 
-    /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, with the bounds of
-    /// [`Limits`] for u and those of the factors for w. With the nearest-face rule it holds
-    /// between the jumps only.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        self.bend_bounds(q, reach)[0]
+    }
+
+    /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, and the like of the third
+    /// derivative, with the bounds of [`Limits`] for u and those of the factors for w. With the
+    /// nearest-face rule they hold between the jumps only.
+    fn bend_bounds(&self, q: &Configuration, reach: f64) -> [f64; 2] {
         let (turn, stride) = (self.lever.turn(), self.columns.len());
         let pairs = self
             .blocks
             .as_ref()
             .map(|blocks| blocks.limits(q, turn, reach, stride));
-        self.level.run(kernel::Curvature {
+        let [second, third] = self.level.run(kernel::Curvature {
             fixed: &self.columns,
             moving: &self.moving,
             q,
             turn,
             reach,
             pairs: pairs.as_ref(),
-        })
+        });
+        let third = if pairs.is_none() {
+            third
+        } else {
+            f64::INFINITY
+        };
+        [second, third]
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

@@ -6,9 +6,10 @@ use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task};
 use crate::units::MU0_OVER_4PI;
 
-/// The sum over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) along motions in which
-/// no magnet is faster than 1 and none turns at more than the rate `turn` (1/m), with bounds of the
-/// derivatives of energies u and factors w within `reach` (m). Infinite where magnets may meet.
+/// The sums over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) and of the same of the
+/// third derivative (J/m^3; of point dipoles) along motions in which no magnet is faster than 1 and
+/// none turns at more than the rate `turn` (1/m), with bounds of the derivatives of energies u and
+/// factors w within `reach` (m). Infinite where magnets may meet.
 pub(in crate::potential::shielding) struct Curvature<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
@@ -21,12 +22,12 @@ pub(in crate::potential::shielding) struct Curvature<'a> {
 }
 
 impl Task for Curvature<'_> {
-    type Output = f64;
+    type Output = [f64; 2];
 
     #[inline(always)]
-    fn run<L: Lanes>(self, l: L) -> f64 {
+    fn run<L: Lanes>(self, l: L) -> [f64; 2] {
         let rotation = self.q.rotation();
-        let mut sum = l.splat(0.0);
+        let mut sums = [l.splat(0.0); 2];
         let turn = l.splat(self.turn);
         for (j, magnet) in self.moving.iter().enumerate() {
             let second = Vectors::splat(l, &magnet.moved(self.q, &rotation));
@@ -35,7 +36,7 @@ impl Task for Curvature<'_> {
                 let way = Way::new(l, &first, &second);
                 let r = l.sub(way.distance, l.splat(self.reach));
                 if l.least(r) <= COINCIDING {
-                    return f64::INFINITY;
+                    return [f64::INFINITY; 2];
                 }
                 let inverse = l.reciprocal(r);
                 let u = match self.pairs {
@@ -57,10 +58,11 @@ impl Task for Curvature<'_> {
                     inverse,
                 };
                 let w = pair_limits(l, &first, &second, &way, &around);
-                sum = l.add(sum, product(l, w, u)[2]);
+                let [.., second, third] = product(l, w, u);
+                sums = [l.add(sums[0], second), l.add(sums[1], third)];
             }
         }
-        l.sum(sum)
+        sums.map(|sum| l.sum(sum))
     }
 }
 
