@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
-use super::minimum::{Descent, Known, Outcome, approach};
+use super::minimum::{Known, Outcome};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -20,9 +19,6 @@ pub struct FarStarts {
     /// Of their random numbers.
     pub seed: u64,
 }
-
-/// Far starts that are followed before any is known to come on another's way.
-const FIRST: usize = 32;
 
 /// Inner and outer radius (m) of the ring of far starts; equal where the table leaves no room.
 pub fn ring(problem: &Problem) -> [f64; 2] {
@@ -48,22 +44,14 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 /// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
 /// corners of both tiles meet, the last check may fail a micrometre from one.
 pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Option<Configuration>> {
-    let mut ends = Vec::new();
-    while ends.len() < starts.count {
-        // As many again as there were, which may come on the slides of those.
-        let next = (2 * ends.len()).max(FIRST).min(starts.count);
-        let follow = |number| approach(problem, &start(problem, starts, number), &known);
-        let descents: Vec<Descent> = (ends.len()..next).into_par_iter().map(follow).collect();
-        for descent in descents {
-            ends.push(match &descent.outcome {
-                Outcome::Minimum(found) => Some(found.point.q),
-                Outcome::Stuck(q) => Some(*q),
-                Outcome::Free => None,
-            });
-            known.slides.add(descent.stretches, descent.outcome);
-        }
-    }
-    ends
+    let all = (0..starts.count).map(|number| start(problem, starts, number));
+    let rest = |outcome: Outcome| match outcome {
+        Outcome::Minimum(found) => Some(found.point.q),
+        Outcome::Stuck(q) => Some(q),
+        Outcome::Free => None,
+    };
+    let outcomes = known.learn(problem, &all.collect::<Vec<_>>());
+    outcomes.into_iter().map(rest).collect()
 }
 
 /// The far starts that come to rest, each with where it does.

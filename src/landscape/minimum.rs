@@ -1,9 +1,9 @@
 //! Local minima over the free configurations, and the overdamped motion that leads into them.
 
+use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-use nalgebra::Vector3;
+use rayon::prelude::*;
 
 use super::constrained::{self, Heading, Point, downhill, length, step_along};
 use super::slides::{Slides, Stretch};
@@ -23,6 +23,8 @@ const SHORT: f64 = TRY_NEWTON;
 const SHORTEST_STEP: f64 = 1e-9;
 /// Newton's method is tried once steps are shorter than this (m).
 const TRY_NEWTON: f64 = 2e-4;
+/// Motions that are followed before any is known to come on another's way.
+const FIRST: usize = 32;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
@@ -77,16 +79,33 @@ pub struct Known {
     /// look around again.
     minima: Vec<Configuration>,
     /// A motion that comes on one of them need not be followed any farther.
-    pub slides: Slides,
+    slides: Slides,
 }
 
 impl Known {
     /// These minima.
-    pub fn minima<'a>(minima: impl Iterator<Item = &'a Stationary>) -> Self {
+    pub fn minima(minima: impl Iterator<Item = Configuration>) -> Self {
         Self {
-            minima: minima.map(|minimum| minimum.point.q).collect(),
+            minima: minima.collect(),
             slides: Slides::default(),
         }
+    }
+
+    /// Where overdamped motions from several starts lead; how they slid there is known from now on.
+    /// The same on any number of threads.
+    pub fn learn(&mut self, problem: &Problem, starts: &[Configuration]) -> Vec<Outcome> {
+        let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
+        while outcomes.len() < starts.len() {
+            // As many again as there were, which may come on the slides of those.
+            let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
+            let new = starts[outcomes.len()..next].par_iter();
+            let descents: Vec<Descent> = new.map(|q| approach(problem, q, self)).collect();
+            for descent in descents {
+                self.slides.add(descent.stretches, &descent.outcome);
+                outcomes.push(descent.outcome);
+            }
+        }
+        outcomes
     }
 
     fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
@@ -108,15 +127,15 @@ pub fn descend_among(problem: &Problem, start: &Configuration, known: &Known) ->
     })
 }
 
-/// Where overdamped motion from `start` leads: into a minimum or over the table's rim.
-pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
-    approach(problem, start, &Known::default()).outcome
-}
-
 /// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim, where
 /// something is known.
 pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
     follow(problem, start, known, ASIDE, |q| !problem.space.contains(q))
+}
+
+/// Where that leads, if nothing is known: into a minimum or over the table's rim.
+pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
+    approach(problem, start, &Known::default()).outcome
 }
 
 /// Follows the motion to where it comes to rest or is free; a step may end so far `aside` of it (m).

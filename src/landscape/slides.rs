@@ -59,8 +59,8 @@ pub struct Slides(HashMap<[Touch; 2], Vec<(Stretch, Arc<Outcome>)>>);
 
 impl Slides {
     /// Adds the stretches of a motion that ended so.
-    pub fn add(&mut self, stretches: Vec<Stretch>, outcome: Outcome) {
-        let outcome = Arc::new(outcome);
+    pub fn add(&mut self, stretches: Vec<Stretch>, outcome: &Outcome) {
+        let outcome = Arc::new(outcome.clone());
         for stretch in stretches {
             let known = self.0.entry(stretch.pressed).or_default();
             known.push((stretch, outcome.clone()));

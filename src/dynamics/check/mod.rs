@@ -41,10 +41,15 @@ mod checker;
 use rayon::prelude::*;
 
 use super::{Body, Motion};
+use crate::configuration::Configuration;
+use crate::landscape::minimum::Known;
 use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
 use crate::units::si;
 use checker::Checker;
+
+/// Slow motions followed from each pathway, at most.
+const SLOW: usize = 16;
 
 /// What the check does.
 #[derive(Clone, Debug, PartialEq)]
@@ -227,17 +232,30 @@ pub fn check(
         .enumerate()
         .filter(|(_, barrier)| is_checkable(barrier))
         .collect();
+    let known = slides_below(problem, states, &chosen);
     let checked = std::sync::atomic::AtomicUsize::new(0);
     chosen
         .par_iter()
         .map(|&(number, barrier)| {
-            let checker = Checker::new(problem, body, states, barrier, settings);
+            let checker = Checker::new(problem, body, (states, &known), barrier, settings);
             let check = checker.check(settings.seed.wrapping_add(number as u64));
             let before = checked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             done(before + 1, chosen.len());
             check
         })
         .collect()
+}
+
+/// The ways on which slow motion leads down from the pathways: trajectories end on the same ones.
+fn slides_below(problem: &Problem, states: &[State], barriers: &[(usize, &Barrier)]) -> Known {
+    let mut known = Known::minima(states.iter().map(|state| state.configuration));
+    let points = barriers.iter().flat_map(|(_, barrier)| {
+        let every = barrier.pathway.len().div_ceil(SLOW).max(1);
+        barrier.pathway.iter().step_by(every)
+    });
+    let starts: Vec<Configuration> = points.map(|point| point.configuration).collect();
+    known.learn(problem, &starts);
+    known
 }
 
 fn is_checkable(barrier: &Barrier) -> bool {

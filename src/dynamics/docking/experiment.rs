@@ -4,7 +4,7 @@ use super::{Docking, DockingError, DockingRun, DockingSettings, End, MatchRule, 
 use crate::configuration::Configuration;
 use crate::dynamics::{Body, Simulation, Snapshot, Stop};
 use crate::landscape::Proportion;
-use crate::landscape::minimum::{Outcome, drift};
+use crate::landscape::minimum::{Known, Outcome, approach};
 use crate::problem::Problem;
 use crate::tile::Pair;
 
@@ -71,8 +71,12 @@ impl<'a> Experiment<'a> {
         let end = match since {
             Some(since) => End::Bound { since },
             None if run.last.in_contact_range && caught => {
-                trap = minimum_below(self.problem, &run.last.motion.configuration)
-                    .map(|q| (q, self.problem.energy(&q)));
+                trap = minimum_below(
+                    self.problem,
+                    &run.last.motion.configuration,
+                    &Known::default(),
+                )
+                .map(|q| (q, self.problem.energy(&q)));
                 End::Trapped { trap: None }
             }
             None => End::Free,
@@ -140,14 +144,14 @@ impl<'a> Experiment<'a> {
 
 /// Where slow motion leads from `q`, lifted out of contact first where the tiles overlap by the
 /// little that turning within a step lets them.
-pub fn minimum_below(problem: &Problem, q: &Configuration) -> Option<Configuration> {
+pub fn minimum_below(problem: &Problem, q: &Configuration, known: &Known) -> Option<Configuration> {
     let mut q = *q;
     if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {
         let away = q.position().normalize();
         let position = q.position() + away * (contact.lift(&q, away) + CLEAR);
         q = Configuration::new(position.x, position.y, q.theta);
     }
-    match drift(problem, &q) {
+    match approach(problem, &q, known).outcome {
         Outcome::Minimum(found) => Some(found.point.q),
         Outcome::Free | Outcome::Stuck(_) => None,
     }

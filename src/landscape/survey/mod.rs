@@ -251,7 +251,7 @@ impl Survey {
 
     /// The minima found so far.
     pub fn known(&self) -> Known {
-        Known::minima(self.states.iter().map(|state| &state.minimum))
+        Known::minima(self.states.iter().map(|state| state.minimum.point.q))
     }
 
     /// The node in which a descent ended, made if need be.

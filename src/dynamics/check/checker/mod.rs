@@ -14,6 +14,7 @@ use crate::configuration::Configuration;
 use crate::dynamics::docking::{minimum_below, stream};
 use crate::dynamics::trajectory::normal;
 use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot};
+use crate::landscape::minimum::Known;
 use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
 
@@ -43,6 +44,7 @@ pub(super) struct Checker<'a> {
     problem: &'a Problem,
     body: Body,
     states: &'a [State],
+    known: &'a Known,
     barrier: &'a Barrier,
     settings: &'a CheckSettings,
     /// Energy (J) that trajectories stay below, and that of the barrier, by which energies are
@@ -71,7 +73,7 @@ impl<'a> Checker<'a> {
     pub fn new(
         problem: &'a Problem,
         body: Body,
-        states: &'a [State],
+        (states, known): (&'a [State], &'a Known),
         barrier: &'a Barrier,
         settings: &'a CheckSettings,
     ) -> Self {
@@ -106,6 +108,7 @@ impl<'a> Checker<'a> {
             problem,
             body,
             states,
+            known,
             barrier,
             settings,
             ceiling,
@@ -283,7 +286,7 @@ impl<'a> Checker<'a> {
         if space.is_far(q) {
             return Some(Place::Free);
         }
-        let minimum = minimum_below(self.problem, q)?;
+        let minimum = minimum_below(self.problem, q, self.known)?;
         let distance = |state: &State| space.distance(&state.configuration, &minimum);
         let nearest = self
             .states
