@@ -35,6 +35,9 @@ impl Network {
     /// algorithm, paths added up by their maximum. Links that are not weighed are on no such route,
     /// once the network is spanned.
     pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
+        if goals.is_empty() {
+            return None;
+        }
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
             let number = edge.id().index();
             self.is_weighed(number) && self.is_motion(number, from, goals)
