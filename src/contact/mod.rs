@@ -12,6 +12,7 @@ mod lift;
 pub mod matching;
 mod motion;
 mod points;
+mod stretch;
 mod tree;
 
 pub use admissible::closest_admissible;

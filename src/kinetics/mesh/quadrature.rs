@@ -24,10 +24,6 @@ const FARTHEST: f64 = 700.0;
 
 /// The two points of Gauss on [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-/// Looks at the clearance along a line through a cell.
-const LOOKS: usize = 6;
-/// Halvings that find where contact begins.
-const HALVINGS: usize = 14;
 /// Change of U/kT across a panel of a line, at most ...
 const PANEL: f64 = 1.2;
 /// ... unless there would be more panels.
@@ -234,27 +230,17 @@ impl<'a> Integrator<'a> {
         if !cut {
             return vec![[0.0, 1.0]];
         }
-        let is_free = |u: f64| self.problem.is_clear(&ray.configuration(sum.along(u)));
-        let mut parts = Vec::new();
-        let mut before = (0.0, is_free(0.0));
-        let mut since = 0.0;
-        for look in 1..=LOOKS {
-            let here = look as f64 / LOOKS as f64;
-            let here = (here, is_free(here));
-            if here.1 != before.1 {
-                let edge = edge(&is_free, before, here.0);
-                if here.1 {
-                    since = edge;
-                } else {
-                    parts.push([since, edge]);
-                }
-            }
-            before = here;
-        }
-        if before.1 {
-            parts.push([since, 1.0]);
-        }
-        parts
+        let Some(contact) = &self.problem.contact else {
+            return vec![[0.0, 1.0]];
+        };
+        interruption::check();
+        let [from, to] = [0.0, 1.0].map(|u| ray.configuration(sum.along(u)));
+        let way = to.position() - from.position();
+        let length = way.norm();
+        let free = contact.free_stretches(&from, way / length, length);
+        free.into_iter()
+            .map(|ends| ends.map(|end| end / length))
+            .collect()
     }
 
     /// Adds a free part to a line.
@@ -286,20 +272,6 @@ impl<'a> Integrator<'a> {
             line.points.push((u, width / 2.0, weights, energy));
         }
     }
-}
-
-/// Where a line enters or leaves what is free, between a place of which that is known and one where
-/// it is otherwise.
-fn edge(is_free: &dyn Fn(f64) -> bool, (mut from, free): (f64, bool), mut to: f64) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (from + to);
-        if is_free(middle) == free {
-            from = middle;
-        } else {
-            to = middle;
-        }
-    }
-    0.5 * (from + to)
 }
 
 /// The coordinate, phi or theta, along which four lines differ too much to stand for all between
