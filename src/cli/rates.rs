@@ -8,7 +8,7 @@ use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
 use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
-use tilebind::kinetics::{Certify, why_unprovable};
+use tilebind::kinetics::{Certify, OVERDAMPED, why_unprovable};
 use tilebind::observer::Observer;
 use tilebind::report::page::Page;
 use tilebind::report::{json, rates as report, writer};
@@ -16,7 +16,6 @@ use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::figures::command_line;
 use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::yields::OVERDAMPED;
 use super::{Failure, input, interrupt, memory, print, tell_of_kept};
 
 /// Mean exit times after which a moving tile is given up.

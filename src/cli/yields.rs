@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
+use tilebind::kinetics::OVERDAMPED;
 use tilebind::kinetics::rates::RatesError;
 use tilebind::report::files::with_report;
 use tilebind::report::json;
@@ -95,8 +96,6 @@ enum Rates {
     Overdamped,
 }
 
-/// Drag rate (1/s) from which on motion is overdamped.
-pub(super) const OVERDAMPED: f64 = 50.0;
 /// Most tiles.
 const MOST_TILES: usize = 10_000;
 /// Most settings.

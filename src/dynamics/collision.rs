@@ -16,7 +16,12 @@
 //!
 //! Restitution e asks for `l = e u` where the approach was u before the step's push, which what
 //! rests does not have. Where many points or friction would let energy grow (Kane and Levinson
-//! 1985), so much less is given back that it does not.
+//! 1985), so much less is given back that it does not. Steady forces take a little of every knock
+//! so, as it is made from the velocity before them. Elastic knocks (e = 1) must not lose that, for it
+//! adds up: there u is the approach at contact, `u^2 = u0^2 - 2 a gap` with the approach u0 at the
+//! step's start and the acceleration a along n, and of velocities, which belong to the middles of
+//! steps, that at the step's end is to be `n.v = u`. Energy is kept then, but for bounces shorter
+//! than a step.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -63,6 +68,16 @@ impl Hold {
         }
     }
 
+    /// The least velocity (m/s) along the normal in the middle of a step in which an elastic knock
+    /// falls, of the velocity in the middle of the one before: at the step's end it is the approach
+    /// at contact.
+    fn thrown_back(&self, stride: &Stride, velocity: &Vector3<f64>) -> f64 {
+        let start = self.normal.dot(&stride.at_start(velocity)).min(0.0);
+        let pull = -self.normal.dot(&stride.acceleration);
+        let square = start * start + 2.0 * pull * self.gap.max(0.0);
+        square.max(0.0).sqrt() + 0.5 * pull * stride.h
+    }
+
     /// The impulses along normal and tangent that a velocity asks for.
     fn impulses(&self, masses: &Vector3<f64>, velocity: &Vector3<f64>, friction: f64) -> [f64; 2] {
         let Self {
@@ -92,18 +107,44 @@ impl Hold {
     }
 }
 
-/// One step of `h` (s) from a phase whose velocity is changed by `push` (m/s, m/s, rad/s), held back
-/// at points of contact.
+/// A step of the leapfrog method.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stride {
+    /// What pulls (m/s^2, m/s^2, rad/s^2).
+    pub acceleration: Vector3<f64>,
+    /// How long the step before was (s), and this one.
+    pub before: f64,
+    pub h: f64,
+}
+
+impl Stride {
+    /// By how much the velocity changes from the middle of the step before to that of this one.
+    pub fn push(&self) -> Vector3<f64> {
+        self.acceleration * (0.5 * (self.before + self.h))
+    }
+
+    /// The velocity at the step's start, of that in the middle of the one before.
+    fn at_start(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
+        velocity + self.acceleration * (0.5 * self.before)
+    }
+
+    /// The velocity at the step's end, of that in its middle.
+    fn at_end(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
+        velocity + self.acceleration * (0.5 * self.h)
+    }
+}
+
+/// One step from a phase, held back at points of contact.
 pub(super) fn step(
     body: &Body,
     surface: Surface,
     phase: &Phase,
-    push: &Vector3<f64>,
-    h: f64,
+    stride: &Stride,
     points: &[ContactPoint],
 ) -> Phase {
     let masses = body.masses();
-    let free = phase.velocity + push;
+    let h = stride.h;
+    let free = phase.velocity + stride.push();
     let mut holds: Vec<Hold> = points
         .iter()
         .map(|point| Hold::new(point, phase.place.xy()))
@@ -121,11 +162,23 @@ pub(super) fn step(
     let mut velocity = stopped;
     let approach = |hold: &Hold| -hold.normal.dot(&phase.velocity);
     if surface.restitution > 0.0 && holds.iter().any(|hold| approach(hold) > ERROR) {
+        let is_elastic = surface.restitution == 1.0;
         for hold in &mut holds {
-            hold.least = surface.restitution * approach(hold).max(0.0);
+            hold.least = match is_elastic {
+                true => hold.thrown_back(stride, &phase.velocity),
+                false => surface.restitution * approach(hold).max(0.0),
+            };
         }
         let bounced = held(&masses, &free, &holds, surface.friction) - stopped;
-        velocity += bounced * share_within(body, &stopped, &bounced, body.kinetic_energy(&free));
+        velocity += bounced
+            * match is_elastic {
+                true => {
+                    let start = body.kinetic_energy(&stride.at_start(&phase.velocity));
+                    let work = masses.component_mul(&stride.acceleration).dot(&way) * h;
+                    share_within(body, &stride.at_end(&stopped), &bounced, start + work)
+                }
+                false => share_within(body, &stopped, &bounced, body.kinetic_energy(&free)),
+            };
     }
     Phase {
         place: phase.place + way * h,

@@ -32,10 +32,12 @@ pub struct ExitRuns {
     pub ends: [usize; 2],
     /// How many were given up.
     pub given_up: usize,
-    /// Mean exit time (s) of those that got to an end, and its standard error.
+    /// Mean exit time (s) and its standard error. Those given up count with the time until then, so
+    /// that where there are any it is longer than this.
     pub time: [f64; 2],
-    /// Mean kinetic energy over 3/2 kT: 1 where the shaking keeps its temperature.
-    pub warmth: f64,
+    /// Mean kinetic energy over 3/2 kT: 1 where the shaking keeps its temperature; and its standard
+    /// error.
+    pub warmth: [f64; 2],
 }
 
 /// Runs of shaken tiles to the first of two ends.
@@ -74,18 +76,16 @@ pub fn exits(
     };
     let runs: Vec<(Option<usize>, f64, f64)> = (0..asked.runs).into_par_iter().map(one).collect();
     let count = |end: Option<usize>| runs.iter().filter(|run| run.0 == end).count();
-    let times: Vec<f64> = runs
+    let times: Vec<f64> = runs.iter().map(|run| run.1).collect();
+    let warm: Vec<[f64; 2]> = runs
         .iter()
-        .filter(|run| run.0.is_some())
-        .map(|run| run.1)
+        .map(|&(_, time, kinetic)| [kinetic / (1.5 * kt), time])
         .collect();
-    let all: f64 = runs.iter().map(|run| run.1).sum();
-    let kinetic: f64 = runs.iter().map(|run| run.2).sum();
     Ok(ExitRuns {
         ends: [count(Some(0)), count(Some(1))],
         given_up: count(None),
         time: mean_and_error(&times),
-        warmth: kinetic / all / (1.5 * kt),
+        warmth: ratio_and_error(&warm),
     })
 }
 
@@ -95,4 +95,28 @@ pub fn mean_and_error(sample: &[f64]) -> [f64; 2] {
     let mean = sample.iter().sum::<f64>() / n;
     let variance = sample.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
     [mean, (variance / n).sqrt()]
+}
+
+/// The ratio of the sums of pairs of numbers, and its standard error; that is NaN of one pair.
+fn ratio_and_error(pairs: &[[f64; 2]]) -> [f64; 2] {
+    let [above, below] = [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).sum::<f64>());
+    let ratio = above / below;
+    let squares = pairs.iter().map(|[a, b]| (a - ratio * b).powi(2));
+    let n = pairs.len() as f64;
+    let error = (squares.sum::<f64>() * n / (n - 1.0)).sqrt() / below;
+    [ratio, error]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ratio_of_equal_weights_is_a_mean() {
+        let sample = [0.3, 1.9, 1.1, 0.7];
+        let pairs = sample.map(|value| [2.0 * value, 2.0]);
+        let [mean, error] = mean_and_error(&sample);
+        let [ratio, of_ratio] = ratio_and_error(&pairs);
+        assert!((ratio - mean).abs() < 1e-14 && (of_ratio - error).abs() < 1e-14);
+    }
 }

@@ -7,7 +7,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::body::{Body, Motion, Phase};
-use super::collision;
+use super::collision::{self, Stride};
 use super::flight;
 use super::force::Forces;
 use super::simulation::{Simulation, Snapshot, Stop};
@@ -17,8 +17,12 @@ use super::vicinity::{Ahead, Vicinity};
 const REST_SPEED: f64 = 1e-5;
 /// ... for this long (s).
 const REST_TIME: f64 = 0.02;
-/// Time between two random kicks (s).
+/// Time between two random kicks (s), at most.
 const KICK_INTERVAL: f64 = 5e-3;
+/// Drag takes this share of the velocity between two kicks at most. Drag acts with the kicks, so that
+/// steady motion under a force, and with it diffusion, is too fast by `x coth x` with x half of this
+/// share: by half a per cent.
+const DRAG_A_KICK: f64 = 0.25;
 /// Free steps are at least this long (s): no force of magnets bends a path faster.
 const SHORTEST_STEP: f64 = 1e-7;
 
@@ -87,10 +91,11 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     ) -> Stop {
         self.sense_contact();
         let shaken = self.simulation.settings.shaking;
+        let interval = KICK_INTERVAL.min(DRAG_A_KICK / self.simulation.settings.drag);
         let mut stop = None;
         while stop.is_none() && self.time < duration {
             let until = match shaken {
-                Some(_) => (self.time + KICK_INTERVAL).min(duration),
+                Some(_) => (self.time + interval).min(duration),
                 None => duration,
             };
             let since = self.time;
@@ -186,8 +191,12 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             let left = until - self.time;
             let travel = self.time_to_travel(&acceleration, settings.contact_travel);
             let h = travel.min(settings.contact_step).min(left);
-            let push = acceleration * (0.5 * (before + h));
-            let velocity = self.phase.velocity + push;
+            let stride = Stride {
+                acceleration,
+                before,
+                h,
+            };
+            let velocity = self.phase.velocity + stride.push();
             let way = h * simulation.fastest(&velocity);
             let ahead = if self.room > way {
                 Ahead::Room(self.room)
@@ -210,7 +219,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                 }
                 Ahead::Contact(points) => {
                     let (body, surface) = (&simulation.body, simulation.surface());
-                    self.phase = collision::step(body, surface, &self.phase, &push, h, &points);
+                    self.phase = collision::step(body, surface, &self.phase, &stride, &points);
                     self.room = 0.0;
                 }
             }

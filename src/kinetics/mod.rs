@@ -88,3 +88,6 @@ pub use certify::{Certify, why_unprovable};
 pub use corridor::{NARROW, Way};
 pub use proof::Capacity;
 pub use well::{Estimate, Well};
+
+/// Drag rate (1/s) from which on tiles move as if they had no inertia, as far as means over times tell.
+pub const OVERDAMPED: f64 = 50.0;

@@ -10,8 +10,8 @@ use super::{
 };
 use crate::design::Design;
 use crate::dynamics::exits::ExitRuns;
-use crate::kinetics::Way;
 use crate::kinetics::exit::{Exit, ExitSettings};
+use crate::kinetics::{OVERDAMPED, Way};
 use crate::report::values;
 use crate::units::{duration, duration_to, si};
 
@@ -148,51 +148,83 @@ pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit
 pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
     let mean = exit.time() / motion.diffusion;
     let [bound, free] = runs.ends;
+    let [warmth, of_warmth] = runs.warmth;
     json!({
         "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
+        // Where some were given up the mean is longer than this.
         "mean_exit_s": finite(runs.time[0]),
         "standard_error_s": finite(runs.time[1]),
         "ratio": finite(runs.time[0] / mean),
+        "ratio_error": finite(runs.time[1] / mean),
         "bound": finite(bound as f64 / (bound + free) as f64),
-        "kinetic_over_kt": finite(runs.warmth),
+        "kinetic_over_kt": finite(warmth),
+        "kinetic_over_kt_error": finite(of_warmth),
+        "has_temperature": !is_cold(runs),
     })
 }
 
-/// The kinetic energy of moving tiles may differ from that of kT by this share.
+/// Moving tiles have no temperature where their kinetic energy is below that of kT by more than this
+/// share, ...
 const WARM: f64 = 0.1;
+/// ... and by more than so many standard errors.
+const SURE: f64 = 3.0;
+
+/// Whether knocks take energy that shaking does not give back.
+fn is_cold(runs: &ExitRuns) -> bool {
+    let [warmth, error] = runs.warmth;
+    warmth < 1.0 - WARM && warmth < 1.0 - SURE * error
+}
 
 /// What moving tiles say of an exit, in a few lines.
 pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
     let mean = exit.time() / motion.diffusion;
     let [bound, free] = runs.ends;
     let [time, error] = runs.time;
+    let ended = bound + free;
+    let is_least = runs.given_up > 0;
     let mut text = format!(
-        "check: {} rigid bodies with inertia take {} +- {} on average, {:.2} +- {:.2} times as \
-         long; bound first in {:.0} % ({bound} of {})\n",
-        bound + free + runs.given_up,
+        "check: {} rigid bodies with inertia take {}{} +- {} on average, {}{:.2} +- {:.2} times as \
+         long",
+        ended + runs.given_up,
+        if is_least { "more than " } else { "" },
         duration(time, 3),
         duration(error, 2),
+        if is_least { "more than " } else { "" },
         time / mean,
         error / mean,
-        100.0 * bound as f64 / (bound + free) as f64,
-        bound + free,
     );
-    if runs.given_up > 0 {
+    let _ = match ended {
+        0 => writeln!(text),
+        _ => writeln!(
+            text,
+            "; bound first in {:.0} % ({bound} of {ended})",
+            100.0 * bound as f64 / ended as f64,
+        ),
+    };
+    if is_least {
         let _ = writeln!(
             text,
-            "  {} were given up under way: the mean is too short",
+            "  {} were given up under way, and count with the time until then",
             runs.given_up
         );
     }
+    let [warmth, error] = runs.warmth;
     let _ = writeln!(
         text,
-        "  their kinetic energy is {:.2} times that of kT{}",
-        runs.warmth,
-        if (runs.warmth - 1.0).abs() > WARM {
-            ": knocks take energy that the shaking does not give back, so no temperature exists"
-        } else {
-            ""
+        "  their kinetic energy is {warmth:.2} +- {error:.2} times that of kT{}",
+        match is_cold(runs) {
+            true =>
+                ": knocks take energy that the shaking does not give back, so no temperature exists",
+            false => "",
         },
     );
+    if motion.drag < OVERDAMPED {
+        let _ = writeln!(
+            text,
+            "  a drag of {} /s lets tiles glide: overdamped rates are not theirs, and the ratio says \
+             by how much",
+            motion.drag
+        );
+    }
     text
 }

@@ -260,3 +260,33 @@ fn thrown_about_a_table_a_tile_never_gains_energy() {
         }
     }
 }
+
+/// Pushed against the other tile, thrown back again and again: on a corner, on both at once and in
+/// turn. An elastic knock loses nothing although the push acts on within the steps of knocks.
+#[test]
+fn elastic_knocks_keep_energy_under_a_steady_push() {
+    let (problem, body) = pushed(Vector3::new(-2.0, 0.0, 0.0));
+    let settings = MotionSettings {
+        restitution: 1.0,
+        ..ideal()
+    };
+    for start in [
+        ([0.44, 0.0, 0.0], [0.0, 0.0, 0.0]),
+        ([0.45, 0.02, 0.02], [-0.1, 0.0, 0.3]),
+        ([0.46, 0.0, -0.01], [0.2, 0.0, -0.2]),
+    ] {
+        let (run, snapshots) = run(&problem, body, &settings, start, 2.0);
+        // Above what it has at rest on the face.
+        let energy = |snapshot: &Snapshot| snapshot.total() - 2.0 * 0.43;
+        let bounces = snapshots
+            .windows(2)
+            .filter(|pair| {
+                let [before, after] = [&pair[0], &pair[1]].map(|s| s.motion.velocity.x);
+                after - before > 0.02
+            })
+            .count();
+        assert!(bounces > 10, "{bounces}");
+        let left = energy(&run.last) / energy(&snapshots[0]);
+        assert!((left - 1.0).abs() < 1e-6, "{left} after {bounces}");
+    }
+}

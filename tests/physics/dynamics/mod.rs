@@ -106,6 +106,40 @@ fn free_flight_keeps_momentum_and_drag_takes_it_at_its_rate() {
     }
 }
 
+/// Where nothing else acts, shaken tiles diffuse with kT over the drag, however strong that is.
+#[test]
+fn strong_drag_leaves_the_diffusion_that_it_is_to_be() {
+    let (problem, body) = pushed(Vector3::zeros());
+    let kt = 3e-3;
+    for drag in [50.0, 1000.0] {
+        let settings = MotionSettings {
+            drag,
+            shaking: Some(kt),
+            longest_step: 1.0,
+            ..ideal()
+        };
+        let simulation = Simulation::new(&problem, body, &settings).unwrap();
+        let (time, count) = (100.0 / drag, 2000);
+        let start = Motion::from([5.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let squares = (0..count).map(|seed| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let end = simulation.run(&start, time, &mut rng, &mut |_| false).last;
+            let q = end.motion.configuration;
+            (q.x - 5.0).powi(2) + q.y * q.y
+        });
+        let mean = squares.sum::<f64>() / count as f64;
+        // At rest first, it starts late: t - 3/(2c) for t (Ornstein and Uhlenbeck).
+        let expected = 4.0 * kt / (drag * body.mass) * (time - 1.5 / drag);
+        // Of so many squares of two normal numbers each the mean is known to 1 / sqrt(count).
+        let error = 3.5 / (count as f64).sqrt();
+        assert!(
+            (mean / expected - 1.0).abs() < error,
+            "{drag}: {}",
+            mean / expected
+        );
+    }
+}
+
 #[test]
 fn energy_is_kept_past_strong_magnets() {
     let design = paper_tile();
