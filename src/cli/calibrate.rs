@@ -28,9 +28,10 @@ Rows without iron give the strength of the magnets, rows with iron the shields' 
 shields sit on the faces that have one in the design, or on all faces if none has. Rows held out of
 the fit say how good the model is for other poses.
 
-With --bonds the table has two columns, bound_s and apart_s: whole intervals for which a pair was
-bound, and for which it was apart (s). Their means give K and so the effective kT of the shaking. Speeds
-of tiles do not: where both were measured, they differed tenfold. Or the table has the column
+With --bonds the table has two columns, bound_s and apart_s: the intervals for which a pair was
+bound, and for which it was apart (s); what still lasted when watching ended has a > before it (>120) and
+has to be there, for short intervals are seen to their ends more often than long ones. Their means give K
+and so the effective kT of the shaking. Speeds of tiles do not: where both were measured, they differed tenfold. Or the table has the column
 distance_m: how far apart the reference points of a pair were (m) when it was looked at, each time long
 after the last. The kT of the greatest likelihood is printed, for the distances up to --within.
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::json;
-use crate::calibration::bonds::PairTimes;
+use crate::calibration::bonds::{PairTimes, Times};
 use crate::calibration::distances::DistanceFit;
 use crate::calibration::{Calibration, QUANTITIES, Residuals};
 use crate::design::Design;
@@ -164,7 +164,7 @@ impl KtFit {
     /// The sentence that answers, and how far the intervals are exponential.
     pub fn summary(&self, design: &Design) -> String {
         let energy = |kt: Option<f64>| kt.map_or("?".to_owned(), |kt| si(kt, "J", 3));
-        let [bound, apart] = self.times.means();
+        let (bound, apart) = (&self.times.bound, &self.times.apart);
         let mut text = match self.kt {
             Some(_) => format!(
                 "{}: pairs bind and part as at kT = {} (95 % interval: {} to {})\n",
@@ -182,29 +182,42 @@ impl KtFit {
             text,
             "measured: bound for {} in the mean of {} times, apart for {} in the mean of {}; the pair had {} m² \
              for itself\nthe interval has the scatter of these times in it, not what the energies are off by",
-            si(bound, "s", 3),
-            self.times.bound.len(),
-            si(apart, "s", 3),
-            self.times.apart.len(),
+            si(bound.mean(), "s", 3),
+            bound.whole.len(),
+            si(apart.mean(), "s", 3),
+            apart.whole.len(),
             self.area
         );
-        for (name, statistic) in ["bound", "apart"].iter().zip(self.times.statistics()) {
-            if statistic > OnRate::CRITICAL {
-                let _ = writeln!(
+        for (name, times) in [("bound", bound), ("apart", apart)] {
+            let _ = match times.statistic() {
+                None => writeln!(
+                    text,
+                    "times {name} that were cut off: {}; they count with what was seen of them, and whether \
+                     these times are exponential is not tested",
+                    times.cut.len()
+                ),
+                Some(statistic) if statistic > OnRate::CRITICAL => writeln!(
                     text,
                     "the times {name} are not exponential (statistic {statistic:.2} above {}): one \
                      kT does not tell of them",
                     OnRate::CRITICAL
-                );
-            }
+                ),
+                Some(_) => Ok(()),
+            };
         }
         text
     }
 
     /// The same as JSON.
     pub fn json(&self, design: &Design) -> String {
-        let [bound, apart] = self.times.means();
-        let [of_bound, of_apart] = self.times.statistics();
+        let kind = |times: &Times| {
+            json!({
+                "count": times.whole.len(),
+                "cut_off": times.cut.len(),
+                "mean_s": times.mean(),
+                "statistic": times.statistic(),
+            })
+        };
         json::text(&json!({
             "tilebind": env!("CARGO_PKG_VERSION"),
             "design": {"name": design.name, "sha256": design.sha256},
@@ -212,8 +225,8 @@ impl KtFit {
             "kT_J": self.kt,
             "kT_interval_J": self.interval,
             "area_m2": self.area,
-            "bound": {"count": self.times.bound.len(), "mean_s": bound, "statistic": of_bound},
-            "apart": {"count": self.times.apart.len(), "mean_s": apart, "statistic": of_apart},
+            "bound": kind(&self.times.bound),
+            "apart": kind(&self.times.apart),
             "critical": OnRate::CRITICAL,
         }))
     }

@@ -297,8 +297,9 @@ impl Design {
     /// Parameters
     /// ----------
     /// table : pandas.DataFrame, str or os.PathLike
-    ///     The measurements or a CSV file of them: `bound_s` and `apart_s`, whole intervals for
-    ///     which a pair was bound, and for which it was apart (s); or `distance_m`, how far apart
+    ///     The measurements or a CSV file of them: `bound_s` and `apart_s`, intervals for which
+    ///     a pair was bound, and for which it was apart (s), with a `>` before those that still
+    ///     lasted when watching ended; or `distance_m`, how far apart
     ///     the reference points of a pair were, each time long after the last (m).
     /// area : float, optional
     ///     Area that a pair had for itself (m^2); the design's table by default. Of intervals only.
