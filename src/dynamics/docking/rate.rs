@@ -67,11 +67,55 @@ impl OnRate {
     }
 }
 
-/// The 95 % interval of the mean of which a Poisson process gave the count n,
-/// `(sqrt(n + 3/8) +- 0.98)^2 - 3/8` (Anscombe 1948, doi:10.1093/biomet/35.3-4.246).
+/// What lies beyond either end of an interval of 95 %.
+const TAIL: f64 = 0.025;
+/// Halvings that find the ends of an interval.
+const HALVINGS: usize = 60;
+
+/// The 95 % interval of the mean of which a Poisson process gave the count n (Garwood 1936,
+/// doi:10.1093/biomet/28.3-4.437): the means at which so many or more, or so many or fewer, have a
+/// probability of 2.5 %. It holds the mean at least as often as it says, and begins at 0 for n = 0.
 pub fn poisson_interval(count: usize) -> [f64; 2] {
-    let root = (count as f64 + 0.375).sqrt();
-    [root - 0.98, root + 0.98].map(|root| (root.max(0.0).powi(2) - 0.375).max(0.0))
+    let most = count as f64 + 10.0 * (count as f64).sqrt() + 10.0;
+    // The more the mean, the less likely are so few.
+    let mean_of = |count: usize, p: f64| {
+        let [mut low, mut high] = [0.0, most];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            match up_to(count, middle) > p {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        0.5 * (low + high)
+    };
+    let low = count
+        .checked_sub(1)
+        .map_or(0.0, |fewer| mean_of(fewer, 1.0 - TAIL));
+    [low, mean_of(count, TAIL)]
+}
+
+/// The probability of so many or fewer by Poisson's distribution of a mean.
+fn up_to(count: usize, mean: f64) -> f64 {
+    let factorial: f64 = (2..=count).map(|k| (k as f64).ln()).sum();
+    let own = (count as f64 * mean.ln() - mean - factorial).exp();
+    // Outwards, to the side on which they get rarer.
+    let mut term = own;
+    let mut sum = 0.0;
+    if mean >= count as f64 {
+        for k in (0..count).rev() {
+            term *= (k + 1) as f64 / mean;
+            sum += term;
+        }
+        return own + sum;
+    }
+    let mut k = count;
+    while term > sum * f64::EPSILON {
+        k += 1;
+        term *= mean / k as f64;
+        sum += term;
+    }
+    1.0 - sum
 }
 
 /// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found, see
@@ -105,5 +149,29 @@ mod tests {
         let exponential: Vec<f64> = uniform.iter().map(|u| -(1.0 - u).ln()).collect();
         assert!(exponential_statistic(&exponential) < OnRate::CRITICAL);
         assert!(exponential_statistic(&uniform) > 2.0 * OnRate::CRITICAL);
+    }
+    /// Garwood's table.
+    #[test]
+    fn intervals_of_counts_are_exact() {
+        for (count, low, high) in [
+            (0, 0.0, 3.689),
+            (1, 0.0253, 5.572),
+            (10, 4.795, 18.39),
+            (100, 81.36, 121.63),
+        ] {
+            let found = poisson_interval(count);
+            for (found, table) in found.into_iter().zip([low, high]) {
+                assert!(
+                    (found - table).abs() <= 2e-4 * high,
+                    "{count}: {found} {table}"
+                );
+            }
+        }
+        // Of many, nearly normal: z and then (z^2 - 1) / 3.
+        let [low, high] = poisson_interval(40_000);
+        assert!(
+            (low - 39_609.5).abs() < 1.0 && (high - 40_394.0).abs() < 1.5,
+            "{low} {high}"
+        );
     }
 }
