@@ -132,14 +132,21 @@ mod tests {
                 let free = contact.free_stretches(&q, direction, length);
                 let ends: Vec<f64> = free.iter().flatten().copied().collect();
                 assert!(ends.is_sorted());
-                for (k, gap) in [&[0.0], &ends[..], &[length]].concat().windows(2).enumerate() {
+                for (k, gap) in [&[0.0], &ends[..], &[length]]
+                    .concat()
+                    .windows(2)
+                    .enumerate()
+                {
                     narrow += usize::from(gap[1] - gap[0] < 1e-3 && gap[1] > gap[0]);
                     for part in [0.01, 0.3, 0.5, 0.9, 0.99] {
                         let t = gap[0] + part * (gap[1] - gap[0]);
                         // Rounding is all that may differ within a hair of an end.
                         let hair = (t - gap[0]).min(gap[1] - t) < 1e-12;
                         let is_free = contact.is_free(&at(t));
-                        assert!(hair || is_free == (k % 2 == 1), "{q:?} {towards} {t} {ends:?}");
+                        assert!(
+                            hair || is_free == (k % 2 == 1),
+                            "{q:?} {towards} {t} {ends:?}"
+                        );
                     }
                 }
             }
