@@ -72,7 +72,7 @@ pub struct Dock {
 
     /// Share of the approach velocity that a knock gives back
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = input::not_negative)]
+          value_parser = input::share)]
     restitution: f64,
 
     /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of

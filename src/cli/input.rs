@@ -115,6 +115,14 @@ pub fn runs(text: &str) -> Result<usize, String> {
     count(text).and_then(not_too_many)
 }
 
+/// A number of runs of which a mean with its error comes.
+pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
+    match runs(text)? {
+        1 => Err("of one run no error of the mean is known: 2 or more are needed".to_owned()),
+        count => Ok(count),
+    }
+}
+
 /// A number of runs, 0 among them.
 pub fn runs_or_none(text: &str) -> Result<usize, String> {
     count_or_none(text).and_then(not_too_many)
@@ -167,6 +175,14 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x: &f64| x.is_finite() && *x >= 0.0)
         .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+}
+
+/// A share, or nothing or all.
+pub fn share(text: &str) -> Result<f64, String> {
+    not_negative(text)
+        .ok()
+        .filter(|x| *x <= 1.0)
+        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
 }
 
 /// A number below 0.

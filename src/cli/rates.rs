@@ -99,12 +99,12 @@ pub struct Rates {
 
     /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
     /// that of overdamped motion
-    #[arg(long, value_name = "N", requires = "start", value_parser = input::runs)]
+    #[arg(long, value_name = "N", requires = "start", value_parser = input::runs_of_a_mean)]
     check: Option<usize>,
 
     /// Share of the approach velocity that a knock gives back, in --check
     #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
-          value_parser = input::not_negative)]
+          value_parser = input::share)]
     restitution: f64,
 
     #[command(flatten)]

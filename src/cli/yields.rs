@@ -71,7 +71,7 @@ pub struct YieldCommand {
 
     /// Share of the approach velocity that a knock gives back
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = input::not_negative)]
+          value_parser = input::share)]
     restitution: f64,
 
     /// Runs of the exact simulation by which the numbers are checked; 0 for none

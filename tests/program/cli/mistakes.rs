@@ -71,6 +71,8 @@ fn negative_numbers_are_told_in_our_words() {
         ("rates", "--certify", "-0.1", "greater than 0"),
         ("rates", "--traps", "-1", "a whole number"),
         ("rates", "--check", "-10", "a whole number"),
+        ("rates", "--check", "1", "2 or more"),
+        ("rates", "--restitution", "1.5", "from 0 to 1"),
     ] {
         // Of a list the wrong one is named.
         let (wrong, _) = value.split_once(',').unwrap_or((value, ""));

@@ -70,6 +70,43 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     }
 }
 
+/// Elastic knocks and much drag: moving tiles have a temperature, and leave as overdamped ones do.
+/// Little drag and knocks that swallow energy: they have none, and the ratio is no more than a bound
+/// where some are given up.
+#[test]
+fn moving_tiles_tell_where_overdamped_rates_hold() {
+    let ways = ["--start", "0.43,-0.04,0", "--free-at", "0.65"];
+    let check = |more: &[&str]| {
+        let common = [
+            "rates",
+            "shapes/paper-tile.toml",
+            "--kt",
+            "6e-3",
+            "--check",
+            "40",
+            "--certify",
+            "9",
+            "--json",
+        ];
+        json(&[&common[..], &ways, more].concat())["check"].clone()
+    };
+    let of = |check: &serde_json::Value, key: &str| {
+        check
+            .pointer(&format!("/{key}"))
+            .and_then(|x| x.as_f64())
+            .expect("a number")
+    };
+    let good = check(&[]);
+    assert_eq!(good["has_temperature"], true);
+    assert_eq!(good["runs"]["given_up"], 0);
+    let far = (of(&good, "ratio") - 1.0) / of(&good, "ratio_error");
+    assert!(far.abs() < 3.5, "{good}");
+    let cold = check(&["--drag", "2", "--restitution", "0"]);
+    assert_eq!(cold["has_temperature"], false, "{cold}");
+    assert!(of(&cold, "runs/given_up") > 10.0, "{cold}");
+    assert!(of(&cold, "ratio") > 10.0, "{cold}");
+}
+
 #[test]
 fn a_start_in_the_bond_is_refused_with_what_mends_it() {
     let asked = ["--kt", "3e-3", "--start", "0.43,0,0"];
