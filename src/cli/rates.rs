@@ -29,8 +29,8 @@ const SQUARES: usize = 120;
 Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
 reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
 (x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
-sources (Thomson), for tiles with convex outlines, upper ones from trial committors (Dirichlet), for
-all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
+sources (Thomson), for tiles whose contact every ray from the centre leaves once (convex ones, tabs,
+slots, teeth, arcs; no dovetails or square teeth), upper ones from trial committors (Dirichlet), for all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
 estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
 how often tiles set out from the well about the start for an end, or from each basin for another, and
 bounds of the mean time until they are there: near each other only where the well holds next to all

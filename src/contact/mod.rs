@@ -8,6 +8,7 @@
 mod admissible;
 pub mod cells;
 mod constraint;
+mod leaving;
 mod lift;
 pub mod matching;
 mod motion;

@@ -19,8 +19,8 @@ pub struct Leaving {
 }
 
 /// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
-/// over cells are off by. Where the tiles' outlines are not convex, those from below are 0: fluxes
-/// that contact lets through are laid along rays, which such outlines cut.
+/// over cells are off by. Where rays may leave contact more than once, those from below are 0: fluxes
+/// that contact lets through are laid along rays, see [`crate::contact::Contact::least_lever`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateBounds {
     /// Out of each place.
@@ -39,6 +39,22 @@ impl RateBounds {
             lies(rates.iter().sum(), self.leaving[from])
                 && others.all(|(to, rate)| lies(*rate, self.rates[from][to]))
         })
+    }
+
+    /// The same, where they say nothing from above with what others say, which hold as well.
+    pub(super) fn or_below(mut self, others: &Self) -> Self {
+        let lower = |own: &mut [f64; 2], other: &[f64; 2]| {
+            if !own[1].is_finite() {
+                own[1] = other[1];
+            }
+        };
+        for (from, rates) in self.rates.iter_mut().enumerate() {
+            lower(&mut self.leaving[from], &others.leaving[from]);
+            for (own, other) in rates.iter_mut().zip(&others.rates[from]) {
+                lower(own, other);
+            }
+        }
+        self
     }
 
     /// Whether there are bounds from above only.

@@ -76,7 +76,7 @@ pub struct Exit {
     /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: of a
     /// tile that starts in the well about the start, where it is last left. They hold but for what
     /// the integrals over cells are off by. None where the start lies in no well; from below only,
-    /// the upper ones infinite, where the tiles' outlines are not convex.
+    /// the upper ones infinite, where rays may leave contact more than once.
     pub bounds: Vec<[f64; 2]>,
     /// What lies midway between the bounds, if the finest mesh's mean exit time does not lie between
     /// them: far below the passes cells that do not begin at contact may be too coarse for what the

@@ -39,8 +39,10 @@
 //! by the probability to come back from there, of which no more is proved than that it is at most 1:
 //! its proved bounds ([`Capacity::mean_exit`]) are near each other only where next to nothing lies
 //! there.
-//! Where outlines are not convex, a ray from the centre may meet contact more than once, no mesh
-//! begins there, and there are bounds from one side only: Dirichlet's.
+//! A mesh begins at contact where every ray from the centre leaves that once and for good
+//! ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots whose sides lean, sine
+//! and triangle teeth, arcs. Dovetails hook in and square teeth have walls along the way out: there
+//! bounds come from one side only, Dirichlet's.
 //!
 //! # What a mesh may miss
 //! Corridors between contacts that are narrower than cells. Where no way out of a state shows, cells

@@ -265,7 +265,10 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let is_between_bounds = between.is_some();
             meshes.extend(between);
             let links = links(&ways, &places.closed, &blocked);
-            let bounds = bounds.or(settings.certify.map(|_| upper));
+            let bounds = match bounds {
+                Some(bounds) => Some(bounds.or_below(&upper)),
+                None => settings.certify.map(|_| upper),
+            };
             return Ok(Rates {
                 meshes,
                 is_between_bounds,

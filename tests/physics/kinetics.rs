@@ -8,7 +8,7 @@ use nalgebra::{Vector2, Vector3};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{Exit, ExitError, ExitSettings, exit};
-use tilebind::kinetics::rates::{Basin, RateSettings, RatesError, rates};
+use tilebind::kinetics::rates::{Basin, RateSettings, Rates, RatesError, rates};
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};
 use tilebind::tile::{Outline, Pair, Tile};
@@ -267,26 +267,11 @@ fn a_pair_without_symmetry_has_bounds_on_as_many_cells() {
     assert!(upper < 1.2 * lower, "{lower} {upper}");
 }
 
-/// Fluxes along contact are laid for convex outlines only: what is left are the bounds that trial
-/// committors give.
+/// Square teeth have walls along the way out, where no flux along rays is laid: what is left are the
+/// bounds that trial committors give.
 #[test]
-fn outlines_that_are_not_convex_have_bounds_from_one_side() {
-    let design = designs::load("shapes/tab-20mm.toml");
-    let problem = design.problem();
-    let bond = design.pair.bound;
-    let settings = RateSettings {
-        tolerance: 0.3,
-        unknowns: 4_000,
-        ..RateSettings::new(
-            5e-3,
-            vec![Basin {
-                at: bond,
-                below: 0.5 * problem.energy(&bond),
-            }],
-            0.75,
-        )
-    };
-    let found = rates(&problem, &settings).unwrap();
+fn outlines_with_walls_along_the_way_out_have_bounds_from_one_side() {
+    let found = bounded_rates("square-teeth-10mm", [0.44, 0.04], 3e-3, 1);
     let bounds = found.bounds.as_ref().unwrap();
     assert!(bounds.are_one_sided());
     for (own, ends) in found.finest().rates.iter().zip(&bounds.rates) {
@@ -294,6 +279,50 @@ fn outlines_that_are_not_convex_have_bounds_from_one_side() {
             assert!(*lower == 0.0 && rate <= upper, "{rate} {upper}");
         }
     }
+}
+
+/// A tab in its slot is not convex, but every ray leaves contact once: bounds from both sides hold
+/// what a mesh that does not begin at contact says, and, on nested meshes, each other.
+#[test]
+fn a_tab_and_a_slot_have_bounds_from_both_sides() {
+    for name in ["tab-20mm", "slot-15mm"] {
+        let [coarse, fine] =
+            [1, 12_000].map(|unknowns| bounded_rates(name, [0.43, 0.0], 2.5e-3, unknowns));
+        let leaving = |found: &Rates| found.bounds.as_ref().unwrap().leaving[0];
+        let ([a, b], [lower, upper]) = (leaving(&coarse), leaving(&fine));
+        // The mesh without fitted cells is the last but the one between the bounds.
+        let other = fine.meshes.len() - 1 - usize::from(fine.is_between_bounds);
+        let other: f64 = fine.meshes[other].rates[0].iter().sum();
+        assert!(
+            0.0 < a && a < upper && lower < b,
+            "{name}: {a} {b}, {lower} {upper}"
+        );
+        assert!(upper / lower < b / a, "{name}: {a} {b}, {lower} {upper}");
+        assert!(
+            lower < 1.02 * other && 0.98 * other < upper,
+            "{name}: {other}"
+        );
+        assert!(upper < 2.0 * lower, "{name}: {lower} {upper}");
+    }
+}
+
+/// Rates between free tiles and a basin half as deep as its state at (x, y, 0), with bounds on a mesh
+/// of about so many corners.
+fn bounded_rates(name: &str, [x, y]: [f64; 2], kt: f64, unknowns: usize) -> Rates {
+    let problem = designs::load(&format!("shapes/{name}.toml")).problem();
+    let at = Configuration::new(x, y, 0.0);
+    let below = 0.5 * problem.energy(&at);
+    let settings = RateSettings {
+        tolerance: 0.1,
+        unknowns: 8_000,
+        certify: Some(Certify {
+            pieces: 0,
+            distance: 0.1,
+            unknowns,
+        }),
+        ..RateSettings::new(kt, vec![Basin { at, below }], 0.75)
+    };
+    rates(&problem, &settings).unwrap()
 }
 
 /// Contact, and fluxes along it: the mean exit time that brute-force motion has, 0.0176 m^2 / D.

@@ -5,10 +5,12 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::problem::Problem;
-use crate::tile::Outline;
 
 /// Step (rad) over which the wall's slopes are taken.
 const STEP: f64 = 1e-6;
+/// Contact is nowhere steeper along phi than by this lever (m): beyond it walls run along rays to
+/// rounding.
+const LEAST_LEVER: f64 = 1e-3;
 
 /// The least distance of the centres, over (phi, theta).
 #[derive(Clone)]
@@ -40,10 +42,7 @@ impl Wall {
         let Some(contact) = &problem.contact else {
             return Self::Open(circle);
         };
-        // The sum of two convex sets around their centres is one, too.
-        let is_round =
-            |outline: &Outline| outline.parts().len() == 1 && outline.contains(Vector2::zeros());
-        match fitted && is_round(contact.fixed()) && is_round(contact.moving()) {
+        match fitted && contact.least_lever() > LEAST_LEVER {
             true => Self::Contact(Box::new(contact.clone())),
             false => Self::Circle(circle),
         }

@@ -53,9 +53,9 @@ const NOT_BOUNDED: [&str; 2] = [
     "basins made of whole cells: mesh.of_basins is what that shifts capacities by, an estimate",
 ];
 const NO_BOUNDS: &str = "no bounds: they are of a start in a well";
-/// Of outlines that are not convex.
-const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid for convex \
-                         outlines only";
+/// Of outlines with walls along rays or across them twice.
+const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid where every ray \
+                         from the centre leaves contact once";
 
 /// Proved bounds of how often tiles leave a set, as an object.
 fn proved_entry(motion: &Motion, proved: Option<&Capacity>) -> Value {
