@@ -287,7 +287,7 @@ fn outlines_with_walls_along_the_way_out_have_bounds_from_one_side() {
 fn a_tab_and_a_slot_have_bounds_from_both_sides() {
     for name in ["tab-20mm", "slot-15mm"] {
         let [coarse, fine] =
-            [1, 12_000].map(|unknowns| bounded_rates(name, [0.43, 0.0], 2.5e-3, unknowns));
+            [1, 30_000].map(|unknowns| bounded_rates(name, [0.43, 0.0], 2.5e-3, unknowns));
         let leaving = |found: &Rates| found.bounds.as_ref().unwrap().leaving[0];
         let ([a, b], [lower, upper]) = (leaving(&coarse), leaving(&fine));
         // The mesh without fitted cells is the last but the one between the bounds.
