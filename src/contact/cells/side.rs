@@ -10,11 +10,38 @@ use crate::tile::outline::distance_to_segment;
 /// Inner points that are tried as witnesses of overlap, at most.
 const INNER: usize = 8;
 
+/// An edge, ready to be asked for its distance.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    start: Vector2<f64>,
+    along: Vector2<f64>,
+    /// One over the square of its length (1/m^2).
+    inverse: f64,
+}
+
+impl Segment {
+    fn between((a, b): (Vector2<f64>, Vector2<f64>)) -> Self {
+        Self {
+            start: a,
+            along: b - a,
+            inverse: (b - a).norm_squared().recip(),
+        }
+    }
+
+    /// Whether it comes within a distance (m) of a point.
+    fn is_within(&self, distance: f64, at: Vector2<f64>) -> bool {
+        let from = at - self.start;
+        let share = (from.dot(&self.along) * self.inverse).clamp(0.0, 1.0);
+        (from - self.along * share).norm_squared() <= distance * distance
+    }
+}
+
 /// One tile, as the other one's cells see it.
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     pub outline: Outline,
     pub edges: CircleTree,
+    segments: Vec<Segment>,
     /// Points on the boundary that may lie inside the other tile: vertex i at 2 i, the middle of
     /// edge i at 2 i + 1.
     pub probes: Vec<Vector2<f64>>,
@@ -30,7 +57,10 @@ impl Side {
             .clone()
             .map(|(a, b)| ((a + b) / 2.0, (b - a).norm() / 2.0))
             .collect();
-        let probes: Vec<_> = edges.flat_map(|(a, b)| [a, (a + b) / 2.0]).collect();
+        let probes: Vec<_> = edges
+            .clone()
+            .flat_map(|(a, b)| [a, (a + b) / 2.0])
+            .collect();
         let points: Vec<_> = probes.iter().map(|p| (*p, 0.0)).collect();
         let mut inner: Vec<_> = outline
             .parts()
@@ -43,6 +73,7 @@ impl Side {
         inner.truncate(INNER);
         Self {
             outline: outline.clone(),
+            segments: edges.map(Segment::between).collect(),
             edges: CircleTree::new(&circles),
             probes,
             probe_tree: CircleTree::new(&points),
@@ -52,10 +83,8 @@ impl Side {
 
     /// Whether no point of the boundary is within `distance` of a point.
     pub fn boundary_is_beyond(&self, at: Vector2<f64>, distance: f64) -> bool {
-        self.edges.near(at, distance, &mut |i| {
-            let (a, b) = self.outline.edge(i);
-            distance_to_segment(at, a, b) > distance
-        })
+        let mut beyond = |i: usize| !self.segments[i].is_within(distance, at);
+        self.edges.near(at, distance, &mut beyond)
     }
 
     /// Whether all points within `distance` of a point are inside.
@@ -71,8 +100,7 @@ impl Side {
         let mut near = [0; 3];
         let mut count = 0;
         self.edges.near(at, reach, &mut |i| {
-            let (a, b) = self.outline.edge(i);
-            if distance_to_segment(at, a, b) <= reach {
+            if self.segments[i].is_within(reach, at) {
                 near[count] = i;
                 count += 1;
             }
