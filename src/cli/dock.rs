@@ -3,12 +3,17 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::Problem;
+use tilebind::design::Design;
 use tilebind::dynamics::docking::{
     self, Docking, DockingError, DockingMap, DockingRun, DockingSettings, End,
 };
 use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
+use tilebind::kinetics::rates::{RatesError, leaving};
+use tilebind::observer::Observer;
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::{Figure, PictureError, Sheet, dock, paths};
+use tilebind::report::rates::Motion;
 use tilebind::report::{docking as report, release, writer};
 
 use super::docking_starts::StartOptions;
@@ -36,6 +41,8 @@ Examples:
   tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
   tilebind dock my.toml --runs 1000 --speed 0.4,0.8 --orientation 0.5
   tilebind dock shapes/halbach.toml --from-bond --shaking 3e-3 --drag 5 --duration 60 --runs 200
+  tilebind dock shapes/halbach.toml --from-bond --shaking 1.5e-3 --drag 50 --restitution 1 \
+      --friction 0 --duration 60 --runs 200 --overdamped
   tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5"
 )]
 pub struct Dock {
@@ -87,6 +94,11 @@ pub struct Dock {
     /// starts do not matter
     #[arg(long, requires = "shaking", conflicts_with_all = ["engine", "out", "trajectory"])]
     from_bond: bool,
+
+    /// With --from-bond: tell the rate of overdamped motion at the same kT and drag beside it, solved
+    /// on a mesh as `tilebind rates` does
+    #[arg(long, requires = "from_bond")]
+    overdamped: bool,
 
     /// Lets tiles leave the table
     #[arg(long)]
@@ -148,12 +160,13 @@ impl Dock {
             progress.share("trajectories", done as f64 / settings.runs as f64);
         };
         if self.from_bond {
+            let beside = self.overdamped(&design, &problem, &progress)?;
             let found = docking::releases(&problem, &settings, &step).map_err(usage)?;
             progress.finish();
-            let json = release::json(&design, &settings, &found);
-            return self
-                .print
-                .results(&json, || release::summary(&design, &settings, &found));
+            let json = release::json(&design, &settings, &found, beside);
+            return self.print.results(&json, || {
+                release::summary(&design, &settings, &found, beside)
+            });
         }
         let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
         let map = DockingMap::new(&docking, CELLS);
@@ -225,6 +238,25 @@ impl Dock {
             }
         };
         self.print.results(&json, summary)
+    }
+
+    /// The off-rate of overdamped motion (1/s) between its bounds, if it is asked for.
+    fn overdamped(
+        &self,
+        design: &Design,
+        problem: &Problem,
+        progress: &dyn Observer,
+    ) -> Result<Option<[f64; 3]>, Failure> {
+        let Some(kt) = self.shaking.filter(|_| self.overdamped) else {
+            return Ok(None);
+        };
+        progress.stage("rates", 0.0);
+        let diffusion = Motion::new(design, kt, self.drag).diffusion;
+        let found = leaving(problem, &design.pair.bound, kt).map_err(|error| match error {
+            RatesError::Unsolved(_) => Failure::Run(error.to_string()),
+            _ => Failure::Usage(error.to_string()),
+        })?;
+        Ok(Some(found.map(|rate| rate * diffusion)))
     }
 
     fn settings(&self) -> DockingSettings {

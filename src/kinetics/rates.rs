@@ -6,6 +6,7 @@ use super::bounded::bounded;
 pub use super::bounded::{Leaving, RateBounds};
 use super::certify::Certify;
 use super::corridor::Way;
+use super::exit::half_bond;
 use super::field::{DIVIDED, Earlier, Field};
 use super::links::links;
 use super::map::Map;
@@ -289,6 +290,24 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
         grows = field.refine(&shares, DIVIDED);
         earlier = Some((nodes, functions));
     }
+}
+
+/// How often tiles leave the bond at `bound` for good, divided by D (1/m^2), with what bounds it from
+/// below and above: of the well below half the bond's depth, and free tiles from `free_distance` on.
+///
+/// # Errors
+/// As [`rates()`].
+pub fn leaving(problem: &Problem, bound: &Configuration, kt: f64) -> Result<[f64; 3], RatesError> {
+    let bond = Basin {
+        at: *bound,
+        below: half_bond(problem, bound),
+    };
+    let settings = RateSettings::new(kt, vec![bond], problem.space.free_distance);
+    let found = rates(problem, &settings)?;
+    let value = found.finest().rates[0].iter().sum();
+    let bounds = found.bounds.as_ref().map(|bounds| bounds.leaving[0]);
+    let [lower, upper] = bounds.unwrap_or([0.0, f64::INFINITY]);
+    Ok([lower, value, upper])
 }
 
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::configuration::Configuration;
 
 /// States whose energies differ by less than this share are as deep as each other.
-pub(super) const SAME_ENERGY: f64 = 1e-6;
+pub(crate) const SAME_ENERGY: f64 = 1e-6;
 
 /// Whether a state is the wanted bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -6,10 +6,18 @@ use super::docking::rate_entry;
 use super::json;
 use crate::design::Design;
 use crate::dynamics::docking::{DockingSettings, Release, off_rate};
+use crate::kinetics::OVERDAMPED;
 use crate::units::{plain, si};
 
 /// The off-rate, and everything that reproduces it.
-pub fn json(design: &Design, settings: &DockingSettings, releases: &[Release]) -> String {
+///
+/// `overdamped` is the rate (1/s) of overdamped motion between its bounds, if it is known.
+pub fn json(
+    design: &Design,
+    settings: &DockingSettings,
+    releases: &[Release],
+    overdamped: Option<[f64; 3]>,
+) -> String {
     let motion = &settings.motion;
     let rate = off_rate(releases);
     json::text(&json!({
@@ -26,12 +34,20 @@ pub fn json(design: &Design, settings: &DockingSettings, releases: &[Release]) -
             },
         },
         "off_rate": rate_entry("detachments", &rate),
+        "overdamped": overdamped.map(|[lower, rate, upper]| json!({
+            "lower_per_s": lower, "rate_per_s": rate, "upper_per_s": upper,
+        })),
         "times_s": releases.iter().filter(|it| it.left).map(|it| it.time).collect::<Vec<_>>(),
     }))
 }
 
 /// A few lines for the terminal.
-pub fn summary(design: &Design, settings: &DockingSettings, releases: &[Release]) -> String {
+pub fn summary(
+    design: &Design,
+    settings: &DockingSettings,
+    releases: &[Release],
+    overdamped: Option<[f64; 3]>,
+) -> String {
     let rate = off_rate(releases);
     let kt = settings.motion.shaking.unwrap_or(0.0);
     let exponential = match (rate.attachments, rate.is_exponential()) {
@@ -41,10 +57,17 @@ pub fn summary(design: &Design, settings: &DockingSettings, releases: &[Release]
         }
         (_, false) => "times between detachments refute an exponential distribution".to_owned(),
     };
+    let beside = overdamped.map_or_else(String::new, |found| {
+        let [lower, rate, upper] = found.map(|rate| plain(rate, 3));
+        format!(
+            "  overdamped motion at that kT and drag, knocks without loss: {rate} times a second \
+             ({lower} to {upper});\n  tiles move so from a drag of {OVERDAMPED} per s on\n"
+        )
+    });
     format!(
         "{}: bound tiles shaken at kT = {} come loose {} times a second ({} to {})\n  \
          {} of {} left the bond within {} each; {exponential}\n  drag {} per s, restitution {}; \
-         the rate is of these, and of no temperature alone\n",
+         the rate is of these, and of no temperature alone\n{beside}",
         design.name,
         si(kt, "J", 3),
         plain(rate.rate, 3),

@@ -9,6 +9,7 @@ use std::fmt::Write;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection;
+use crate::landscape::results::SAME_ENERGY;
 use crate::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
@@ -270,9 +271,11 @@ fn work_and_length(way_out: &Barrier) -> String {
 }
 
 fn write_deepest(text: &mut String, inventory: &Inventory, bond: Option<&Kind>, traps: &[Kind]) {
-    let deepest = traps
-        .iter()
-        .min_by_key(|kind| OrderedFloat(kind.first().energy));
+    let energy = |kind: &Kind| kind.first().energy;
+    let lowest = traps.iter().map(energy).fold(f64::INFINITY, f64::min);
+    // The first of twins, whatever rounding makes of their energies.
+    let is_lowest = |kind: &&Kind| energy(kind) - lowest <= SAME_ENERGY * lowest.abs();
+    let deepest = traps.iter().find(is_lowest);
     let name = |kind: &Kind| inventory.name_of(Place::State(kind.first().id));
     let _ = match (deepest, bond) {
         (None, _) => writeln!(text, "no traps"),

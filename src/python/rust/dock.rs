@@ -148,7 +148,7 @@ pub fn released<'py>(
     let found = run(py, progress, settings.runs, |step| {
         docking::releases(content.problem(None), &settings, step)
     })?;
-    convert::json(py, &release::json(&content.design, &settings, &found))
+    convert::json(py, &release::json(&content.design, &settings, &found, None))
 }
 
 /// Many trajectories, with word of how many have ended.

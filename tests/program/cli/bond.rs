@@ -257,3 +257,21 @@ fn bound_tiles_come_loose_where_they_are_shaken_enough() {
     assert_eq!(rate("1e-4"), 0.0);
     assert!(rate("0.1") > 0.1);
 }
+
+#[test]
+fn overdamped_motion_is_told_beside_the_rate_of_detachment() {
+    let file = design(PAPER);
+    let asked = "--from-bond --overdamped --shaking 1e-2 --drag 50 --restitution 1 --friction 0 \
+                 --runs 2 --duration 0.1";
+    let asked: Vec<&str> = ["dock", &file]
+        .into_iter()
+        .chain(asked.split(' '))
+        .collect();
+    let found = json(&[&asked[..], &["--json"]].concat());
+    let [lower, rate, upper] = ["lower", "rate", "upper"].map(|name| {
+        found["overdamped"][format!("{name}_per_s")]
+            .as_f64()
+            .unwrap()
+    });
+    assert!(0.0 < lower && lower <= rate && rate <= upper && upper < 3.0 * lower);
+}
