@@ -10,6 +10,9 @@
 //!
 //! It lets every state choose its setting, as a table that sees its tiles could; a blind one, whose
 //! shares are the same for all states, does no better.
+//!
+//! A design is no such setting: tiles keep their shapes and magnets. A table that has some runs with
+//! one design and some with another yields the mean of both, never more than the better one.
 
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use nalgebra::{DMatrix, RowDVector};

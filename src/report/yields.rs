@@ -9,7 +9,8 @@ use super::page::yield_charts;
 use super::terminal::write_table;
 use super::writer::PICTURES;
 use crate::design::Design;
-use crate::units::{duration, si};
+use crate::kinetics::mixture::Mixture;
+use crate::units::{duration, plain, si};
 use crate::yields::attachment::Source;
 use crate::yields::{Outcome, Question, StateRates, Yields};
 
@@ -176,7 +177,7 @@ pub fn headline(design: &Design, question: &Question, found: &Yields) -> String 
         "{}: {} of all pairs are bound after {} at kT = {}{among}",
         design.name,
         percent(best.bound, Some(best.interval)),
-        si(question.time, "s", 3),
+        duration(question.time, 3),
         si(best.kt, "J", 3),
     )
 }
@@ -212,22 +213,11 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
         let _ = writeln!(text, "{why}");
     }
     if let Some((tiles, mixture)) = &found.mixture {
-        let kts = mixture.schedule.chunk_by(|a, b| a == b);
-        let phases: Vec<String> = kts
-            .map(|part| {
-                let time = question.time * part.len() as f64 / mixture.schedule.len() as f64;
-                format!(
-                    "{} at {}",
-                    si(time, "s", 2),
-                    si(found.outcomes[part[0]].kt, "J", 2)
-                )
-            })
-            .collect();
         let _ = writeln!(
             text,
             "\n{tiles} tiles, one shaking after another: {} ({}); no schedule yields more than {}",
             percent(mixture.value, None),
-            phases.join(", then "),
+            phases(question, found, mixture),
             mixture
                 .bound
                 .map_or("?".to_owned(), |bound| percent(bound, None)),
@@ -247,7 +237,7 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
                 None => format!("{} of {}", state.attachments, best.attached.runs),
             },
             format!("{} m2/s", scientific(state.on)),
-            format!("{} /s", scientific(state.off)),
+            format!("{} /s", plain(state.off, 2)),
         ]
     }));
     write_table(&mut text, &rows);
@@ -257,6 +247,17 @@ pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
         question.effort.told()
     );
     text
+}
+
+/// Which shaking when: `30 min at 2 mJ, then 30 min at 1 mJ`.
+pub(super) fn phases(question: &Question, found: &Yields, mixture: &Mixture) -> String {
+    let kts = mixture.schedule.chunk_by(|a, b| a == b);
+    let phases = kts.map(|part| {
+        let time = question.time * part.len() as f64 / mixture.schedule.len() as f64;
+        let kt = found.outcomes[part[0]].kt;
+        format!("{} at {}", duration(time, 2), si(kt, "J", 2))
+    });
+    phases.collect::<Vec<_>>().join(", then ")
 }
 
 fn row(found: &Yields, kt: f64) -> [String; 7] {

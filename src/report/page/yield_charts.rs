@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::word_charts::{AREA, chart, label};
-use crate::units::si;
+use crate::units::{duration, si};
 use crate::yields::{Outcome, Question, Yields};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
@@ -115,7 +115,7 @@ fn crowds(question: &Question, outcome: &Outcome) -> String {
         let name = format!("{} % covered", (1e3 * coverage).round() / 10.0);
         inner += &curve(&points, k, &name);
     }
-    let name = format!("tiles (after {})", si(question.time, "s", 3));
+    let name = format!("tiles (after {})", duration(question.time, 3));
     chart(&name, "share of all pairs in the bond", &inner)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Fact, Page, illustrations, yield_charts};
 use crate::design::Design;
-use crate::report::yields::headline;
+use crate::report::yields::{headline, phases};
 use crate::units::si;
 use crate::yields::{Question, Yields};
 
@@ -31,7 +31,10 @@ impl Page {
         }
         if let Some((tiles, mixture)) = &found.mixture {
             let bound = mixture.bound.map_or("?".to_owned(), percent);
-            let note = format!("{tiles} tiles; no schedule yields more than {bound}");
+            let note = format!(
+                "{}; {tiles} tiles; no schedule yields more than {bound}",
+                phases(question, found, mixture)
+            );
             facts.push(fact("kT after kT", percent(mixture.value), &note));
         }
         for (kt, why) in &found.without {
