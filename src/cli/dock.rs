@@ -254,7 +254,7 @@ impl Dock {
         let diffusion = Motion::new(design, kt, self.drag).diffusion;
         let found = leaving(problem, &design.pair.bound, kt).map_err(|error| match error {
             RatesError::Unsolved(_) => Failure::Run(error.to_string()),
-            _ => Failure::Usage(error.to_string()),
+            _ => Failure::Usage(error.to_string().replace("--kt", "--shaking")),
         })?;
         Ok(Some(found.map(|rate| rate * diffusion)))
     }
