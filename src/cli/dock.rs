@@ -240,13 +240,13 @@ impl Dock {
         self.print.results(&json, summary)
     }
 
-    /// The off-rate of overdamped motion (1/s) between its bounds, if it is asked for.
+    /// The off-rates of overdamped motion (1/s), see [`leaving`], if they are asked for.
     fn overdamped(
         &self,
         design: &Design,
         problem: &Problem,
         progress: &dyn Observer,
-    ) -> Result<Option<[f64; 3]>, Failure> {
+    ) -> Result<Option<[f64; 4]>, Failure> {
         let Some(kt) = self.shaking.filter(|_| self.overdamped) else {
             return Ok(None);
         };

@@ -292,22 +292,32 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// How often tiles leave the bond at `bound` for good, divided by D (1/m^2), with what bounds it from
-/// below and above: of the well below half the bond's depth, and free tiles from `free_distance` on.
+/// How often tiles leave the bond at `bound` for good, divided by D (1/m^2): of the well below half the
+/// bond's depth, and free tiles from `free_distance` on. With C what flows and h the committor:
+///
+/// - C / Z(h), over the time until tiles are free, with what bounds it from below and above:
+///   `[lower, rate, upper, _]`;
+/// - C / Z(well), over the time in the well alone: `[.., rate]`.
+///
+/// Over the time until the well is last left it is C / Z(h^2), between the two, for the way from
+/// there to `free` takes Z(h (1 - h)) / C (transition path theory; E and Vanden-Eijnden,
+/// doi:10.1007/s10955-005-9003-9).
 ///
 /// # Errors
 /// As [`rates()`].
-pub fn leaving(problem: &Problem, bound: &Configuration, kt: f64) -> Result<[f64; 3], RatesError> {
+pub fn leaving(problem: &Problem, bound: &Configuration, kt: f64) -> Result<[f64; 4], RatesError> {
     let bond = Basin {
         at: *bound,
         below: half_bond(problem, bound),
     };
     let settings = RateSettings::new(kt, vec![bond], problem.space.free_distance);
     let found = rates(problem, &settings)?;
-    let value = found.finest().rates[0].iter().sum();
+    let finest = found.finest();
+    let rate: f64 = finest.rates[0].iter().sum();
+    let in_well = rate * (finest.occupation[0] / found.inside[0]).max(1.0);
     let bounds = found.bounds.as_ref().map(|bounds| bounds.leaving[0]);
     let [lower, upper] = bounds.unwrap_or([0.0, f64::INFINITY]);
-    Ok([lower, value, upper])
+    Ok([lower, rate, upper, in_well])
 }
 
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.

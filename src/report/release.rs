@@ -11,12 +11,12 @@ use crate::units::{plain, si};
 
 /// The off-rate, and everything that reproduces it.
 ///
-/// `overdamped` is the rate (1/s) of overdamped motion between its bounds, if it is known.
+/// `overdamped` are the rates (1/s) of overdamped motion, see [`crate::kinetics::rates::leaving`].
 pub fn json(
     design: &Design,
     settings: &DockingSettings,
     releases: &[Release],
-    overdamped: Option<[f64; 3]>,
+    overdamped: Option<[f64; 4]>,
 ) -> String {
     let motion = &settings.motion;
     let rate = off_rate(releases);
@@ -34,8 +34,9 @@ pub fn json(
             },
         },
         "off_rate": rate_entry("detachments", &rate),
-        "overdamped": overdamped.map(|[lower, rate, upper]| json!({
+        "overdamped": overdamped.map(|[lower, rate, upper, in_well]| json!({
             "lower_per_s": lower, "rate_per_s": rate, "upper_per_s": upper,
+            "in_well_per_s": in_well,
         })),
         "times_s": releases.iter().filter(|it| it.left).map(|it| it.time).collect::<Vec<_>>(),
     }))
@@ -46,7 +47,7 @@ pub fn summary(
     design: &Design,
     settings: &DockingSettings,
     releases: &[Release],
-    overdamped: Option<[f64; 3]>,
+    overdamped: Option<[f64; 4]>,
 ) -> String {
     let rate = off_rate(releases);
     let kt = settings.motion.shaking.unwrap_or(0.0);
@@ -58,10 +59,12 @@ pub fn summary(
         (_, false) => "times between detachments refute an exponential distribution".to_owned(),
     };
     let beside = overdamped.map_or_else(String::new, |found| {
-        let [lower, rate, upper] = found.map(|rate| plain(rate, 3));
+        let [lower, rate, upper, in_well] = found.map(|rate| plain(rate, 3));
         format!(
-            "  overdamped motion at that kT and drag, knocks without loss: {rate} times a second \
-             ({lower} to {upper});\n  tiles move so from a drag of {OVERDAMPED} per s on\n"
+            "  overdamped motion at that kT and drag, knocks without loss, comes loose {rate} times a \
+             second\n  ({lower} to {upper}), the way out to free tiles included, and {in_well} times a \
+             second in the well;\n  what is counted ends where the bond is last left: between the two; \
+             tiles move so from a drag of {OVERDAMPED} per s on\n"
         )
     });
     format!(

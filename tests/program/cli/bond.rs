@@ -274,4 +274,6 @@ fn overdamped_motion_is_told_beside_the_rate_of_detachment() {
             .unwrap()
     });
     assert!(0.0 < lower && lower <= rate && rate <= upper && upper < 3.0 * lower);
+    // The way from the well to free tiles takes time.
+    assert!(found["overdamped"]["in_well_per_s"].as_f64().unwrap() > rate);
 }
