@@ -128,7 +128,7 @@ pub(crate) fn survey(
         "neighbours" => 0.05,
         _ => 0.06,
     };
-    let built = Roadmap::sparing(problem, roadmap, &mut |name| {
+    let built = Roadmap::unweighed(problem, roadmap, &mut |name| {
         clock.start(name, shares(name))
     });
     let counts = Counts {

@@ -47,7 +47,7 @@ pub struct EdgeSettings {
 /// Pairs whose edges are collected together.
 const TOGETHER: usize = 1 << 20;
 /// Pairs whose energies are asked for together.
-const SIDE_BY_SIDE: usize = 64;
+pub(crate) const SIDE_BY_SIDE: usize = 64;
 
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
@@ -59,7 +59,7 @@ pub fn edges(
     side_by_side(problem, milestones, pairs, |free| {
         let ends = free.iter();
         let ends = ends.map(|&(from, to)| [from, to].map(|end| &milestones[end as usize]));
-        let costs = weighed(problem, &ends.collect::<Vec<_>>(), settings);
+        let costs = costs_side_by_side(problem, &ends.collect::<Vec<_>>(), settings);
         let edge = |((from, to), costs)| Edge { from, to, costs };
         free.into_iter().zip(costs).map(edge).collect()
     })
@@ -105,7 +105,11 @@ fn side_by_side<T: Send>(
 }
 
 /// The costs of some straight motions, their energies asked together.
-fn weighed(problem: &Problem, ends: &[[&Milestone; 2]], settings: &EdgeSettings) -> Vec<EdgeCosts> {
+pub(crate) fn costs_side_by_side(
+    problem: &Problem,
+    ends: &[[&Milestone; 2]],
+    settings: &EdgeSettings,
+) -> Vec<EdgeCosts> {
     let profiles = Profile::of_many(problem, ends, &settings.tolerance);
     let costs = profiles.iter().zip(ends);
     let costs = costs.map(|(profile, ends)| costs_of_profile(problem, profile, *ends, settings));
@@ -114,7 +118,7 @@ fn weighed(problem: &Problem, ends: &[[&Milestone; 2]], settings: &EdgeSettings)
 
 /// The costs of the straight motion between two milestones.
 pub fn costs(problem: &Problem, ends: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
-    weighed(problem, &[ends], settings)[0]
+    costs_side_by_side(problem, &[ends], settings)[0]
 }
 
 fn costs_of_profile(

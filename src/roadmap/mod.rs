@@ -62,7 +62,7 @@ pub struct RoadmapSettings {
     pub edges: EdgeSettings,
 }
 
-/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 40 bytes
+/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 64 bytes
 /// a milestone and 72 + 16 an edge. Of the pairs of a milestone and one of its nearest neighbours
 /// about every other one is an edge, as most are neighbours of each other.
 ///
@@ -70,7 +70,7 @@ pub struct RoadmapSettings {
 pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
     let neighbours = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones));
     let neighbours = neighbours.min(milestones.saturating_sub(1));
-    milestones as f64 * (56.0 + 40.0 + (72.0 + 16.0) * neighbours as f64 / 2.0)
+    milestones as f64 * (56.0 + 64.0 + (72.0 + 16.0) * neighbours as f64 / 2.0)
 }
 
 impl Roadmap {
@@ -89,16 +89,13 @@ impl Roadmap {
         }
     }
 
-    /// The same, but where energies are dear, of very many magnets, the motions are left to be
-    /// weighed by who needs it ([`crate::landscape::network`]): of most, nobody ever asks.
-    pub fn sparing(
+    /// The same, but the motions are left to be weighed by who needs it
+    /// ([`crate::landscape::network`]): of most, nobody ever asks.
+    pub fn unweighed(
         problem: &Problem,
         settings: &RoadmapSettings,
         watch: &mut dyn FnMut(&'static str),
     ) -> Self {
-        if !problem.is_dear() {
-            return Self::build(problem, settings, watch);
-        }
         let (milestones, pairs) = drawn(problem, settings, watch);
         let unweighed = edge::free_motions(problem, &milestones, &pairs);
         Self {

@@ -71,6 +71,20 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
             let [of_weighed, of_asked] = networks.each_ref().map(found);
             assert_eq!(of_weighed.0, to);
             assert!((of_weighed.1 - of_asked.1).abs() <= 1e-9 * of_weighed.1);
+            // The same, looked for from the other end.
+            let (total, route) = asked.cheapest_into(&problem, from, to, cost).unwrap();
+            assert!(
+                (total - of_asked.1).abs() <= 1e-9 * total,
+                "{cost:?}: {total}"
+            );
+            let ends = |&(link, forwards): &(usize, bool)| {
+                let link = &asked.links[link];
+                let [a, b] = [link.from, link.to].map(|node| node as usize);
+                if forwards { [a, b] } else { [b, a] }
+            };
+            let ends: Vec<[usize; 2]> = route.iter().map(ends).collect();
+            assert_eq!((ends[0][0], ends[ends.len() - 1][1]), (from, to));
+            assert!(ends.windows(2).all(|pair| pair[0][1] == pair[1][0]));
             compared += 1;
         }
     }

@@ -292,8 +292,14 @@ impl Reader<'_> {
             PathwayCost::Work => Cost::Work,
             PathwayCost::Probability => Cost::Probability,
         };
-        let (_, cost, route) =
-            network.cheapest(self.problem, from.1, &HashSet::from([to.1]), cost)?;
+        // From where less is around.
+        let (cost, route) = if from.0 == Place::Free {
+            network.cheapest_into(self.problem, from.1, to.1, cost)?
+        } else {
+            let goals = HashSet::from([to.1]);
+            let (_, total, route) = network.cheapest(self.problem, from.1, &goals, cost)?;
+            (total, route)
+        };
         let depth = self.energy(0).abs();
         let pathway = pathway::along(self.problem, network, &route, None, 2e-3 * depth);
         (!pathway.is_empty()).then_some(Alternative {

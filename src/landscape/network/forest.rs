@@ -1,6 +1,8 @@
 //! Which links minimax paths use, and where basins meet.
 
-use std::collections::HashSet;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
+use std::iter::Peekable;
 
 use fixedbitset::FixedBitSet;
 use ordered_float::OrderedFloat;
@@ -10,8 +12,11 @@ use petgraph::unionfind::UnionFind;
 use petgraph::visit::{EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
-use super::{Network, Route};
+use super::{Link, Network, Route};
 use crate::problem::Problem;
+
+/// Links that are looked at for those that can be weighed at once.
+const LOOKED_AT: usize = 32;
 
 /// Two basins that meet, in ascending order of the energy at which they do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,29 +29,144 @@ pub struct Merge {
     pub upper: usize,
 }
 
-impl Network {
-    /// Works out which links minimax paths use, so that merges need to look at later links only, and
-    /// weighs them.
-    pub fn span(&mut self, problem: &Problem) {
-        loop {
-            let tree = self.spanning_links();
-            if !self.weigh(problem, tree.iter().map(|number| *number as usize)) {
-                self.tree = tree;
-                self.spanned = self.links.len();
-                return;
-            }
+/// A link by its peak (J) and, of equal ones, its number.
+type ByPeak = (OrderedFloat<f64>, u32);
+
+/// Links in ascending order, to which some come back.
+struct Waiting {
+    ascending: Peekable<std::vec::IntoIter<ByPeak>>,
+    again: BinaryHeap<Reverse<ByPeak>>,
+}
+
+impl Waiting {
+    fn new(links: impl Iterator<Item = ByPeak>) -> Self {
+        let mut ascending: Vec<ByPeak> = links.collect();
+        ascending.par_sort_unstable();
+        Self {
+            ascending: ascending.into_iter().peekable(),
+            again: BinaryHeap::new(),
         }
     }
 
-    /// The minimum spanning forest by peak, ascending (Kruskal's algorithm): between any two nodes,
-    /// the path in it has the lowest possible highest peak. Links of equal peak are taken by their
-    /// numbers, so that there is one such forest only, and links that were not in it before are not
-    /// in it later.
+    fn extend(&mut self, links: impl Iterator<Item = ByPeak>) {
+        self.again.extend(links.map(Reverse));
+    }
+
+    fn next(&mut self) -> Option<ByPeak> {
+        let first = self.ascending.peek();
+        let again = self.again.peek().map(|Reverse(again)| again);
+        if again.is_some_and(|again| first.is_none_or(|first| again < first)) {
+            return self.again.pop().map(|Reverse(again)| again);
+        }
+        self.ascending.next()
+    }
+}
+
+impl Network {
+    /// Works out which links minimax paths use, so that merges need to look at later links only: the
+    /// minimum spanning forest by peak. Between any two nodes, the path in it has the
+    /// lowest possible highest peak. Links of equal peak are taken by their numbers, so that there is
+    /// one such forest only, and links that were not in it before are not in it later.
+    ///
+    /// Kruskal's algorithm: links wait by their peaks, those that are not weighed by what these are
+    /// at least, and only those that might join something are weighed.
+    pub fn span(&mut self, problem: &Problem) {
+        let mut tree = Vec::with_capacity(self.nodes.len());
+        if self.spanned == 0 {
+            tree = self.descents(problem);
+        }
+        let mut joined = UnionFind::<u32>::new(self.nodes.len());
+        for number in &tree {
+            let link = &self.links[*number as usize];
+            joined.union(link.from, link.to);
+        }
+        let later = self.spanned as u32..self.links.len() as u32;
+        let mut left: Vec<u32> = self.tree.iter().copied().chain(later).collect();
+        left.retain(|number| {
+            let link = &self.links[*number as usize];
+            !joined.equiv(link.from, link.to)
+        });
+        let mut waiting = Waiting::new(left.into_iter().map(|number| self.by_peak(number)));
+        // Once a link has to be weighed, others that follow and join other parts of the forest; all
+        // that are looked at meanwhile, and the parts that they touch.
+        let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
+        loop {
+            let next = waiting.next();
+            if let Some((_, number)) = next {
+                let Link { from, to, .. } = self.links[number as usize];
+                let parts = [from, to].map(|node| joined.find_mut(node));
+                if parts[0] == parts[1] {
+                    continue;
+                }
+                let is_weighed = self.is_weighed(number as usize);
+                if open.is_empty() && is_weighed {
+                    joined.union(from, to);
+                    tree.push(number);
+                    continue;
+                }
+                if !is_weighed && parts.iter().any(|part| !touched.contains(part)) {
+                    open.push(number as usize);
+                }
+                touched.extend(parts);
+                aside.push(number);
+            }
+            if aside.len() == LOOKED_AT || next.is_none() {
+                if aside.is_empty() {
+                    break;
+                }
+                self.weigh(problem, &open);
+                waiting.extend(aside.drain(..).map(|number| self.by_peak(number)));
+                open.clear();
+                touched.clear();
+            }
+        }
+        self.tree = tree;
+        self.spanned = self.links.len();
+    }
+
+    /// For each node the first link that leads down all the way, where there is one. It peaks at the
+    /// node, as low as any that leads there, and is the first such one: it is in the spanning forest.
+    fn descents(&mut self, problem: &Problem) -> Vec<u32> {
+        let energy = |node: u32| self.nodes[node as usize].map(|known| known.1);
+        let mut below: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        for (number, Link { from, to, .. }) in self.links.iter().enumerate() {
+            if let (Some(a), Some(b)) = (energy(*from), energy(*to)) {
+                let upper = if a > b { from } else { to };
+                below[*upper as usize].push(number as u32);
+            }
+        }
+        let mut found = Vec::with_capacity(self.nodes.len());
+        let mut open: Vec<usize> = (0..self.nodes.len()).collect();
+        // A look at the next link of each node, all of them side by side.
+        for turn in 0.. {
+            open.retain(|node| turn < below[*node].len());
+            if open.is_empty() {
+                break;
+            }
+            let next = |node: &usize| below[*node][turn] as usize;
+            let links: Vec<usize> = open.iter().map(next).collect();
+            self.weigh(problem, &links);
+            open.retain(|node| {
+                let leads_down =
+                    self.nodes[*node].is_some_and(|known| self.peak(next(node)) <= known.1);
+                if leads_down {
+                    found.push(next(node) as u32);
+                }
+                !leads_down
+            });
+        }
+        found
+    }
+
+    fn by_peak(&self, number: u32) -> ByPeak {
+        (OrderedFloat(self.peak(number as usize)), number)
+    }
+
+    /// The spanning forest with the links that were added since, ascending.
     fn spanning_links(&self) -> Vec<u32> {
         let later = self.spanned as u32..self.links.len() as u32;
         let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        let peak = |number: u32| OrderedFloat(self.costs(number as usize).peak);
-        ascending.par_sort_unstable_by_key(|&number| (peak(number), number));
+        ascending.par_sort_unstable_by_key(|&number| self.by_peak(number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
             let link = &self.links[*number as usize];

@@ -3,10 +3,10 @@
 //! the energy from it.
 //!
 //! A straight motion that the roadmap left unweighed costs at least what its ends tell: it peaks no
-//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that,
-//! weigh what they found, and search again until nothing unweighed is on what they find; then it is
-//! the best there is (Dellin and Srinivasa, *A unifying formalism for shortest path
-//! problems with expensive edge evaluations*, ICAPS 2016).
+//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that
+//! and weigh those motions only that come out best (edges whose evaluation is dear: Dellin and
+//! Srinivasa, *A unifying formalism for shortest path problems with expensive edge evaluations via
+//! lazy best-first search over paths with edge selectors*, ICAPS 2016).
 
 mod forest;
 mod routes;
@@ -14,6 +14,7 @@ mod routes;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
+use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::Dfs;
@@ -25,7 +26,7 @@ pub use routes::{Cost, Route};
 use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::{Problem, Symmetry};
-use crate::roadmap::edge::{EdgeCosts, costs, costs_of_energies};
+use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs, costs_of_energies, costs_side_by_side};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
 
 /// A way between two nodes.
@@ -50,12 +51,25 @@ pub struct Link {
     costs: OnceLock<EdgeCosts>,
 }
 
+impl Link {
+    /// The node that a link joins to one of its own.
+    fn other_end(&self, node: u32) -> u32 {
+        if node == self.from {
+            self.to
+        } else {
+            self.from
+        }
+    }
+}
+
 /// Nodes and links. A link takes 88 bytes, its part in the graph included; few have a way that is
 /// not straight.
 #[derive(Clone, Debug)]
 pub struct Network {
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
+    /// The energy's gradient at the first ones, the roadmap's milestones.
+    gradients: Vec<Vector3<f64>>,
     /// What joins nodes.
     pub links: Vec<Link>,
     /// How links are weighed.
@@ -65,7 +79,7 @@ pub struct Network {
     ways: HashMap<usize, Way>,
     /// Its edges have the numbers of the links.
     graph: UnGraph<(), (), u32>,
-    /// The links that minimax paths among the first `spanned` links use, ascending.
+    /// The links that minimax paths among the first `spanned` links use.
     tree: Vec<u32>,
     spanned: usize,
 }
@@ -76,6 +90,7 @@ impl Network {
         let (nodes, links) = (roadmap.milestones.len(), roadmap.motions());
         let mut network = Self {
             nodes: Vec::with_capacity(nodes),
+            gradients: roadmap.milestones.iter().map(|m| m.gradient).collect(),
             links: Vec::with_capacity(links),
             settings: *settings,
             space: problem.space.clone(),
@@ -151,26 +166,66 @@ impl Network {
         })
     }
 
+    /// The same of its peak alone (J).
+    fn peak(&self, link: usize) -> f64 {
+        let Link { from, to, costs } = &self.links[link];
+        if let Some(costs) = costs.get() {
+            return costs.peak;
+        }
+        let ends = [*from, *to].map(|node| self.nodes[node as usize]);
+        let energies = ends.into_iter().flatten().map(|end| end.1);
+        energies.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     fn is_weighed(&self, link: usize) -> bool {
         self.links[link].costs.get().is_some()
     }
 
-    /// Weighs those of some links that are not; whether there were any.
-    fn weigh(&self, problem: &Problem, links: impl IntoIterator<Item = usize>) -> bool {
-        let open: Vec<&Link> = links
-            .into_iter()
-            .filter(|&number| !self.is_weighed(number))
-            .map(|number| &self.links[number])
+    /// Weighs those of some links that are not, side by side.
+    fn weigh(&mut self, problem: &Problem, links: &[usize]) {
+        let open = links.iter().filter(|number| !self.is_weighed(**number));
+        let ends = |&number: &usize| Some((number, self.ends(problem, number)?));
+        let links: Vec<(usize, [Milestone; 2])> = open.filter_map(ends).collect();
+        let of_some = |some: &[(usize, [Milestone; 2])]| {
+            let ends: Vec<[&Milestone; 2]> = some.iter().map(|some| some.1.each_ref()).collect();
+            costs_side_by_side(problem, &ends, &self.settings)
+        };
+        let costs: Vec<EdgeCosts> = links
+            .par_chunks(SIDE_BY_SIDE)
+            .flat_map_iter(of_some)
             .collect();
-        open.par_iter().for_each(|link| {
-            let ends = [link.from, link.to].map(|node| self.nodes[node as usize]);
-            if let [Some((a, _)), Some((b, _))] = ends {
-                let ends = [a, b].map(|q| Milestone::new(problem, q));
-                link.costs
-                    .get_or_init(|| costs(problem, ends.each_ref(), &self.settings));
-            }
+        for ((number, _), costs) in links.into_iter().zip(costs) {
+            self.links[number].costs = OnceLock::from(costs);
+        }
+    }
+
+    /// Weighs a link, unless it is.
+    fn weighed(&self, problem: &Problem, number: usize) {
+        self.links[number].costs.get_or_init(|| {
+            let ends = self.ends(problem, number);
+            ends.map_or_else(EdgeCosts::default, |ends| {
+                costs(problem, ends.each_ref(), &self.settings)
+            })
         });
-        !open.is_empty()
+    }
+
+    /// The milestones that a straight motion joins.
+    fn ends(&self, problem: &Problem, number: usize) -> Option<[Milestone; 2]> {
+        let Link { from, to, .. } = &self.links[number];
+        let [from, to] = [*from, *to].map(|node| self.milestone(problem, node as usize));
+        Some([from?, to?])
+    }
+
+    fn milestone(&self, problem: &Problem, node: usize) -> Option<Milestone> {
+        let (configuration, energy) = self.nodes[node]?;
+        let Some(&gradient) = self.gradients.get(node) else {
+            return Some(Milestone::new(problem, configuration));
+        };
+        Some(Milestone {
+            configuration,
+            energy,
+            gradient,
+        })
     }
 
     /// Adds a link that takes a far configuration, with its energy (J), and `free` for one.

@@ -1,13 +1,14 @@
 //! Routes from node to node.
 
-use std::collections::HashSet;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
 
 use ordered_float::OrderedFloat;
 use petgraph::algo::astar;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::{EdgeFiltered, EdgeRef};
 
-use super::{Link, Network, Way};
+use super::{Network, Way};
 use crate::problem::Problem;
 
 /// A path through the network: links with the direction in which each is gone.
@@ -40,24 +41,20 @@ impl Network {
         }
         let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
             let number = edge.id().index();
-            self.is_weighed(number) && self.is_motion(number, from, goals)
+            self.is_weighed(number) && self.is_motion(number, Ends { from, goals })
         });
         let (peak, _) = astar(
             &allowed,
             NodeIndex::new(from),
             |node| goals.contains(&node.index()),
-            |edge| Highest(self.costs(edge.id().index()).peak),
+            |edge| Highest(self.peak(edge.id().index())),
             |_| Highest::default(),
         )?;
         Some(peak.0)
     }
 
-    /// The cheapest route from a node to any of the `goals`, by Dijkstra's algorithm: its end, its
-    /// cost and its links.
-    ///
-    /// Others may search and weigh meanwhile: a route may have been found by what a link that is now
-    /// weighed cost at least. No search finds more than the cheapest route costs; one that costs what
-    /// was found is it.
+    /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
+    /// equally cheap ones always the same.
     pub fn cheapest(
         &self,
         problem: &Problem,
@@ -65,58 +62,96 @@ impl Network {
         goals: &HashSet<usize>,
         cost: Cost,
     ) -> Option<(usize, f64, Route)> {
-        loop {
-            let found = self.cheapest_at_best(from, goals, cost)?;
-            let (_, total, route) = &found;
-            let is_open = self.weigh(problem, route.iter().map(|(number, _)| *number));
-            if !is_open && self.cost_of(route, cost) <= *total {
-                return Some(found);
-            }
-        }
+        let ends = Ends { from, goals };
+        self.search(problem, ends, cost, Gone::Forwards)
     }
 
-    /// What a route costs, added up from its start as a search does.
-    fn cost_of(&self, route: &Route, cost: Cost) -> f64 {
-        let price = |&(number, forwards): &(usize, bool)| {
-            let Link { from, to, .. } = &self.links[number];
-            self.cost(number, if forwards { *from } else { *to } as usize, cost)
-        };
-        route.iter().fold(0.0, |sum, link| sum + price(link))
-    }
-
-    /// The same, with what links cost at least where they are not weighed.
-    fn cheapest_at_best(
+    /// The cheapest route from a node to another, looked for from its end: the sooner found where
+    /// less is around that, as around a state beside `free`.
+    pub fn cheapest_into(
         &self,
+        problem: &Problem,
         from: usize,
-        goals: &HashSet<usize>,
+        to: usize,
         cost: Cost,
+    ) -> Option<(f64, Route)> {
+        let goals = &HashSet::from([from]);
+        let (_, total, mut route) =
+            self.search(problem, Ends { from: to, goals }, cost, Gone::Backwards)?;
+        route.reverse();
+        for (_, forwards) in &mut route {
+            *forwards = !*forwards;
+        }
+        Some((total, route))
+    }
+
+    /// Dijkstra's algorithm. A link that is not weighed waits by what it costs at least and is
+    /// weighed when its turn comes; where it costs more, it waits again. So only links that might be
+    /// the best way to some node are weighed.
+    fn search(
+        &self,
+        problem: &Problem,
+        ends: Ends,
+        cost: Cost,
+        gone: Gone,
     ) -> Option<(usize, f64, Route)> {
-        let highest = match cost {
-            Cost::Below { highest, .. } => highest,
-            _ => f64::INFINITY,
+        // What it costs to reach a node, and the link that was gone last.
+        let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
+        reached[ends.from] = Some((0.0, None));
+        let mut waiting = BinaryHeap::new();
+        let mut here = ends.from;
+        while !ends.goals.contains(&here) {
+            for edge in self.graph.edges(NodeIndex::new(here)) {
+                let number = edge.id().index();
+                let is_new = reached[edge.target().index()].is_none();
+                if is_new && self.is_allowed(number, ends, cost) {
+                    let total = reached[here]?.0 + self.cost(number, here, cost, gone);
+                    waiting.push(Reverse((OrderedFloat(total), number as u32, here as u32)));
+                }
+            }
+            here = loop {
+                let Reverse((OrderedFloat(least), number, source)) = waiting.pop()?;
+                let link = &self.links[number as usize];
+                let target = link.other_end(source) as usize;
+                if reached[target].is_some() {
+                    continue;
+                }
+                self.weighed(problem, number as usize);
+                if !self.is_allowed(number as usize, ends, cost) {
+                    continue;
+                }
+                let source = source as usize;
+                let total = reached[source]?.0 + self.cost(number as usize, source, cost, gone);
+                if total <= least {
+                    reached[target] = Some((total, Some(number)));
+                    break target;
+                }
+                waiting.push(Reverse((OrderedFloat(total), number, source as u32)));
+            };
+        }
+        let mut route = Route::new();
+        let (end, total) = (here, reached[here]?.0);
+        while let Some((_, Some(number))) = reached[here] {
+            let link = &self.links[number as usize];
+            route.push((number as usize, link.to as usize == here));
+            here = link.other_end(here as u32) as usize;
+        }
+        route.reverse();
+        Some((end, total, route))
+    }
+
+    fn is_allowed(&self, number: usize, ends: Ends, cost: Cost) -> bool {
+        let is_low = match cost {
+            Cost::Below { highest, .. } => self.peak(number) <= highest,
+            Cost::Work | Cost::Probability => true,
         };
-        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            let number = edge.id().index();
-            self.costs(number).peak <= highest && self.is_motion(number, from, goals)
-        });
-        let (total, nodes) = astar(
-            &allowed,
-            NodeIndex::new(from),
-            |node| goals.contains(&node.index()),
-            |edge| self.cost(edge.id().index(), edge.source().index(), cost),
-            |_| 0.0,
-        )?;
-        let route = nodes
-            .windows(2)
-            .filter_map(|pair| self.cheapest_link(pair[0], pair[1], highest, cost))
-            .collect();
-        Some((nodes.last()?.index(), total, route))
+        is_low && self.is_motion(number, ends)
     }
 
     /// Whether a route between these ends may use a link: one without motion only where it starts
     /// or ends at the node that stands for `free`. Far configurations are one place to come from
     /// and to go to, but to pass from one to another takes a motion.
-    fn is_motion(&self, number: usize, from: usize, goals: &HashSet<usize>) -> bool {
+    fn is_motion(&self, number: usize, Ends { from, goals }: Ends) -> bool {
         let link = &self.links[number];
         !matches!(self.way(number), Way::Same)
             || [link.from as usize, link.to as usize]
@@ -125,25 +160,10 @@ impl Network {
                 .any(|free| *free == from || goals.contains(free))
     }
 
-    fn cheapest_link(
-        &self,
-        from: NodeIndex<u32>,
-        to: NodeIndex<u32>,
-        highest: f64,
-        cost: Cost,
-    ) -> Option<(usize, bool)> {
-        let price = |number: usize| self.cost(number, from.index(), cost);
-        let number = self
-            .graph
-            .edges_connecting(from, to)
-            .map(|edge| edge.id().index())
-            .filter(|number| self.costs(*number).peak <= highest)
-            .min_by_key(|&number| (OrderedFloat(price(number)), number))?;
-        Some((number, self.links[number].from as usize == from.index()))
-    }
-
-    fn cost(&self, number: usize, from: usize, cost: Cost) -> f64 {
-        let direction = usize::from(self.links[number].from as usize != from);
+    /// What it costs to go along a link from one of its ends, or, `Backwards`, to there.
+    fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
+        let is_back = (self.links[number].from as usize != from) != (gone == Gone::Backwards);
+        let direction = usize::from(is_back);
         let costs = self.costs(number);
         match cost {
             Cost::Work => costs.work[direction],
@@ -151,6 +171,20 @@ impl Network {
             Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
         }
     }
+}
+
+/// Between which nodes a search goes.
+#[derive(Clone, Copy)]
+struct Ends<'a> {
+    from: usize,
+    goals: &'a HashSet<usize>,
+}
+
+/// In which direction links are gone that a search finds one after the other.
+#[derive(Clone, Copy, PartialEq)]
+enum Gone {
+    Forwards,
+    Backwards,
 }
 
 /// A highest energy (J): "adding" two of them gives the larger one, so that a shortest path is a

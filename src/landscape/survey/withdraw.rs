@@ -66,8 +66,8 @@ impl Survey {
     }
 
     /// Joins states to `free` by straight motions away from what they touch, where nothing else
-    /// does; of very many magnets, which nothing joined to milestones, all from `fresh` on. Shapes that fit without play leave a tile a single direction, which sampled milestones
-    /// cannot meet.
+    /// does; of very many magnets, which nothing joined to milestones, all from `fresh` on. Shapes
+    /// that fit without play leave a tile a single direction, which sampled milestones cannot meet.
     pub(super) fn withdraw(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
         let joined = self.network.joined_to(self.free);
         let is_open =
@@ -98,13 +98,12 @@ impl Survey {
                 }
             }
         }
-        self.join_to_milestones(problem, known, settings);
+        self.join_to_milestones(problem, known);
     }
 
-    /// Joins nodes, those from `fresh` on, to the milestones nearest to them, of very many magnets by
-    /// motions that are weighed when they are asked for: from where one state is withdrawn to the way
-    /// to another.
-    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize, settings: &SurveySettings) {
+    /// Joins nodes, those from `fresh` on, to the milestones nearest to them: from where one state is
+    /// withdrawn to the way to another.
+    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize) {
         let at = |node: usize| self.network.nodes[node].map(|known| known.0);
         let nearest = |here: Configuration| {
             let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
@@ -116,24 +115,13 @@ impl Survey {
                 .map(|(_, other, _)| other)
                 .take(MOST_MILESTONES)
         };
-        let weighed = |ends: [usize; 2]| {
-            if problem.is_dear() {
-                return None;
-            }
-            let [a, b] = ends.map(|node| at(node).map(|q| Milestone::new(problem, q)));
-            Some(edge::costs(problem, [&a?, &b?], &settings.edge))
-        };
-        let joined: Vec<([usize; 2], Option<EdgeCosts>)> = (fresh..self.network.nodes.len())
+        let joined: Vec<[usize; 2]> = (fresh..self.network.nodes.len())
             .into_par_iter()
             .filter_map(|node| Some((node, at(node)?)))
             .flat_map_iter(|(node, here)| nearest(here).map(move |other| [node, other]))
-            .map(|ends| (ends, weighed(ends)))
             .collect();
-        for ([node, other], costs) in joined {
-            match costs {
-                Some(costs) => self.network.add_motion(node, other, costs),
-                None => self.network.add_unweighed(node, other),
-            };
+        for [node, other] in joined {
+            self.network.add_unweighed(node, other);
         }
     }
 
