@@ -120,7 +120,7 @@ impl ConfigurationSpace {
 
     /// Whether the tiles count as free of each other.
     pub fn is_far(&self, q: &Configuration) -> bool {
-        q.x.hypot(q.y) >= self.free_distance
+        q.position().norm() >= self.free_distance
     }
 
     /// Length of a step (dx, dy, dtheta) in the metric (m).

@@ -1,5 +1,6 @@
 //! The admissible motion closest to a wanted one: a small quadratic program.
 
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use ordered_float::OrderedFloat;
 
@@ -16,30 +17,32 @@ pub fn closest_admissible(
     metric: &Matrix3<f64>,
     constraints: &[Constraint],
 ) -> Option<(Vector3<f64>, Vec<f64>)> {
+    if constraints.is_empty() {
+        return Some((wanted, Vec::new()));
+    }
     let inverse = metric.try_inverse()?;
     let norms: Vec<f64> = constraints.iter().map(|c| norm(c, &inverse)).collect();
-    let mut working: Vec<usize> = Vec::new();
-    let mut point = wanted;
-    let mut multipliers = Vec::new();
+    let mut best = Optimum {
+        point: wanted,
+        binding: ArrayVec::new(),
+    };
     for _ in 0..100 {
         let violated = (0..constraints.len())
-            .map(|k| (k, slack(&constraints[k], &point) / norms[k]))
+            .map(|k| (k, slack(&constraints[k], &best.point) / norms[k]))
             .min_by_key(|(_, slack)| OrderedFloat(*slack));
-        let scale = 1e-13 * (1.0 + point.norm());
+        let scale = 1e-13 * (1.0 + best.point.norm());
+        let mut working: ArrayVec<usize, 4> = best.binding.iter().map(|(k, _)| *k).collect();
         match violated {
             Some((k, slack)) if slack < -scale && !working.contains(&k) => working.push(k),
             _ => {
-                let mut all = vec![0.0; constraints.len()];
-                for (&k, &multiplier) in working.iter().zip(&multipliers) {
-                    all[k] = multiplier;
+                let mut multipliers = vec![0.0; constraints.len()];
+                for (k, multiplier) in best.binding {
+                    multipliers[k] = multiplier;
                 }
-                return Some((point, all));
+                return Some((best.point, multipliers));
             }
         }
-        let (best, set, lambda) = best_subset(wanted, &inverse, constraints, &working)?;
-        point = best;
-        working = set;
-        multipliers = lambda;
+        best = best_subset(wanted, &inverse, constraints, &working)?;
     }
     None
 }
@@ -52,8 +55,11 @@ fn norm(c: &Constraint, inverse: &Matrix3<f64>) -> f64 {
     c.gradient.dot(&(inverse * c.gradient)).sqrt()
 }
 
-/// A point, the constraints that bind there, and their multipliers.
-type Optimum = (Vector3<f64>, Vec<usize>, Vec<f64>);
+/// A point, and the constraints that bind there with their multipliers.
+struct Optimum {
+    point: Vector3<f64>,
+    binding: ArrayVec<(usize, f64), 3>,
+}
 
 /// The optimum over the working set: the subset of at most three constraints, taken as equalities,
 /// whose multipliers are not negative and that leaves the others satisfied.
@@ -104,8 +110,8 @@ impl SubsetSearch<'_> {
         let is_better = self.best.as_ref().is_none_or(|best| cost < best.0);
         let holds = |&k: &usize| slack(&self.constraints[k], &point) >= -self.tolerance;
         if is_better && lambda.iter().all(|&l| l >= 0.0) && self.working.iter().all(holds) {
-            let lambda = lambda.iter().copied().collect();
-            self.best = Some((cost, (point, set.to_vec(), lambda)));
+            let binding = set.into_iter().zip(lambda.iter().copied()).collect();
+            self.best = Some((cost, Optimum { point, binding }));
         }
     }
 

@@ -18,6 +18,7 @@ mod tree;
 
 pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
+pub use motion::Known;
 pub use points::{ContactPoint, NearPairs, PointFinder};
 
 use nalgebra::{Rotation2, Vector2};

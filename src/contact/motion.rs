@@ -31,52 +31,52 @@ impl Contact {
         b: &Configuration,
         allowed: f64,
     ) -> bool {
-        let clearances = [a, b].map(|end| self.clearance_bound(end));
-        self.known_motion_overlaps_at_most([a, b], clearances, allowed)
+        let ends = [a, b].map(|end| self.known(*end));
+        self.known_motion_overlaps_at_most(ends.each_ref(), allowed)
     }
 
-    /// The same for ends whose clearances are known to be at least `clearances` (m).
-    pub fn known_motion_overlaps_at_most(
-        &self,
-        [a, b]: [&Configuration; 2],
-        clearances: [f64; 2],
-        allowed: f64,
-    ) -> bool {
-        let step = a.step_to(b);
+    /// A configuration with what every motion from or to it asks for.
+    pub fn known(&self, q: Configuration) -> Known {
+        Known {
+            end: End::of(q),
+            clearance: self.clearance_bound(&q),
+        }
+    }
+
+    /// The same between configurations that are known.
+    pub fn known_motion_overlaps_at_most(&self, [a, b]: [&Known; 2], allowed: f64) -> bool {
+        let step = a.end.q.step_to(&b.end.q);
         let reach = step.xy().norm() + self.moving().circumradius() * step.z.abs();
         // What is closer to an end than its clearance is free, what is a little farther overlaps by
         // that little, and a motion that brings no point farther than both together passes from the
         // one's surroundings into the other's.
-        let around = clearances.map(|clearance| clearance.max(0.0) + allowed.max(0.0));
+        let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
         around[0] + around[1] >= reach
             || reach <= SHORTEST
-            || self.stretches_overlap_at_most([*a, *b], reach, allowed)
+            || self.stretches_overlap_at_most([a.end, b.end], reach, allowed)
     }
 
     /// Halves the motion where pairs of convex parts are not proved to stay separated, again and
     /// again, with an eye on these pairs only. All stretches of one length are looked at before any
     /// shorter one: what blocks a motion is found soon.
-    fn stretches_overlap_at_most(
-        &self,
-        ends: [Configuration; 2],
-        reach: f64,
-        allowed: f64,
-    ) -> bool {
-        let whole = Motion::new(ends.map(End::of), allowed);
-        let hulls = (&self.fixed_hull, &self.moving_hull);
-        let cores = (&self.fixed_core, &self.moving_core);
-        if whole.separates(hulls) {
+    fn stretches_overlap_at_most(&self, ends: [End; 2], reach: f64, allowed: f64) -> bool {
+        let whole = Motion::new(&ends, allowed);
+        if whole.separates((&self.fixed_hull, &self.moving_hull)) {
             return true;
         }
-        if !whole.is_separated_half_way(cores) {
+        let middle = whole.middle();
+        let is_separated = |middle: &End, (fixed, moving): (&ConvexPart, &ConvexPart)| {
+            separated(fixed, moving, &middle.placement, -allowed)
+        };
+        if !is_separated(&middle, (&self.fixed_core, &self.moving_core)) {
             return false;
         }
         let parts = |[i, j]: [usize; 2]| (&self.fixed.parts()[i], &self.moving.parts()[j]);
         let mut open: Vec<[usize; 2]> = Vec::new();
-        let blocked = !self.near_pairs(&whole, &mut |i, j| {
+        let blocked = !self.near_pairs(&whole, &middle, &mut |i, j| {
             whole.separates(parts([i, j])) || {
                 open.push([i, j]);
-                whole.is_separated_half_way(parts([i, j]))
+                is_separated(&middle, parts([i, j]))
             }
         });
         if blocked || open.is_empty() {
@@ -84,25 +84,26 @@ impl Contact {
         }
         let mut reach = reach / 2.0;
         let mut level: Vec<([End; 2], Range<usize>)> = Vec::new();
-        level.extend(whole.halves().map(|half| (half, 0..open.len())));
+        level.extend(halves(ends, middle).map(|half| (half, 0..open.len())));
         while !level.is_empty() && reach > SHORTEST {
             let mut kept = Vec::new();
             let mut finer = Vec::new();
             for (ends, pairs) in &level {
-                let stretch = Motion::new(*ends, allowed);
+                let stretch = Motion::new(ends, allowed);
+                let middle = stretch.middle();
                 let first = kept.len();
                 for &pair in &open[pairs.clone()] {
                     if stretch.separates(parts(pair)) {
                         continue;
                     }
-                    if !stretch.is_separated_half_way(parts(pair)) {
+                    if !is_separated(&middle, parts(pair)) {
                         return false;
                     }
                     kept.push(pair);
                 }
                 let pairs = first..kept.len();
                 if !pairs.is_empty() {
-                    finer.extend(stretch.halves().map(|half| (half, pairs.clone())));
+                    finer.extend(halves(*ends, middle).map(|half| (half, pairs.clone())));
                 }
             }
             (open, level) = (kept, finer);
@@ -122,18 +123,24 @@ impl Contact {
     /// `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference point, and a line
     /// of the moving one.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
-        let motion = Motion::new([*a, *b].map(End::of), allowed);
+        let ends = [*a, *b].map(End::of);
+        let motion = Motion::new(&ends, allowed);
         motion.separates((&self.fixed_hull, &self.moving_hull))
-            || self.near_pairs(&motion, &mut |i, j| {
+            || self.near_pairs(&motion, &motion.middle(), &mut |i, j| {
                 motion.separates((&self.fixed.parts()[i], &self.moving.parts()[j]))
             })
     }
 
     /// Calls `found` for the pairs of convex parts that may meet in a motion, until it returns
     /// false; returns whether it never did.
-    fn near_pairs(&self, motion: &Motion, found: &mut impl FnMut(usize, usize) -> bool) -> bool {
+    fn near_pairs(
+        &self,
+        motion: &Motion,
+        middle: &End,
+        found: &mut impl FnMut(usize, usize) -> bool,
+    ) -> bool {
         // From half way no point gets farther than half the motion takes it.
-        let Placement { rotation, position } = motion.middle.placement;
+        let Placement { rotation, position } = middle.placement;
         let lever = |(centre, radius): &Circle| centre.norm() + radius;
         let room = (-motion.allowed).max(0.0);
         self.fixed_tree.near_pairs(
@@ -161,11 +168,21 @@ impl End {
     }
 }
 
+/// A configuration, where it places the moving tile, and how far (m) that is from the other at least.
+#[derive(Clone, Copy)]
+pub struct Known {
+    end: End,
+    clearance: f64,
+}
+
+/// The ends of the two halves of a motion.
+fn halves([a, b]: [End; 2], middle: End) -> [[End; 2]; 2] {
+    [[a, middle], [middle, b]]
+}
+
 /// A motion or a part of one, and what of it counts for proofs of separation.
-struct Motion {
-    ends: [End; 2],
-    /// Half way.
-    middle: End,
+struct Motion<'a> {
+    ends: &'a [End; 2],
     /// Length of the reference point's way (m).
     path: f64,
     /// Magnitude of the turn (rad).
@@ -174,12 +191,11 @@ struct Motion {
     allowed: f64,
 }
 
-impl Motion {
-    fn new(ends: [End; 2], allowed: f64) -> Self {
-        let [a, b] = &ends;
+impl<'a> Motion<'a> {
+    fn new(ends: &'a [End; 2], allowed: f64) -> Self {
+        let [a, b] = ends;
         let step = a.q.step_to(&b.q);
         Self {
-            middle: End::of(a.q.interpolate(&b.q, 0.5)),
             path: step.xy().norm(),
             turn: step.z.abs(),
             allowed,
@@ -187,21 +203,16 @@ impl Motion {
         }
     }
 
-    /// The ends of the two halves.
-    fn halves(&self) -> [[End; 2]; 2] {
+    /// Half way.
+    fn middle(&self) -> End {
         let [a, b] = self.ends;
-        [[a, self.middle], [self.middle, b]]
-    }
-
-    /// Whether a fixed part and a moving one overlap by no more than is let pass half way.
-    fn is_separated_half_way(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
-        separated(fixed, moving, &self.middle.placement, -self.allowed)
+        End::of(a.q.interpolate(&b.q, 0.5))
     }
 
     /// Whether the line of one edge keeps a fixed part and a moving one, given in its own frame,
     /// apart throughout.
     fn separates(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
-        let places = self.ends.map(|end| end.placement);
+        let places = self.ends.each_ref().map(|end| &end.placement);
         let [(inside_moving, moving_radius), (inside_fixed, fixed_radius)] =
             [moving.disc, fixed.disc];
         let inside_moving = places.map(|at| at.position + at.rotation * inside_moving);

@@ -135,7 +135,7 @@ impl PointFinder {
     pub fn near(&self, q: &Configuration, distance: f64) -> NearPairs {
         let outlines = [&self.fixed.outline, &self.moving.outline];
         let [a, b] = outlines.map(Outline::circumradius);
-        if q.x.hypot(q.y) > a + b + distance {
+        if q.position().norm() > a + b + distance {
             return NearPairs::default();
         }
         NearPairs {

@@ -108,7 +108,7 @@ impl<'a> Search<'a> {
     }
 
     fn is_free(&self, q: &Configuration) -> bool {
-        let distance = q.x.hypot(q.y);
+        let distance = q.position().norm();
         distance >= self.outer || (distance >= self.inner && self.problem.is_clear(q))
     }
 

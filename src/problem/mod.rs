@@ -7,11 +7,12 @@ mod symmetry;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
+use rayon::prelude::*;
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
-use crate::contact::{Contact, TOUCH};
+use crate::contact::{Contact, Known, TOUCH};
 use crate::interruption;
 use crate::potential::parts::{Part, Parts};
 use crate::potential::{
@@ -287,13 +288,27 @@ impl Problem {
             .is_none_or(|contact| contact.is_clear_by(q, least))
     }
 
-    /// The same as [`Self::motion_is_free`], for ends whose clearances are known to be at least
-    /// `clearances` (m).
-    pub fn known_motion_is_free(&self, ends: [&Configuration; 2], clearances: [f64; 2]) -> bool {
-        interruption::check();
-        self.contact
-            .as_ref()
-            .is_none_or(|contact| contact.known_motion_overlaps_at_most(ends, clearances, TOUCH))
+    /// Those of some pairs of configurations, given by their numbers, between which the straight motion
+    /// is free, in the order given.
+    pub fn free_motions(
+        &self,
+        configurations: &[Configuration],
+        pairs: &[(u32, u32)],
+    ) -> Vec<(u32, u32)> {
+        let Some(contact) = &self.contact else {
+            return pairs.to_vec();
+        };
+        // Of every configuration once, not of every pair.
+        let known: Vec<Known> = configurations
+            .par_iter()
+            .map(|q| contact.known(*q))
+            .collect();
+        let is_free = |&(from, to): &(u32, u32)| {
+            interruption::check();
+            let ends = [from, to].map(|end| &known[end as usize]);
+            contact.known_motion_overlaps_at_most(ends, TOUCH)
+        };
+        pairs.par_iter().copied().filter(is_free).collect()
     }
 
     /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two
@@ -314,7 +329,10 @@ impl Problem {
     /// frame) and the radius of gyration rho about the reference point,
     /// `M = [[1, 0, -c_y], [0, 1, c_x], [-c_y, c_x, rho^2]]`.
     pub fn mass_metric(&self, theta: f64) -> Matrix3<f64> {
-        let c = Configuration::new(0.0, 0.0, theta).transform(self.centre_of_mass);
+        let mut c = self.centre_of_mass;
+        if c != Vector2::zeros() {
+            c = Rotation2::new(theta) * c;
+        }
         let rho2 = self.space.rho * self.space.rho;
         Matrix3::new(1.0, 0.0, -c.y, 0.0, 1.0, c.x, -c.y, c.x, rho2)
     }

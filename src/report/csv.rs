@@ -143,21 +143,60 @@ fn finite(value: f64) -> String {
     }
 }
 
-/// A number with ten significant digits at most.
+/// Significant digits of a number, at most.
+const DIGITS: i32 = 10;
+
+/// A number with so many digits, plain or scientific, whichever is shorter. Where it lies half way
+/// between two of them to within rounding, either.
 pub(crate) fn number(value: f64) -> String {
-    if !value.is_finite() {
-        return value.to_string();
+    let size = value.abs();
+    if !value.is_finite() || size < f64::MIN_POSITIVE {
+        return if size == 0.0 {
+            "0".to_owned()
+        } else {
+            format!("{value:e}")
+        };
     }
-    let rounded = format!("{value:.9e}").parse::<f64>().unwrap_or(value);
-    if rounded == 0.0 {
-        return "0".to_owned();
+    // The digits as an integer, and the power of ten of the first of them.
+    let mut power = size.log10().floor() as i32;
+    let mut digits = scaled(size, DIGITS - 1 - power);
+    // The logarithm is rounded, and so are the digits.
+    if digits < 10u64.pow(DIGITS as u32 - 1) {
+        power -= 1;
+        digits = scaled(size, DIGITS - 1 - power);
+    } else if digits >= 10u64.pow(DIGITS as u32) {
+        power += 1;
+        digits = scaled(size, DIGITS - 1 - power);
     }
-    let plain = rounded.to_string();
-    // Between these it is never the longer one.
-    if (1e-2..1e3).contains(&rounded.abs()) {
-        return plain;
+    while digits.is_multiple_of(10) {
+        digits /= 10;
     }
-    let scientific = format!("{rounded:e}");
+    let sign = if value < 0.0 { "-" } else { "" };
+    format!("{sign}{}", written(&digits.to_string(), power))
+}
+
+/// `size` times a power of ten, rounded.
+fn scaled(size: f64, power: i32) -> u64 {
+    // Neither factor overflows, and up to 22 they are exact.
+    let (first, rest) = (power.clamp(-300, 300), power - power.clamp(-300, 300));
+    (size * 10f64.powi(first) * 10f64.powi(rest)).round() as u64
+}
+
+/// Some digits, the first of which counts as this power of ten.
+fn written(digits: &str, power: i32) -> String {
+    let after = digits.len() as i32 - 1 - power;
+    let plain = match power {
+        ..0 => format!("0.{}{digits}", "0".repeat((-1 - power) as usize)),
+        _ if after <= 0 => format!("{digits}{}", "0".repeat(-after as usize)),
+        _ => format!(
+            "{}.{}",
+            &digits[..=power as usize],
+            &digits[power as usize + 1..]
+        ),
+    };
+    let (first, rest) = digits.split_at(1);
+    let point = if rest.is_empty() { "" } else { "." };
+    let scientific = format!("{first}{point}{rest}e{power}");
     if scientific.len() < plain.len() {
         scientific
     } else {
@@ -169,6 +208,8 @@ pub(crate) fn number(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::configuration::Configuration;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     fn point(s: f64, energy: f64) -> PathwayPoint {
         PathwayPoint {
@@ -197,6 +238,27 @@ mod tests {
         assert_eq!(number(12.5), "12.5");
         assert_eq!(number(-0.001_25), "-0.00125");
         assert_eq!(number(9.999_999_999_99), "10");
+        assert_eq!(number(0.099_999_999_999_9), "0.1");
+        assert_eq!(number(-1e300), "-1e300");
+        assert_eq!(number(f64::MAX), "1.797693135e308");
+        assert_eq!(number(f64::MIN_POSITIVE), "2.225073859e-308");
+        assert_eq!(number(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn numbers_are_the_nearest_of_ten_digits() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..20_000 {
+            let value = rng.random_range(-1.0..1.0) * 10f64.powi(rng.random_range(-20..20));
+            let error = (number(value).parse::<f64>().unwrap() - value).abs();
+            assert!(
+                error <= 0.500_001e-9 * value.abs(),
+                "{value}: {}",
+                number(value)
+            );
+            let exact: f64 = format!("{value:.9e}").parse().unwrap();
+            assert_eq!(number(exact).parse::<f64>(), Ok(exact), "{exact}");
+        }
     }
 
     #[test]

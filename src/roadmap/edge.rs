@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::Milestone;
 use super::profile::{Profile, ProfileTolerance};
+use crate::configuration::Configuration;
 use crate::problem::Problem;
 
 /// What a motion costs, read off one energy profile.
@@ -44,9 +45,9 @@ pub struct EdgeSettings {
     pub probability_step: f64,
 }
 
-/// Pairs whose edges are collected together.
+/// Edges that are collected together.
 const TOGETHER: usize = 1 << 20;
-/// Pairs whose energies are asked for together.
+/// Motions whose energies are asked for together.
 pub(crate) const SIDE_BY_SIDE: usize = 64;
 
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
@@ -56,13 +57,20 @@ pub fn edges(
     pairs: &[(u32, u32)],
     settings: &EdgeSettings,
 ) -> Vec<Edge> {
-    side_by_side(problem, milestones, pairs, |free| {
-        let ends = free.iter();
+    let free = free_motions(problem, milestones, pairs);
+    let of_some = |some: &[(u32, u32)]| -> Vec<Edge> {
+        let ends = some.iter();
         let ends = ends.map(|&(from, to)| [from, to].map(|end| &milestones[end as usize]));
         let costs = costs_side_by_side(problem, &ends.collect::<Vec<_>>(), settings);
-        let edge = |((from, to), costs)| Edge { from, to, costs };
-        free.into_iter().zip(costs).map(edge).collect()
-    })
+        let edge = |(&(from, to), costs)| Edge { from, to, costs };
+        some.iter().zip(costs).map(edge).collect()
+    };
+    let mut edges = Vec::with_capacity(free.len());
+    // In parts, as collecting in parallel takes twice the memory.
+    for part in free.chunks(TOGETHER) {
+        edges.par_extend(part.par_chunks(SIDE_BY_SIDE).flat_map_iter(of_some));
+    }
+    edges
 }
 
 /// Those of some pairs of milestones between which the straight motion is free.
@@ -71,37 +79,8 @@ pub fn free_motions(
     milestones: &[Milestone],
     pairs: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
-    side_by_side(problem, milestones, pairs, |free| free)
-}
-
-/// What `each` makes of the free ones among some pairs, in the order given.
-fn side_by_side<T: Send>(
-    problem: &Problem,
-    milestones: &[Milestone],
-    pairs: &[(u32, u32)],
-    each: impl Fn(Vec<(u32, u32)>) -> Vec<T> + Sync,
-) -> Vec<T> {
-    // Of every milestone once, not of every pair.
-    let clearances: Vec<f64> = milestones
-        .par_iter()
-        .map(|milestone| problem.clearance_bound(&milestone.configuration))
-        .collect();
-    let is_free = |&(from, to): &(u32, u32)| {
-        let ends = [from, to].map(|end| &milestones[end as usize].configuration);
-        let clearances = [from, to].map(|end| clearances[end as usize]);
-        problem.known_motion_is_free(ends, clearances)
-    };
-    let of_some = |some: &[(u32, u32)]| each(some.iter().copied().filter(is_free).collect());
-    let mut all = Vec::with_capacity(pairs.len());
-    // In parts, as collecting in parallel takes twice the memory.
-    for part in pairs.chunks(TOGETHER) {
-        let found: Vec<T> = part
-            .par_chunks(SIDE_BY_SIDE)
-            .flat_map_iter(of_some)
-            .collect();
-        all.extend(found);
-    }
-    all
+    let configurations: Vec<Configuration> = milestones.iter().map(|m| m.configuration).collect();
+    problem.free_motions(&configurations, pairs)
 }
 
 /// The costs of some straight motions, their energies asked together.

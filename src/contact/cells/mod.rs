@@ -109,7 +109,7 @@ impl ContactCells {
     pub fn classify(&self, cell: &Cell) -> CellContact {
         let q = &cell.centre;
         let (fixed, moving) = (&self.fixed.outline, &self.moving.outline);
-        let apart = q.x.hypot(q.y) - fixed.circumradius() - moving.circumradius();
+        let apart = q.position().norm() - fixed.circumradius() - moving.circumradius();
         if apart > cell.travel() + RELAXED {
             return CellContact::open();
         }

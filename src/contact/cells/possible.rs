@@ -101,8 +101,9 @@ impl ContactCells {
     pub fn possible(&self, cell: &Cell, most: usize) -> Option<Vec<PossibleContact>> {
         let q = &cell.centre;
         let mut found = Vec::new();
-        let apart =
-            q.x.hypot(q.y) - self.fixed.outline.circumradius() - self.moving.outline.circumradius();
+        let apart = q.position().norm()
+            - self.fixed.outline.circumradius()
+            - self.moving.outline.circumradius();
         if apart > cell.travel() {
             return Some(found);
         }

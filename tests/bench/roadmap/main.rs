@@ -20,11 +20,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use ratio::ratio;
-use rayon::prelude::*;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
-    Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
-    neighbour,
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, edge, milestone, neighbour,
 };
 
 const ROUNDS: usize = 7;
@@ -93,9 +91,9 @@ fn build(problem: &Problem, depth: f64, count: usize, neighbours: Option<usize>)
     let edges = edge::edges(problem, &milestones, &pairs, &settings);
     let energies = problem.evaluations() - before;
     times.push(Instant::now());
-    let free = free_motions(problem, &milestones, &pairs);
+    let free = edge::free_motions(problem, &milestones, &pairs);
     times.push(Instant::now());
-    assert_eq!(free, edges.len());
+    assert_eq!(free.len(), edges.len());
     let places: Vec<_> = milestones.iter().map(|m| m.configuration).collect();
     std::hint::black_box(problem.energies(&places));
     times.push(Instant::now());
@@ -105,20 +103,6 @@ fn build(problem: &Problem, depth: f64, count: usize, neighbours: Option<usize>)
         edges: edges.len(),
         energies,
     }
-}
-
-/// How many pairs are joined by a free motion, tested as edges are.
-fn free_motions(problem: &Problem, milestones: &[Milestone], pairs: &[(u32, u32)]) -> usize {
-    let clearances: Vec<f64> = milestones
-        .par_iter()
-        .map(|milestone| problem.clearance_bound(&milestone.configuration))
-        .collect();
-    let is_free = |(from, to): &(u32, u32)| {
-        let (from, to) = (*from as usize, *to as usize);
-        let ends = [from, to].map(|end| &milestones[end].configuration);
-        problem.known_motion_is_free(ends, [clearances[from], clearances[to]])
-    };
-    pairs.par_iter().filter(|pair| is_free(pair)).count()
 }
 
 fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
