@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use super::ends::Ends;
 use super::landscape::Landscape;
 use super::lower::Assessment;
-use super::query::{Goal, Query};
+use super::query::{Goal, Query, SHARPNESS};
 use super::store::{Key, Store};
+use super::upper::ProvedPath;
 use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
@@ -26,6 +27,15 @@ pub struct Certifier<'a> {
     pub(super) store: Store,
     pub(super) ends: Ends,
     pub(super) assessed: usize,
+    /// Pathways that were proved ahead, or that it is known cannot be.
+    foreseen: Vec<Foreseen>,
+}
+
+/// A pathway, the tolerance (J) of its proof, and what came of that.
+struct Foreseen {
+    path: Vec<Configuration>,
+    tolerance: f64,
+    proved: Option<ProvedPath>,
 }
 
 impl<'a> Certifier<'a> {
@@ -85,6 +95,36 @@ impl<'a> Certifier<'a> {
             store,
             ends: Ends::default(),
             assessed,
+            foreseen: Vec::new(),
+        }
+    }
+
+    /// Proves known pathways from their starts on, each to the tolerance (J) with which it is going to
+    /// be asked for: side by side, which queries one after the other cannot. What was proved so
+    /// before is forgotten; what comes after it is to give up is left to the queries.
+    pub fn foresee(
+        &mut self,
+        paths: Vec<(Configuration, Vec<Configuration>, f64)>,
+        gives_up: impl Fn() -> bool + Sync,
+    ) {
+        let landscape = &self.landscape;
+        let foreseen = |(from, known, tolerance): (Configuration, Vec<Configuration>, f64)| {
+            let path = from_its_start(from, &known);
+            (!gives_up()).then(|| Foreseen {
+                proved: known_path(landscape, &path, tolerance),
+                path,
+                tolerance,
+            })
+        };
+        self.foreseen = paths.into_par_iter().filter_map(foreseen).collect();
+    }
+
+    /// What comes of proving a known pathway for a query with a tolerance (J).
+    pub(super) fn known_path(&self, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
+        let is_it = |known: &&Foreseen| known.tolerance == tolerance && known.path == path;
+        match self.foreseen.iter().find(is_it) {
+            Some(known) => known.proved.clone(),
+            None => known_path(&self.landscape, path, tolerance),
         }
     }
 
@@ -191,4 +231,16 @@ impl<'a> Certifier<'a> {
         }
         (parts, assessed)
     }
+}
+
+/// A known pathway, its start included.
+pub(super) fn from_its_start(from: Configuration, known: &[Configuration]) -> Vec<Configuration> {
+    let others = known.iter().filter(|q| **q != from);
+    std::iter::once(&from).chain(others).copied().collect()
+}
+
+fn known_path(landscape: &Landscape, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
+    interruption::check();
+    let proof = landscape.proof();
+    proof.prove(path, SHARPNESS * tolerance, f64::INFINITY).ok()
 }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::certifier::Certifier;
+use super::certifier::{Certifier, from_its_start};
 use super::flood::{Seeds, watershed};
 use super::level::least_level;
 use super::upper::ProvedPath;
@@ -18,7 +18,7 @@ const SPLIT_SHARE: usize = 16;
 const BATCH: usize = 512;
 
 /// A pathway's energy is bounded to this share of the tolerance.
-const SHARPNESS: f64 = 0.05;
+pub(super) const SHARPNESS: f64 = 0.05;
 
 /// A new pathway is looked for where the pass lies below the best one by the first share of the
 /// tolerance, and taken where it is lower by the second.
@@ -91,7 +91,7 @@ impl<'q, 'a> Query<'q, 'a> {
         };
         query.best = query
             .joined_to_the_ends(known)
-            .and_then(|path| query.prove(&path, f64::INFINITY).ok());
+            .and_then(|path| query.certifier.known_path(&path, effort.tolerance));
         query
     }
 
@@ -222,8 +222,7 @@ impl<'q, 'a> Query<'q, 'a> {
     /// A known pathway, from end to end; `None` where it does not lead to the end.
     fn joined_to_the_ends(&self, known: &[Configuration]) -> Option<Vec<Configuration>> {
         let last = known.last()?;
-        let mut path = vec![self.from];
-        path.extend(known.iter().filter(|q| **q != self.from));
+        let mut path = from_its_start(self.from, known);
         match self.to {
             Goal::At(to) if to != *last => path.push(to),
             _ if !self.is_end(last) => return None,

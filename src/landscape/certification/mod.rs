@@ -104,17 +104,29 @@ pub fn certify(
     let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
     let mut done = 0;
     while let Some((width, numbers)) = rounds.pop_front() {
+        // The width (J) that a barrier's bounds are to be narrowed to, if they are to be.
+        let open = |inventory: &Inventory, left: &[usize], number: usize| {
+            let barrier = &inventory.barriers[number];
+            let wanted = schedule::wanted(barrier, settings, depth);
+            let is_done = barrier.bounds.width() <= width.max(wanted) || left[number] == 0;
+            (!is_done).then(|| schedule::step(width, wanted, settings))
+        };
+        let foreseen = numbers.iter().filter_map(|&number| {
+            let tolerance = open(inventory, &left, number)?;
+            let (start, _, known) = ends(inventory, &inventory.barriers[number])?;
+            Some((start, known, tolerance))
+        });
+        certifier.foresee(foreseen.collect(), || since.elapsed() >= limit);
         for number in numbers {
             observer.part("certificate", done, count);
             done += 1;
-            let barrier = &inventory.barriers[number];
             let time = limit.saturating_sub(since.elapsed());
-            let wanted = schedule::wanted(barrier, settings, depth);
-            if barrier.bounds.width() <= width.max(wanted) || left[number] == 0 || time.is_zero() {
+            let tolerance = open(inventory, &left, number);
+            let Some(tolerance) = tolerance.filter(|_| !time.is_zero()) else {
                 continue;
-            }
+            };
             let effort = Effort {
-                tolerance: schedule::step(width, wanted, settings),
+                tolerance,
                 cells: left[number],
                 time: Some(time),
             };
@@ -154,20 +166,10 @@ fn narrow(
 ) -> (usize, Option<Barrier>) {
     let bend = BEND * problem.depth();
     let barrier = &inventory.barriers[number];
-    let Place::State(from) = barrier.from else {
+    let (Place::State(from), Some((start, to, known))) = (barrier.from, ends(inventory, barrier))
+    else {
         return (0, None);
     };
-    let start = inventory.states[from].configuration;
-    let to = match barrier.to {
-        Place::State(to) => End::At(inventory.states[to].configuration),
-        Place::Free => End::Free,
-    };
-    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
-    if let End::At(to) = to
-        && known.last().is_some_and(|last| *last != to)
-    {
-        known.push(to);
-    }
     let since = Instant::now();
     let escape = escapes::bracket(problem, certifier, inventory, (barrier, &known), effort);
     let barrier = &mut inventory.barriers[number];
@@ -202,6 +204,27 @@ fn narrow(
     }
     barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(most));
     (cells, beside)
+}
+
+/// Where a barrier's ways start and end, and the one that is known, the end included.
+fn ends(
+    inventory: &Inventory,
+    barrier: &Barrier,
+) -> Option<(Configuration, End, Vec<Configuration>)> {
+    let Place::State(from) = barrier.from else {
+        return None;
+    };
+    let to = match barrier.to {
+        Place::State(to) => End::At(inventory.states[to].configuration),
+        Place::Free => End::Free,
+    };
+    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    if let End::At(to) = to
+        && known.last().is_some_and(|last| *last != to)
+    {
+        known.push(to);
+    }
+    Some((inventory.states[from].configuration, to, known))
 }
 
 fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {

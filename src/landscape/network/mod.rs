@@ -29,6 +29,10 @@ use crate::problem::{Problem, Symmetry};
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs, costs_of_energies, costs_side_by_side};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
 
+/// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
+const PARTS: usize = 2;
+const FEW: usize = 16;
+
 /// A way between two nodes.
 #[derive(Clone, Debug)]
 pub enum Way {
@@ -191,7 +195,7 @@ impl Network {
             costs_side_by_side(problem, &ends, &self.settings)
         };
         let costs: Vec<EdgeCosts> = links
-            .par_chunks(SIDE_BY_SIDE)
+            .par_chunks(links.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
             .flat_map_iter(of_some)
             .collect();
         for ((number, _), costs) in links.into_iter().zip(costs) {

@@ -155,20 +155,21 @@ fn pairs_with_new(
     old: usize,
     k: usize,
 ) -> Vec<(u32, u32)> {
-    let mut pairs: Vec<(u32, u32)> = Vec::new();
-    for i in old..around.len() {
+    let nearest = |i: usize| {
         let here = &around[i].1.configuration;
-        let mut near: Vec<(f64, usize)> = (0..around.len())
-            .filter(|&j| j != i)
-            .map(|j| (problem.space.distance(here, &around[j].1.configuration), j))
-            .collect();
-        near.sort_by_key(|&(distance, j)| (OrderedFloat(distance), j));
-        pairs.extend(
-            near.iter()
-                .take(k)
-                .map(|&(_, j)| (i.min(j) as u32, i.max(j) as u32)),
-        );
-    }
+        let others = (0..around.len()).filter(|&j| j != i);
+        let distance = |j: usize| problem.space.distance(here, &around[j].1.configuration);
+        let mut near: Vec<(OrderedFloat<f64>, usize)> =
+            others.map(|j| (OrderedFloat(distance(j)), j)).collect();
+        if k < near.len() {
+            near.select_nth_unstable(k);
+            near.truncate(k);
+        }
+        near.into_iter()
+            .map(move |(_, j)| (i.min(j) as u32, i.max(j) as u32))
+    };
+    let new = (old..around.len()).into_par_iter();
+    let mut pairs: Vec<(u32, u32)> = new.flat_map_iter(nearest).collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs
