@@ -9,7 +9,7 @@ use tilebind::dynamics::docking::{
     self, Docking, DockingError, DockingMap, DockingRun, DockingSettings, End,
 };
 use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
-use tilebind::kinetics::rates::{RatesError, leaving};
+use tilebind::kinetics::rates::Loosening;
 use tilebind::observer::Observer;
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::{Figure, PictureError, Sheet, dock, paths};
@@ -240,23 +240,25 @@ impl Dock {
         self.print.results(&json, summary)
     }
 
-    /// The off-rates of overdamped motion (1/s), see [`leaving`], if they are asked for.
+    /// The off-rates of overdamped motion (1/s), if they are asked for.
     fn overdamped(
         &self,
         design: &Design,
         problem: &Problem,
         progress: &dyn Observer,
-    ) -> Result<Option<[f64; 4]>, Failure> {
+    ) -> Result<Option<Loosening>, Failure> {
         let Some(kt) = self.shaking.filter(|_| self.overdamped) else {
             return Ok(None);
         };
         progress.stage("rates", 0.0);
         let diffusion = Motion::new(design, kt, self.drag).diffusion;
-        let found = leaving(problem, &design.pair.bound, kt).map_err(|error| match error {
-            RatesError::Unsolved(_) => Failure::Run(error.to_string()),
-            _ => Failure::Usage(error.to_string().replace("--kt", "--shaking")),
+        let found = Loosening::new(problem, &design.pair.bound, kt);
+        let found = found.map_err(|error| match Failure::from(error) {
+            // What sets kT here.
+            Failure::Usage(message) => Failure::Usage(message.replace("--kt", "--shaking")),
+            other => other,
         })?;
-        Ok(Some(found.map(|rate| rate * diffusion)))
+        Ok(Some(found.times(diffusion)))
     }
 
     fn settings(&self) -> DockingSettings {

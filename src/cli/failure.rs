@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
+use tilebind::kinetics::exit::ExitError;
+use tilebind::kinetics::rates::RatesError;
 use tilebind::report::writer::WriteError;
 
 use super::tell;
@@ -69,6 +71,24 @@ pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Res
 impl From<DesignError> for Failure {
     fn from(error: DesignError) -> Self {
         Self::Usage(error.to_string())
+    }
+}
+
+impl From<RatesError> for Failure {
+    fn from(error: RatesError) -> Self {
+        match error {
+            RatesError::Unsolved(_) => Self::Run(error.to_string()),
+            _ => Self::Usage(error.to_string()),
+        }
+    }
+}
+
+impl From<ExitError> for Failure {
+    fn from(error: ExitError) -> Self {
+        match error {
+            ExitError::Unsolved(_) => Self::Run(error.to_string()),
+            _ => Self::Usage(error.to_string()),
+        }
     }
 }
 

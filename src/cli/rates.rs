@@ -6,8 +6,8 @@ use clap::Args;
 use tilebind::design::Design;
 use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use tilebind::dynamics::{Body, MotionSettings};
-use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
-use tilebind::kinetics::rates::{RateSettings, RatesError, rates};
+use tilebind::kinetics::exit::{ExitSettings, exit, half_bond};
+use tilebind::kinetics::rates::{RateSettings, rates};
 use tilebind::kinetics::{Certify, OVERDAMPED, why_unprovable};
 use tilebind::observer::Observer;
 use tilebind::report::page::Page;
@@ -145,10 +145,7 @@ impl Rates {
             certify: Some(self.certified(Certify::of_exit)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
-        let found = exit(problem, &design.pair.bound, &asked).map_err(|error| match error {
-            ExitError::Unsolved(_) => Failure::Run(error.to_string()),
-            _ => Failure::Usage(error.to_string()),
-        })?;
+        let found = exit(problem, &design.pair.bound, &asked)?;
         let motion = report::Motion::new(design, self.kt, self.drag);
         let mean = found.time() / motion.diffusion;
         let checked = self.check.map(|runs| {
@@ -228,10 +225,7 @@ impl Rates {
             map: self.out.as_ref().map(|_| SQUARES),
             ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
         };
-        let found = rates(&analysis.problem, &asked).map_err(|error| match error {
-            RatesError::Unsolved(_) => Failure::Run(error.to_string()),
-            _ => Failure::Usage(error.to_string()),
-        })?;
+        let found = rates(&analysis.problem, &asked)?;
         let motion = report::Motion::new(design, self.kt, self.drag);
         let table = report::Table {
             design,

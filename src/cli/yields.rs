@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
 use tilebind::kinetics::OVERDAMPED;
-use tilebind::kinetics::rates::RatesError;
 use tilebind::report::files::with_report;
 use tilebind::report::json;
 use tilebind::report::page::Page;
@@ -172,9 +171,7 @@ fn failure(error: YieldError) -> Failure {
         YieldError::Hot(..) | YieldError::Cold(_) | YieldError::Lost => {
             Failure::Usage(error.to_string())
         }
-        YieldError::Rates(error) if !matches!(error, RatesError::Unsolved(_)) => {
-            Failure::Usage(error.to_string())
-        }
+        YieldError::Rates(error) => error.into(),
         error => Failure::Run(error.to_string()),
     }
 }

@@ -292,32 +292,54 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// How often tiles leave the bond at `bound` for good, divided by D (1/m^2): of the well below half the
-/// bond's depth, and free tiles from `free_distance` on. With C what flows and h the committor:
-///
-/// - C / Z(h), over the time until tiles are free, with what bounds it from below and above:
-///   `[lower, rate, upper, _]`;
-/// - C / Z(well), over the time in the well alone: `[.., rate]`.
-///
-/// Over the time until the well is last left it is C / Z(h^2), between the two, for the way from
-/// there to `free` takes Z(h (1 - h)) / C (transition path theory; E and Vanden-Eijnden,
-/// doi:10.1007/s10955-005-9003-9).
-///
-/// # Errors
-/// As [`rates()`].
-pub fn leaving(problem: &Problem, bound: &Configuration, kt: f64) -> Result<[f64; 4], RatesError> {
-    let bond = Basin {
-        at: *bound,
-        below: half_bond(problem, bound),
-    };
-    let settings = RateSettings::new(kt, vec![bond], problem.space.free_distance);
-    let found = rates(problem, &settings)?;
-    let finest = found.finest();
-    let rate: f64 = finest.rates[0].iter().sum();
-    let in_well = rate * (finest.occupation[0] / found.inside[0]).max(1.0);
-    let bounds = found.bounds.as_ref().map(|bounds| bounds.leaving[0]);
-    let [lower, upper] = bounds.unwrap_or([0.0, f64::INFINITY]);
-    Ok([lower, rate, upper, in_well])
+/// How often tiles leave a bond for good: rates of overdamped motion, divided by D (1/m^2) unless it is
+/// said otherwise. With C what flows from the bond to free tiles and h the committor:
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loosening {
+    /// C / Z(h), over the time until tiles are free.
+    pub rate: f64,
+    /// What bounds that from below and above.
+    pub bounds: [f64; 2],
+    /// C / Z(well), over the time in the well alone.
+    ///
+    /// Over the time until the well is last left it is C / Z(h^2), between the two, for the way from
+    /// there to `free` takes Z(h (1 - h)) / C (transition path theory; E and Vanden-Eijnden,
+    /// doi:10.1007/s10955-005-9003-9).
+    pub in_well: f64,
+}
+
+impl Loosening {
+    /// Out of the well below half the depth of the bond at `bound`, at `kt` (J), to
+    /// `free_distance`.
+    ///
+    /// # Errors
+    /// As [`rates()`].
+    pub fn new(problem: &Problem, bound: &Configuration, kt: f64) -> Result<Self, RatesError> {
+        let bond = Basin {
+            at: *bound,
+            below: half_bond(problem, bound),
+        };
+        let settings = RateSettings::new(kt, vec![bond], problem.space.free_distance);
+        let found = rates(problem, &settings)?;
+        let finest = found.finest();
+        let rate: f64 = finest.rates[0].iter().sum();
+        let bounds = found.bounds.as_ref().map(|bounds| bounds.leaving[0]);
+        Ok(Self {
+            rate,
+            bounds: bounds.unwrap_or([0.0, f64::INFINITY]),
+            in_well: rate * (finest.occupation[0] / found.inside[0]).max(1.0),
+        })
+    }
+
+    /// All of them times a diffusion coefficient (m^2/s): 1/s.
+    #[must_use]
+    pub fn times(self, diffusion: f64) -> Self {
+        Self {
+            rate: self.rate * diffusion,
+            bounds: self.bounds.map(|bound| bound * diffusion),
+            in_well: self.in_well * diffusion,
+        }
+    }
 }
 
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.

@@ -7,16 +7,17 @@ use super::json;
 use crate::design::Design;
 use crate::dynamics::docking::{DockingSettings, Release, off_rate};
 use crate::kinetics::OVERDAMPED;
+use crate::kinetics::rates::Loosening;
 use crate::units::{plain, si};
 
 /// The off-rate, and everything that reproduces it.
 ///
-/// `overdamped` are the rates (1/s) of overdamped motion, see [`crate::kinetics::rates::leaving`].
+/// `overdamped` are the rates (1/s) of overdamped motion.
 pub fn json(
     design: &Design,
     settings: &DockingSettings,
     releases: &[Release],
-    overdamped: Option<[f64; 4]>,
+    overdamped: Option<Loosening>,
 ) -> String {
     let motion = &settings.motion;
     let rate = off_rate(releases);
@@ -34,9 +35,9 @@ pub fn json(
             },
         },
         "off_rate": rate_entry("detachments", &rate),
-        "overdamped": overdamped.map(|[lower, rate, upper, in_well]| json!({
-            "lower_per_s": lower, "rate_per_s": rate, "upper_per_s": upper,
-            "in_well_per_s": in_well,
+        "overdamped": overdamped.map(|found| json!({
+            "lower_per_s": found.bounds[0], "rate_per_s": found.rate,
+            "upper_per_s": found.bounds[1], "in_well_per_s": found.in_well,
         })),
         "times_s": releases.iter().filter(|it| it.left).map(|it| it.time).collect::<Vec<_>>(),
     }))
@@ -47,7 +48,7 @@ pub fn summary(
     design: &Design,
     settings: &DockingSettings,
     releases: &[Release],
-    overdamped: Option<[f64; 4]>,
+    overdamped: Option<Loosening>,
 ) -> String {
     let rate = off_rate(releases);
     let kt = settings.motion.shaking.unwrap_or(0.0);
@@ -59,7 +60,8 @@ pub fn summary(
         (_, false) => "times between detachments refute an exponential distribution".to_owned(),
     };
     let beside = overdamped.map_or_else(String::new, |found| {
-        let [lower, rate, upper, in_well] = found.map(|rate| plain(rate, 3));
+        let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
+        let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
         format!(
             "  overdamped motion at that kT and drag, knocks without loss, comes loose {rate} times a \
              second\n  ({lower} to {upper}), the way out to free tiles included, and {in_well} times a \

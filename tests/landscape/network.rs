@@ -4,11 +4,11 @@
 use std::collections::HashSet;
 
 use rayon::prelude::*;
-use tilebind::Settings;
 use tilebind::landscape::network::{Cost, Network};
 use tilebind::landscape::survey::{Survey, SurveySettings};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings};
+use tilebind::{Configuration, Settings};
 
 use crate::designs;
 
@@ -59,8 +59,8 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
         .zip([11, 222, 333, 444, 555, 599, 5])
     {
         let goals = HashSet::from([to]);
-        let highest = weighed.minimax(from, &goals);
-        assert_eq!(highest, asked.minimax(from, &goals));
+        let highest = weighed.minimax(&problem, from, &goals);
+        assert_eq!(highest, asked.minimax(&problem, from, &goals));
         let Some(highest) = highest else { continue };
         let below = Cost::Below {
             highest: highest + 1e-3 * depth,
@@ -89,6 +89,28 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
         }
     }
     assert!(compared >= 9, "{compared}");
+}
+
+/// Far configurations are joined to `free`, but no route leads from one to another over it: a motion
+/// between them counts though it joins nothing that is not joined.
+#[test]
+fn motions_beside_free_are_weighed_when_a_route_needs_them() {
+    let (problem, settings) = paper_tile(50);
+    let roadmap = unweighed(&Roadmap::build(&problem, &settings, &mut |_| {}));
+    let mut network = Network::new(&problem, roadmap, &settings.edges);
+    let free = network.add_node(None);
+    let far = [0.0, 0.1].map(|y| Configuration::new(0.9, y, 0.3));
+    let [from, to] = far.map(|q| {
+        let energy = problem.energy(&q);
+        let node = network.add_node(Some((q, energy)));
+        network.add_same(node, free, energy);
+        node
+    });
+    network.add_unweighed(from, to);
+    network.span(&problem);
+    let highest = network.minimax(&problem, from, &HashSet::from([to]));
+    let ends = far.map(|q| problem.energy(&q));
+    assert!(highest.is_some_and(|highest| highest >= ends[0].max(ends[1])));
 }
 
 /// Routes asked for at once, while links are being weighed, are those asked for one by one.
@@ -157,7 +179,7 @@ fn what_is_found_once_is_known_of_all_copies() {
     let out = |state: usize| {
         survey
             .network
-            .minimax(survey.states[state].node, &free)
+            .minimax(&problem, survey.states[state].node, &free)
             .unwrap()
     };
     for (number, state) in survey.states.iter().enumerate() {

@@ -115,6 +115,9 @@ impl ContactCells {
         }
         // No support of a part changes by more than its points move, nor does the overlap's depth.
         let farthest = cell.reach(moving.circumradius());
+        if self.contact.is_clear_by(q, farthest + RELAXED) {
+            return CellContact::open();
+        }
         if !self.contact.overlaps_at_most(q, farthest + RELAXED) {
             return CellContact::Blocked;
         }

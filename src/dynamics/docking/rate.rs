@@ -1,5 +1,7 @@
 //! The on-rate: how often tiles attach.
 
+use statrs::distribution::{ContinuousCDF, Gamma};
+
 use super::{Docking, End};
 
 /// The rate of attachment over a series of trials.
@@ -69,53 +71,18 @@ impl OnRate {
 
 /// What lies beyond either end of an interval of 95 %.
 const TAIL: f64 = 0.025;
-/// Halvings that find the ends of an interval.
-const HALVINGS: usize = 60;
 
 /// The 95 % interval of the mean of which a Poisson process gave the count n (Garwood 1936,
 /// doi:10.1093/biomet/28.3-4.437): the means at which so many or more, or so many or fewer, have a
-/// probability of 2.5 %. It holds the mean at least as often as it says, and begins at 0 for n = 0.
+/// probability of 2.5 %. The n-th event comes at a time distributed by Gamma(n), so they are
+/// quantiles of Gamma(n) and of Gamma(n + 1). It holds the mean at least as often as it says, and
+/// begins at 0 for n = 0.
 pub fn poisson_interval(count: usize) -> [f64; 2] {
-    let most = count as f64 + 10.0 * (count as f64).sqrt() + 10.0;
-    // The more the mean, the less likely are so few.
-    let mean_of = |count: usize, p: f64| {
-        let [mut low, mut high] = [0.0, most];
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            match up_to(count, middle) > p {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        0.5 * (low + high)
+    let quantile = |events: usize, p: f64| {
+        let time = Gamma::new(events as f64, 1.0);
+        time.map_or(0.0, |time| time.inverse_cdf(p))
     };
-    let low = count
-        .checked_sub(1)
-        .map_or(0.0, |fewer| mean_of(fewer, 1.0 - TAIL));
-    [low, mean_of(count, TAIL)]
-}
-
-/// The probability of so many or fewer by Poisson's distribution of a mean.
-fn up_to(count: usize, mean: f64) -> f64 {
-    let factorial: f64 = (2..=count).map(|k| (k as f64).ln()).sum();
-    let own = (count as f64 * mean.ln() - mean - factorial).exp();
-    // Outwards, to the side on which they get rarer.
-    let mut term = own;
-    let mut sum = 0.0;
-    if mean >= count as f64 {
-        for k in (0..count).rev() {
-            term *= (k + 1) as f64 / mean;
-            sum += term;
-        }
-        return own + sum;
-    }
-    let mut k = count;
-    while term > sum * f64::EPSILON {
-        k += 1;
-        term *= mean / k as f64;
-        sum += term;
-    }
-    1.0 - sum
+    [quantile(count, TAIL), quantile(count + 1, 1.0 - TAIL)]
 }
 
 /// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found, see

@@ -79,6 +79,8 @@ pub struct Network {
     /// How links are weighed.
     settings: EdgeSettings,
     space: ConfigurationSpace,
+    /// How many links are motions of the roadmap; they come first.
+    of_roadmap: usize,
     /// The ways of those links that are no straight motions.
     ways: HashMap<usize, Way>,
     /// Its edges have the numbers of the links.
@@ -98,6 +100,7 @@ impl Network {
             links: Vec::with_capacity(links),
             settings: *settings,
             space: problem.space.clone(),
+            of_roadmap: links,
             ways: HashMap::new(),
             graph: UnGraph::with_capacity(nodes, links),
             tree: Vec::new(),

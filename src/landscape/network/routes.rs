@@ -4,9 +4,8 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
 use ordered_float::OrderedFloat;
-use petgraph::algo::astar;
 use petgraph::graph::NodeIndex;
-use petgraph::visit::{EdgeFiltered, EdgeRef};
+use petgraph::visit::EdgeRef;
 
 use super::{Network, Way};
 use crate::problem::Problem;
@@ -21,6 +20,8 @@ pub enum Cost {
     Work,
     /// -ln of the transition probabilities.
     Probability,
+    /// The highest energy (J).
+    Highest,
     /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
     /// exceed `highest` (J).
     Below {
@@ -31,26 +32,31 @@ pub enum Cost {
     },
 }
 
-impl Network {
-    /// The lowest possible highest energy on a route from a node to any of the `goals`: Dijkstra's
-    /// algorithm, paths added up by their maximum. Links that are not weighed are on no such route,
-    /// once the network is spanned.
-    pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
-        if goals.is_empty() {
-            return None;
+impl Cost {
+    /// Of a path without links.
+    fn of_nothing(self) -> f64 {
+        match self {
+            Self::Highest => f64::NEG_INFINITY,
+            _ => 0.0,
         }
-        let allowed = EdgeFiltered::from_fn(&self.graph, |edge| {
-            let number = edge.id().index();
-            self.is_weighed(number) && self.is_motion(number, Ends { from, goals })
-        });
-        let (peak, _) = astar(
-            &allowed,
-            NodeIndex::new(from),
-            |node| goals.contains(&node.index()),
-            |edge| Highest(self.peak(edge.id().index())),
-            |_| Highest::default(),
-        )?;
-        Some(peak.0)
+    }
+
+    /// Of a path that goes on along one more link.
+    fn total(self, path: f64, link: f64) -> f64 {
+        match self {
+            Self::Highest => path.max(link),
+            _ => path + link,
+        }
+    }
+}
+
+impl Network {
+    /// The lowest possible highest energy (J) on a route from a node to any of the `goals`. Motions of
+    /// the roadmap that are not weighed are on no such route once the network is spanned; others may
+    /// be, beside `free`, through which no route leads.
+    pub fn minimax(&self, problem: &Problem, from: usize, goals: &HashSet<usize>) -> Option<f64> {
+        let (_, peak, _) = self.cheapest(problem, from, goals, Cost::Highest)?;
+        Some(peak)
     }
 
     /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
@@ -97,7 +103,7 @@ impl Network {
     ) -> Option<(usize, f64, Route)> {
         // What it costs to reach a node, and the link that was gone last.
         let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
-        reached[ends.from] = Some((0.0, None));
+        reached[ends.from] = Some((cost.of_nothing(), None));
         let mut waiting = BinaryHeap::new();
         let mut here = ends.from;
         while !ends.goals.contains(&here) {
@@ -105,7 +111,7 @@ impl Network {
                 let number = edge.id().index();
                 let is_new = reached[edge.target().index()].is_none();
                 if is_new && self.is_allowed(number, ends, cost) {
-                    let total = reached[here]?.0 + self.cost(number, here, cost, gone);
+                    let total = cost.total(reached[here]?.0, self.cost(number, here, cost, gone));
                     waiting.push(Reverse((OrderedFloat(total), number as u32, here as u32)));
                 }
             }
@@ -121,7 +127,8 @@ impl Network {
                     continue;
                 }
                 let source = source as usize;
-                let total = reached[source]?.0 + self.cost(number as usize, source, cost, gone);
+                let price = self.cost(number as usize, source, cost, gone);
+                let total = cost.total(reached[source]?.0, price);
                 if total <= least {
                     reached[target] = Some((total, Some(number)));
                     break target;
@@ -141,11 +148,12 @@ impl Network {
     }
 
     fn is_allowed(&self, number: usize, ends: Ends, cost: Cost) -> bool {
-        let is_low = match cost {
+        let may_help = match cost {
             Cost::Below { highest, .. } => self.peak(number) <= highest,
+            Cost::Highest => number >= self.of_roadmap || self.is_weighed(number),
             Cost::Work | Cost::Probability => true,
         };
-        is_low && self.is_motion(number, ends)
+        may_help && self.is_motion(number, ends)
     }
 
     /// Whether a route between these ends may use a link: one without motion only where it starts
@@ -164,11 +172,15 @@ impl Network {
     fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
         let is_back = (self.links[number].from as usize != from) != (gone == Gone::Backwards);
         let direction = usize::from(is_back);
-        let costs = self.costs(number);
+        let costs = || self.costs(number);
         match cost {
-            Cost::Work => costs.work[direction],
-            Cost::Probability => costs.minus_ln_probability[direction],
-            Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
+            Cost::Highest => self.peak(number),
+            Cost::Work => costs().work[direction],
+            Cost::Probability => costs().minus_ln_probability[direction],
+            Cost::Below { per_metre, .. } => {
+                let costs = costs();
+                costs.work[direction] + per_metre * costs.length
+            }
         }
     }
 }
@@ -185,23 +197,4 @@ struct Ends<'a> {
 enum Gone {
     Forwards,
     Backwards,
-}
-
-/// A highest energy (J): "adding" two of them gives the larger one, so that a shortest path is a
-/// minimax path. The neutral element is minus infinity, not 0: energies may be negative.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Highest(f64);
-
-impl Default for Highest {
-    fn default() -> Self {
-        Self(f64::NEG_INFINITY)
-    }
-}
-
-impl std::ops::Add for Highest {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0.max(other.0))
-    }
 }
