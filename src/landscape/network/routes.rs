@@ -101,40 +101,32 @@ impl Network {
         cost: Cost,
         gone: Gone,
     ) -> Option<(usize, f64, Route)> {
+        if ends.goals.is_empty() {
+            return None;
+        }
         // What it costs to reach a node, and the link that was gone last.
         let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
         reached[ends.from] = Some((cost.of_nothing(), None));
         let mut waiting = BinaryHeap::new();
+        // What weighed links that wait offer.
+        let mut offered = vec![f64::INFINITY; self.nodes.len()];
         let mut here = ends.from;
         while !ends.goals.contains(&here) {
             for edge in self.graph.edges(NodeIndex::new(here)) {
-                let number = edge.id().index();
-                let is_new = reached[edge.target().index()].is_none();
-                if is_new && self.is_allowed(number, ends, cost) {
-                    let total = cost.total(reached[here]?.0, self.cost(number, here, cost, gone));
-                    waiting.push(Reverse((OrderedFloat(total), number as u32, here as u32)));
+                let (number, target) = (edge.id().index(), edge.target().index());
+                if reached[target].is_some() || !self.is_allowed(number, ends, cost) {
+                    continue;
                 }
+                let total = cost.total(reached[here]?.0, self.cost(number, here, cost, gone));
+                if total > offered[target] || total == offered[target] && cost == Cost::Highest {
+                    continue;
+                }
+                if self.is_weighed(number) {
+                    offered[target] = total;
+                }
+                waiting.push(Reverse((OrderedFloat(total), number as u32, here as u32)));
             }
-            here = loop {
-                let Reverse((OrderedFloat(least), number, source)) = waiting.pop()?;
-                let link = &self.links[number as usize];
-                let target = link.other_end(source) as usize;
-                if reached[target].is_some() {
-                    continue;
-                }
-                self.weighed(problem, number as usize);
-                if !self.is_allowed(number as usize, ends, cost) {
-                    continue;
-                }
-                let source = source as usize;
-                let price = self.cost(number as usize, source, cost, gone);
-                let total = cost.total(reached[source]?.0, price);
-                if total <= least {
-                    reached[target] = Some((total, Some(number)));
-                    break target;
-                }
-                waiting.push(Reverse((OrderedFloat(total), number, source as u32)));
-            };
+            here = self.best_of(problem, &mut waiting, &mut reached, (ends, cost, gone))?;
         }
         let mut route = Route::new();
         let (end, total) = (here, reached[here]?.0);
@@ -145,6 +137,36 @@ impl Network {
         }
         route.reverse();
         Some((end, total, route))
+    }
+
+    /// Reaches the node that is reached best by a link that waits.
+    fn best_of(
+        &self,
+        problem: &Problem,
+        waiting: &mut BinaryHeap<Waiting>,
+        reached: &mut [Option<(f64, Option<u32>)>],
+        (ends, cost, gone): (Ends, Cost, Gone),
+    ) -> Option<usize> {
+        loop {
+            let Reverse((OrderedFloat(least), number, source)) = waiting.pop()?;
+            let link = &self.links[number as usize];
+            let target = link.other_end(source) as usize;
+            if reached[target].is_some() {
+                continue;
+            }
+            self.weighed(problem, number as usize);
+            if !self.is_allowed(number as usize, ends, cost) {
+                continue;
+            }
+            let from = source as usize;
+            let price = self.cost(number as usize, from, cost, gone);
+            let total = cost.total(reached[from]?.0, price);
+            if total <= least {
+                reached[target] = Some((total, Some(number)));
+                return Some(target);
+            }
+            waiting.push(Reverse((OrderedFloat(total), number, source)));
+        }
     }
 
     fn is_allowed(&self, number: usize, ends: Ends, cost: Cost) -> bool {
@@ -184,6 +206,9 @@ impl Network {
         }
     }
 }
+
+/// What it costs at least to go on by a link, the link, and the node it is gone from.
+type Waiting = Reverse<(OrderedFloat<f64>, u32, u32)>;
 
 /// Between which nodes a search goes.
 #[derive(Clone, Copy)]
