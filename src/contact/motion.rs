@@ -31,7 +31,11 @@ impl Contact {
         b: &Configuration,
         allowed: f64,
     ) -> bool {
-        let ends = [a, b].map(|end| self.known(*end));
+        // Of a single motion, clearances would cost more than they save.
+        let ends = [a, b].map(|end| Known {
+            end: End::of(*end),
+            clearance: 0.0,
+        });
         self.known_motion_overlaps_at_most(ends.each_ref(), allowed)
     }
 

@@ -144,11 +144,16 @@ fn finite(value: f64) -> String {
 }
 
 /// Significant digits of a number, at most.
-const DIGITS: i32 = 10;
+const DIGITS: u8 = 10;
 
-/// A number with so many digits, plain or scientific, whichever is shorter. Where it lies half way
-/// between two of them to within rounding, either.
+/// A number with ten digits.
 pub(crate) fn number(value: f64) -> String {
+    rounded(value, DIGITS)
+}
+
+/// A number with so many digits, at most 15, plain or scientific, whichever is shorter. Where it lies
+/// half way between two of them to within rounding, either.
+pub(super) fn rounded(value: f64, count: u8) -> String {
     let size = value.abs();
     if !value.is_finite() || size < f64::MIN_POSITIVE {
         return if size == 0.0 {
@@ -159,14 +164,15 @@ pub(crate) fn number(value: f64) -> String {
     }
     // The digits as an integer, and the power of ten of the first of them.
     let mut power = size.log10().floor() as i32;
-    let mut digits = scaled(size, DIGITS - 1 - power);
+    let (count, least) = (i32::from(count), 10u64.pow(u32::from(count) - 1));
+    let mut digits = scaled(size, count - 1 - power);
     // The logarithm is rounded, and so are the digits.
-    if digits < 10u64.pow(DIGITS as u32 - 1) {
+    if digits < least {
         power -= 1;
-        digits = scaled(size, DIGITS - 1 - power);
-    } else if digits >= 10u64.pow(DIGITS as u32) {
+        digits = scaled(size, count - 1 - power);
+    } else if digits >= 10 * least {
         power += 1;
-        digits = scaled(size, DIGITS - 1 - power);
+        digits = scaled(size, count - 1 - power);
     }
     while digits.is_multiple_of(10) {
         digits /= 10;

@@ -53,7 +53,7 @@ pub use picture::{Picture, PictureError};
 pub use scene::Scene;
 pub use sheet::Sheet;
 
-use super::csv::number;
+use super::csv::{number, rounded};
 use composition::Composition;
 use film::Film;
 use models::Curves;
@@ -186,5 +186,5 @@ fn length(value: f64) -> String {
 
 /// An energy (J) in a table of numbers, to five significant digits: a picture shows no more.
 fn energy(value: f64) -> String {
-    number(format!("{value:.4e}").parse().unwrap_or(value))
+    rounded(value, 5)
 }
