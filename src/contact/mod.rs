@@ -241,7 +241,7 @@ fn separations<'a>(
 
 /// Where a convex part lies. What is outside it is brought into its own frame, so that the part
 /// need not be moved.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Placement {
     rotation: Rotation2<f64>,
     position: Vector2<f64>,

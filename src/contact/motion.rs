@@ -157,7 +157,7 @@ impl Contact {
 }
 
 /// A configuration and where it places the moving tile.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct End {
     q: Configuration,
     placement: Placement,
@@ -173,7 +173,7 @@ impl End {
 }
 
 /// A configuration, where it places the moving tile, and how far (m) that is from the other at least.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Known {
     end: End,
     clearance: f64,

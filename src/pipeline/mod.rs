@@ -128,21 +128,19 @@ pub(crate) fn survey(
         "neighbours" => 0.05,
         _ => 0.06,
     };
-    let built = Roadmap::unweighed(problem, roadmap, &mut |name| {
+    let built = Roadmap::untried(problem, roadmap, &mut |name| {
         clock.start(name, shares(name))
     });
-    let counts = Counts {
-        milestones: built.milestones.len(),
-        edges: built.motions(),
-        ..Counts::default()
-    };
+    let milestones = built.milestones.len();
+    let mut survey = Survey::of_roadmap(problem, built, &roadmap.edges);
     clock.start("states and transition states", 0.4);
-    let survey = Survey::new(problem, built, guesses, &settings.survey(roadmap));
-    let transition_states = survey.transition_states.len();
+    survey.explore(problem, guesses, &settings.survey(roadmap));
     let counts = Counts {
-        transition_states,
+        milestones,
+        edges: survey.network.motions(),
+        transition_states: survey.transition_states.len(),
         left_out: survey.left_out,
-        ..counts
+        ..Counts::default()
     };
     (survey, counts)
 }

@@ -295,20 +295,26 @@ impl Problem {
         configurations: &[Configuration],
         pairs: &[(u32, u32)],
     ) -> Vec<(u32, u32)> {
-        let Some(contact) = &self.contact else {
-            return pairs.to_vec();
-        };
         // Of every configuration once, not of every pair.
-        let known: Vec<Known> = configurations
-            .par_iter()
-            .map(|q| contact.known(*q))
-            .collect();
+        let known: Vec<_> = configurations.par_iter().map(|q| self.known(q)).collect();
         let is_free = |&(from, to): &(u32, u32)| {
-            interruption::check();
-            let ends = [from, to].map(|end| &known[end as usize]);
-            contact.known_motion_overlaps_at_most(ends, TOUCH)
+            self.known_motion_is_free([from, to].map(|end| &known[end as usize]))
         };
         pairs.par_iter().copied().filter(is_free).collect()
+    }
+
+    /// What every motion from or to a configuration asks of contact; `None` where there is none.
+    pub fn known(&self, q: &Configuration) -> Option<Known> {
+        self.contact.as_ref().map(|contact| contact.known(*q))
+    }
+
+    /// Whether the straight motion between two free configurations is free, of which that is known.
+    pub fn known_motion_is_free(&self, [a, b]: [&Option<Known>; 2]) -> bool {
+        interruption::check();
+        let (Some(contact), Some(a), Some(b)) = (&self.contact, a, b) else {
+            return true;
+        };
+        contact.known_motion_overlaps_at_most([a, b], TOUCH)
     }
 
     /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two

@@ -23,6 +23,17 @@ pub struct EdgeCosts {
     pub minus_ln_probability: [f64; 2],
 }
 
+impl EdgeCosts {
+    /// Of a motion that is not free: more than any that is.
+    pub const BLOCKED: Self = Self {
+        peak: f64::INFINITY,
+        peak_at: 0.0,
+        length: f64::INFINITY,
+        work: [f64::INFINITY; 2],
+        minus_ln_probability: [f64::INFINITY; 2],
+    };
+}
+
 /// A free motion between two milestones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
@@ -199,6 +210,24 @@ fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings)
     ]
 }
 
+/// What -ln of the transition probabilities along a way of at least this length (m) amounts to at
+/// least, if it leads up by `climb` (J) from end to end.
+///
+/// Of its n steps every other one and, where n is odd, the first tell the whole climb D apart: the
+/// arguments of their m >= n / 2 terms `ln(1 + e^x)` add up to D / kT, the other terms are not
+/// negative. The function is convex, so that those m amount to `m ln(1 + e^(D / (m kT)))` at least
+/// (Jensen), which grows with m.
+pub(crate) fn improbability_at_least(length: f64, climb: f64, settings: &EdgeSettings) -> f64 {
+    let terms = length / (2.0 * settings.probability_step);
+    let x = climb / settings.thermal_energy;
+    if terms * Softplus::LARGE <= x {
+        return x.max(0.0);
+    }
+    let mut each = Softplus::default();
+    each.add(x / terms);
+    terms * each.total()
+}
+
 /// A sum of `ln(1 + e^x)`, without overflow and with few logarithms: the logarithm of a product.
 struct Softplus {
     sum: f64,
@@ -232,5 +261,47 @@ impl Softplus {
 
     fn total(&self) -> f64 {
         self.sum + self.product.ln()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// Over ways of few and of many steps, level, steep and rugged.
+    #[test]
+    fn no_way_is_more_probable_than_is_said() {
+        let settings = EdgeSettings {
+            tolerance: ProfileTolerance {
+                relative: 1e-3,
+                absolute: 1e-6,
+            },
+            thermal_energy: 0.1,
+            probability_step: 0.05,
+        };
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut closest = f64::INFINITY;
+        for turn in 0..2000 {
+            let slope = rng.random_range(-20.0..20.0) / f64::from(1 + turn % 50);
+            let rugged = [0.0, 0.01, 1.0][turn as usize % 3];
+            let mut energies = vec![0.0];
+            let mut lengths = Vec::new();
+            for _ in 0..rng.random_range(1..12) {
+                let length = rng.random_range(0.001..0.3);
+                let here = energies[energies.len() - 1];
+                energies.push(here + slope * length + rugged * rng.random_range(-0.5..0.5));
+                lengths.push(length);
+            }
+            let costs = costs_of_energies(&energies, &lengths, &settings);
+            let climb = energies[energies.len() - 1];
+            for (told, climb) in costs.minus_ln_probability.into_iter().zip([climb, -climb]) {
+                let least = improbability_at_least(costs.length, climb, &settings);
+                assert!(least <= told * (1.0 + 1e-9) + 1e-12, "{least} {told}");
+                closest = f64::min(closest, told / least);
+            }
+        }
+        assert!((1.0..1.01).contains(&closest), "{closest}");
     }
 }

@@ -47,8 +47,8 @@ pub struct Roadmap {
     pub milestones: Vec<Milestone>,
     /// Between milestones, by their numbers in `milestones`.
     pub edges: Vec<Edge>,
-    /// Free motions between milestones that were not weighed.
-    pub unweighed: Vec<(u32, u32)>,
+    /// Pairs of neighbours of whose motions nothing is known yet.
+    pub untried: Vec<(u32, u32)>,
 }
 
 /// All that decides a roadmap.
@@ -62,15 +62,15 @@ pub struct RoadmapSettings {
     pub edges: EdgeSettings,
 }
 
-/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 64 bytes
-/// a milestone and 72 + 16 an edge. Of the pairs of a milestone and one of its nearest neighbours
-/// about every other one is an edge, as most are neighbours of each other.
+/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 152 bytes
+/// a milestone and 8 + 88 a pair of neighbours. Of a milestone and one of its nearest neighbours about
+/// every other one is such a pair, as most are neighbours of each other.
 ///
 /// Neighbours are by the PRM* rule where `None`.
 pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
     let neighbours = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones));
     let neighbours = neighbours.min(milestones.saturating_sub(1));
-    milestones as f64 * (56.0 + 64.0 + (72.0 + 16.0) * neighbours as f64 / 2.0)
+    milestones as f64 * (56.0 + 152.0 + (8.0 + 88.0) * neighbours as f64 / 2.0)
 }
 
 impl Roadmap {
@@ -85,29 +85,23 @@ impl Roadmap {
         Self {
             milestones,
             edges,
-            unweighed: Vec::new(),
+            untried: Vec::new(),
         }
     }
 
-    /// The same, but the motions are left to be weighed by who needs it
-    /// ([`crate::landscape::network`]): of most, nobody ever asks.
-    pub fn unweighed(
+    /// The same, but whether the motions are free and what they cost is left to be found out by who
+    /// needs it ([`crate::landscape::network`]): of most, nobody ever asks.
+    pub fn untried(
         problem: &Problem,
         settings: &RoadmapSettings,
         watch: &mut dyn FnMut(&'static str),
     ) -> Self {
         let (milestones, pairs) = drawn(problem, settings, watch);
-        let unweighed = edge::free_motions(problem, &milestones, &pairs);
         Self {
             milestones,
             edges: Vec::new(),
-            unweighed,
+            untried: pairs,
         }
-    }
-
-    /// How many free motions there are, weighed or not.
-    pub fn motions(&self) -> usize {
-        self.edges.len() + self.unweighed.len()
     }
 }
 

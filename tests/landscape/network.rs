@@ -1,8 +1,10 @@
-//! Networks: links that are weighed when they are asked for, and copies of which all is known that
+//! Networks: links that are tried and weighed when they are asked for, and copies of which all is known that
 //! is known of one.
 
 use std::collections::HashSet;
 
+use petgraph::algo::dijkstra;
+use petgraph::graphmap::DiGraphMap;
 use rayon::prelude::*;
 use tilebind::landscape::network::{Cost, Network};
 use tilebind::landscape::survey::{Survey, SurveySettings};
@@ -23,35 +25,67 @@ fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
 }
 
 /// The same roadmap, its motions left to be weighed when they are asked for.
-fn unweighed(built: &Roadmap) -> Roadmap {
+fn untried(built: &Roadmap) -> Roadmap {
     let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
     Roadmap {
         milestones: built.milestones.clone(),
         edges: Vec::new(),
-        unweighed: ends.collect(),
+        untried: ends.collect(),
     }
 }
 
+/// The cost of the cheapest route in a network all of whose links are weighed, by Dijkstra's algorithm,
+/// which knows nothing of where it leads.
+fn cheapest_blindly(network: &Network, from: usize, to: usize, cost: Cost) -> f64 {
+    let mut ways = DiGraphMap::<usize, f64>::new();
+    for (number, link) in network.links.iter().enumerate() {
+        let ends = [link.from, link.to].map(|node| node as usize);
+        let costs = network.costs(number);
+        for (way, [here, there]) in [ends, [ends[1], ends[0]]].into_iter().enumerate() {
+            let least = match cost {
+                Cost::Work => costs.work[way],
+                Cost::Probability => costs.minus_ln_probability[way],
+                Cost::Below { highest, .. } if costs.peak > highest => continue,
+                Cost::Below { per_metre, .. } => costs.work[way] + per_metre * costs.length,
+                Cost::Highest => unreachable!("costs that add up"),
+            };
+            ways.add_edge(here, there, least);
+        }
+    }
+    dijkstra(&ways, from, Some(to), |(_, _, least)| *least)[&to]
+}
+
+/// Of two networks, one with the free motions of a roadmap, weighed, the other with those of all
+/// neighbours, blocked ones among them.
 #[test]
-fn what_is_weighed_when_asked_for_gives_the_same_routes() {
+fn what_is_tried_when_asked_for_gives_the_same_routes() {
     const MILESTONES: usize = 600;
     let (problem, settings) = paper_tile(MILESTONES);
     let start = problem.evaluations();
     let built = Roadmap::build(&problem, &settings, &mut |_| {});
     let all = problem.evaluations() - start;
-    let left = unweighed(&built);
+    let left = Roadmap::untried(&problem, &settings, &mut |_| {});
+    assert!(left.untried.len() > built.edges.len());
     let start = problem.evaluations();
     let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
     // Minimax paths need few.
     let spanned = problem.evaluations() - start;
     assert!(2 * spanned < all, "{spanned} of {all}");
     let [weighed, asked] = &networks;
+    assert!(weighed.motions() < asked.motions());
     assert_eq!(weighed.local_minima(), asked.local_minima());
+    assert_eq!(weighed.joined_to(3), asked.joined_to(3));
     let labelled: Vec<(usize, f64)> = (0..MILESTONES)
         .step_by(7)
         .map(|node| (node, weighed.nodes[node].unwrap().1))
         .collect();
-    assert_eq!(weighed.merges(&labelled), asked.merges(&labelled));
+    let merges = |network: &Network| -> Vec<_> {
+        let merges = network.merges(&labelled).into_iter();
+        let link = |number: usize| (network.links[number].from, network.links[number].to);
+        let told = merges.map(|merge| (link(merge.link), merge.lower, merge.upper));
+        told.collect()
+    };
+    assert_eq!(merges(weighed), merges(asked));
     let depth = problem.depth();
     let mut compared = 0;
     for (from, to) in (0..MILESTONES)
@@ -70,6 +104,8 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
             let found = |network: &Network| network.cheapest(&problem, from, &goals, cost).unwrap();
             let [of_weighed, of_asked] = networks.each_ref().map(found);
             assert_eq!(of_weighed.0, to);
+            let blind = cheapest_blindly(weighed, from, to, cost);
+            assert!((of_weighed.1 - blind).abs() <= 1e-9 * blind, "{cost:?}");
             assert!((of_weighed.1 - of_asked.1).abs() <= 1e-9 * of_weighed.1);
             // The same, looked for from the other end.
             let (total, route) = asked.cheapest_into(&problem, from, to, cost).unwrap();
@@ -96,7 +132,7 @@ fn what_is_weighed_when_asked_for_gives_the_same_routes() {
 #[test]
 fn motions_beside_free_are_weighed_when_a_route_needs_them() {
     let (problem, settings) = paper_tile(50);
-    let roadmap = unweighed(&Roadmap::build(&problem, &settings, &mut |_| {}));
+    let roadmap = untried(&Roadmap::build(&problem, &settings, &mut |_| {}));
     let mut network = Network::new(&problem, roadmap, &settings.edges);
     let free = network.add_node(None);
     let far = [0.0, 0.1].map(|y| Configuration::new(0.9, y, 0.3));
@@ -106,7 +142,7 @@ fn motions_beside_free_are_weighed_when_a_route_needs_them() {
         network.add_same(node, free, energy);
         node
     });
-    network.add_unweighed(from, to);
+    network.add_untried(from, to);
     network.span(&problem);
     let highest = network.minimax(&problem, from, &HashSet::from([to]));
     let ends = far.map(|q| problem.energy(&q));
@@ -119,7 +155,7 @@ fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
     const MILESTONES: usize = 500;
     let (problem, settings) = paper_tile(MILESTONES);
     let built = Roadmap::build(&problem, &settings, &mut |_| {});
-    let left = unweighed(&built);
+    let left = untried(&built);
     let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
     let costs = |network: &Network, from: usize| {
         let goals = HashSet::from([(from * 7 + 3) % MILESTONES]);

@@ -9,7 +9,7 @@ use ordered_float::OrderedFloat;
 use petgraph::algo::astar;
 use petgraph::graph::NodeIndex;
 use petgraph::unionfind::UnionFind;
-use petgraph::visit::{EdgeFiltered, EdgeRef};
+use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
 use super::{Link, Network, Route};
@@ -69,7 +69,7 @@ impl Network {
     /// one such forest only, and links that were not in it before are not in it later.
     ///
     /// Kruskal's algorithm: links wait by their peaks, those that are not weighed by what these are
-    /// at least, and only those that might join something are weighed.
+    /// at least, and only those that might join something are weighed. Blocked ones join nothing.
     pub fn span(&mut self, problem: &Problem) {
         let mut tree = Vec::with_capacity(self.nodes.len());
         if self.spanned == 0 {
@@ -95,7 +95,7 @@ impl Network {
             if let Some((_, number)) = next {
                 let Link { from, to, .. } = self.links[number as usize];
                 let parts = [from, to].map(|node| joined.find_mut(node));
-                if parts[0] == parts[1] {
+                if parts[0] == parts[1] || self.is_blocked(number as usize) {
                     continue;
                 }
                 let is_weighed = self.is_weighed(number as usize);
@@ -175,12 +175,33 @@ impl Network {
         ascending
     }
 
+    /// For each node whether free motions lead there from `node`, over whatever others.
+    pub fn joined_to(&self, node: usize) -> Vec<bool> {
+        // Where any lead, those of the forest do, with the later ones.
+        let mut spans = self.spans();
+        spans.grow(self.links.len());
+        spans.insert_range(self.spanned..);
+        let spanning = EdgeFiltered::from_fn(&self.graph, |edge| spans.contains(edge.id().index()));
+        let mut joined = vec![false; self.nodes.len()];
+        let mut walk = Dfs::new(&spanning, NodeIndex::new(node));
+        while let Some(node) = walk.next(&spanning) {
+            joined[node.index()] = true;
+        }
+        joined
+    }
+
+    /// The links of the spanning forest.
+    fn spans(&self) -> FixedBitSet {
+        let mut spans = FixedBitSet::with_capacity(self.links.len());
+        spans.extend(self.tree.iter().map(|number| *number as usize));
+        spans
+    }
+
     /// The way from a node to another through the links that minimax paths use, or to `free` where it
     /// leads there before. Empty where there is none. Later links count from when the network is
     /// spanned again.
     pub fn spanning_route(&self, from: usize, to: usize, free: usize) -> Route {
-        let mut spans = FixedBitSet::with_capacity(self.links.len());
-        spans.extend(self.tree.iter().map(|number| *number as usize));
+        let spans = self.spans();
         let goals = HashSet::from([to, free]);
         let spanning = EdgeFiltered::from_fn(&self.graph, |edge| spans.contains(edge.id().index()));
         let found = astar(

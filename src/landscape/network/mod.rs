@@ -2,12 +2,14 @@
 //! the ways between them as links. It holds the roadmap and everything that was found by following
 //! the energy from it.
 //!
-//! A straight motion that the roadmap left unweighed costs at least what its ends tell: it peaks no
-//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that
-//! and weigh those motions only that come out best (edges whose evaluation is dear: Dellin and
-//! Srinivasa, *A unifying formalism for shortest path problems with expensive edge evaluations via
-//! lazy best-first search over paths with edge selectors*, ICAPS 2016).
+//! A straight motion that the roadmap left untried costs at least what its ends tell: it peaks no
+//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that,
+//! and only of those motions that come out best it is found out whether they are free, and what they
+//! cost (edges whose evaluation is dear: Dellin and Srinivasa, *A unifying formalism for shortest path
+//! problems with expensive edge evaluations via lazy best-first search over paths with edge
+//! selectors*, ICAPS 2016).
 
+mod ahead;
 mod forest;
 mod routes;
 
@@ -17,7 +19,6 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
-use petgraph::visit::Dfs;
 use rayon::prelude::*;
 
 pub use forest::Merge;
@@ -25,8 +26,9 @@ pub use routes::{Cost, Route};
 
 use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::contact::Known;
 use crate::problem::{Problem, Symmetry};
-use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs, costs_of_energies, costs_side_by_side};
+use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_of_energies, costs_side_by_side};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
 
 /// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
@@ -51,7 +53,8 @@ pub struct Link {
     pub from: u32,
     /// The node it reaches.
     pub to: u32,
-    /// Of going from the one to the other, and back; empty until it is weighed.
+    /// Of going from the one to the other, and back; empty until it is weighed, and
+    /// [`EdgeCosts::BLOCKED`] where it then turns out not to be free.
     costs: OnceLock<EdgeCosts>,
 }
 
@@ -72,8 +75,8 @@ impl Link {
 pub struct Network {
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
-    /// The energy's gradient at the first ones, the roadmap's milestones.
-    gradients: Vec<Vector3<f64>>,
+    /// Of the first ones, the roadmap's milestones, the energy's gradient and what contact knows.
+    of_milestones: Vec<(Vector3<f64>, Option<Known>)>,
     /// What joins nodes.
     pub links: Vec<Link>,
     /// How links are weighed.
@@ -91,12 +94,14 @@ pub struct Network {
 }
 
 impl Network {
-    /// The milestones become nodes and the motions between them links, weighed ones first.
+    /// The milestones become nodes and the motions between them links, first those that are weighed.
     pub fn new(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
-        let (nodes, links) = (roadmap.milestones.len(), roadmap.motions());
+        let nodes = roadmap.milestones.len();
+        let links = roadmap.edges.len() + roadmap.untried.len();
+        let of_milestone = |m: &Milestone| (m.gradient, problem.known(&m.configuration));
         let mut network = Self {
             nodes: Vec::with_capacity(nodes),
-            gradients: roadmap.milestones.iter().map(|m| m.gradient).collect(),
+            of_milestones: roadmap.milestones.par_iter().map(of_milestone).collect(),
             links: Vec::with_capacity(links),
             settings: *settings,
             space: problem.space.clone(),
@@ -112,7 +117,7 @@ impl Network {
         for Edge { from, to, costs } in roadmap.edges {
             network.add_link(from, to, OnceLock::from(costs));
         }
-        for (from, to) in roadmap.unweighed {
+        for (from, to) in roadmap.untried {
             network.add_link(from, to, OnceLock::new());
         }
         network.span(problem);
@@ -125,13 +130,13 @@ impl Network {
         self.graph.add_node(()).index()
     }
 
-    /// Adds a straight motion.
+    /// Adds a free straight motion.
     pub fn add_motion(&mut self, from: usize, to: usize, costs: EdgeCosts) -> usize {
         self.add_link(from as u32, to as u32, OnceLock::from(costs))
     }
 
-    /// Adds a straight motion that is weighed when it is asked for.
-    pub fn add_unweighed(&mut self, from: usize, to: usize) -> usize {
+    /// Adds a straight motion that is looked at when it is asked for.
+    pub fn add_untried(&mut self, from: usize, to: usize) -> usize {
         self.add_link(from as u32, to as u32, OnceLock::new())
     }
 
@@ -188,32 +193,60 @@ impl Network {
         self.links[link].costs.get().is_some()
     }
 
+    fn is_blocked(&self, link: usize) -> bool {
+        self.links[link].costs.get() == Some(&EdgeCosts::BLOCKED)
+    }
+
+    /// How many motions of the roadmap are not known to be blocked.
+    pub fn motions(&self) -> usize {
+        let of_roadmap = 0..self.of_roadmap;
+        of_roadmap.filter(|link| !self.is_blocked(*link)).count()
+    }
+
     /// Weighs those of some links that are not, side by side.
     fn weigh(&mut self, problem: &Problem, links: &[usize]) {
-        let open = links.iter().filter(|number| !self.is_weighed(**number));
-        let ends = |&number: &usize| Some((number, self.ends(problem, number)?));
-        let links: Vec<(usize, [Milestone; 2])> = open.filter_map(ends).collect();
-        let of_some = |some: &[(usize, [Milestone; 2])]| {
-            let ends: Vec<[&Milestone; 2]> = some.iter().map(|some| some.1.each_ref()).collect();
-            costs_side_by_side(problem, &ends, &self.settings)
-        };
-        let costs: Vec<EdgeCosts> = links
-            .par_chunks(links.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
-            .flat_map_iter(of_some)
+        let open = links.iter().copied();
+        let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
+        let costs: Vec<EdgeCosts> = open
+            .par_chunks(open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
+            .flat_map_iter(|some| self.costs_of_straight(problem, some))
             .collect();
-        for ((number, _), costs) in links.into_iter().zip(costs) {
+        for (number, costs) in open.into_iter().zip(costs) {
             self.links[number].costs = OnceLock::from(costs);
         }
     }
 
     /// Weighs a link, unless it is.
     fn weighed(&self, problem: &Problem, number: usize) {
-        self.links[number].costs.get_or_init(|| {
-            let ends = self.ends(problem, number);
-            ends.map_or_else(EdgeCosts::default, |ends| {
-                costs(problem, ends.each_ref(), &self.settings)
-            })
-        });
+        let weigh = || self.costs_of_straight(problem, &[number])[0];
+        self.links[number].costs.get_or_init(weigh);
+    }
+
+    /// What straight motions cost, all at once.
+    fn costs_of_straight(&self, problem: &Problem, links: &[usize]) -> Vec<EdgeCosts> {
+        let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
+        let is_free = |of: &usize| self.is_free(problem, links[*of]);
+        let free: Vec<usize> = (0..links.len()).filter(is_free).collect();
+        let ends: Vec<[Milestone; 2]> = free
+            .iter()
+            .filter_map(|of| self.ends(problem, links[*of]))
+            .collect();
+        let ends: Vec<[&Milestone; 2]> = ends.iter().map(|ends| ends.each_ref()).collect();
+        let weighed = costs_side_by_side(problem, &ends, &self.settings);
+        for (of, weighed) in free.into_iter().zip(weighed) {
+            costs[of] = weighed;
+        }
+        costs
+    }
+
+    /// Whether the straight motion between a link's nodes is free.
+    fn is_free(&self, problem: &Problem, link: usize) -> bool {
+        let Link { from, to, .. } = self.links[link];
+        let known = |node: u32| match self.of_milestones.get(node as usize) {
+            Some((_, known)) => *known,
+            None => problem.known(&self.nodes[node as usize]?.0),
+        };
+        problem.known_motion_is_free([from, to].map(known).each_ref())
     }
 
     /// The milestones that a straight motion joins.
@@ -225,7 +258,7 @@ impl Network {
 
     fn milestone(&self, problem: &Problem, node: usize) -> Option<Milestone> {
         let (configuration, energy) = self.nodes[node]?;
-        let Some(&gradient) = self.gradients.get(node) else {
+        let Some(&(gradient, _)) = self.of_milestones.get(node) else {
             return Some(Milestone::new(problem, configuration));
         };
         Some(Milestone {
@@ -312,15 +345,5 @@ impl Network {
                 .max_by_key(|p| OrderedFloat(p.energy))
                 .map(|p| p.q),
         }
-    }
-
-    /// For each node whether links lead there from `node`, over whatever others.
-    pub fn joined_to(&self, node: usize) -> Vec<bool> {
-        let mut joined = vec![false; self.nodes.len()];
-        let mut walk = Dfs::new(&self.graph, NodeIndex::new(node));
-        while let Some(node) = walk.next(&self.graph) {
-            joined[node.index()] = true;
-        }
-        joined
     }
 }

@@ -7,6 +7,7 @@ use ordered_float::OrderedFloat;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
+use super::ahead::Ahead;
 use super::{Network, Way};
 use crate::problem::Problem;
 
@@ -34,7 +35,7 @@ pub enum Cost {
 
 impl Cost {
     /// Of a path without links.
-    fn of_nothing(self) -> f64 {
+    pub(super) fn of_nothing(self) -> f64 {
         match self {
             Self::Highest => f64::NEG_INFINITY,
             _ => 0.0,
@@ -91,9 +92,9 @@ impl Network {
         Some((total, route))
     }
 
-    /// Dijkstra's algorithm. A link that is not weighed waits by what it costs at least and is
-    /// weighed when its turn comes; where it costs more, it waits again. So only links that might be
-    /// the best way to some node are weighed.
+    /// A* ([`Ahead`]). A link that is not weighed waits by what it costs at least and is weighed when
+    /// its turn comes; where it costs more, it waits again. So only links that might be the best way to
+    /// some node are weighed.
     fn search(
         &self,
         problem: &Problem,
@@ -108,6 +109,7 @@ impl Network {
         let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
         reached[ends.from] = Some((cost.of_nothing(), None));
         let mut waiting = BinaryHeap::new();
+        let mut ahead = Ahead::new(self, ends, cost, gone);
         // What weighed links that wait offer.
         let mut offered = vec![f64::INFINITY; self.nodes.len()];
         let mut here = ends.from;
@@ -124,9 +126,10 @@ impl Network {
                 if self.is_weighed(number) {
                     offered[target] = total;
                 }
-                waiting.push(Reverse((OrderedFloat(total), number as u32, here as u32)));
+                let whole = OrderedFloat(cost.total(total, ahead.of(target)));
+                waiting.push(Reverse((whole, number as u32, here as u32)));
             }
-            here = self.best_of(problem, &mut waiting, &mut reached, (ends, cost, gone))?;
+            here = self.best_of(problem, &mut waiting, &mut reached, (ends, &mut ahead))?;
         }
         let mut route = Route::new();
         let (end, total) = (here, reached[here]?.0);
@@ -145,8 +148,9 @@ impl Network {
         problem: &Problem,
         waiting: &mut BinaryHeap<Waiting>,
         reached: &mut [Option<(f64, Option<u32>)>],
-        (ends, cost, gone): (Ends, Cost, Gone),
+        (ends, ahead): (Ends, &mut Ahead),
     ) -> Option<usize> {
+        let (cost, gone) = (ahead.cost, ahead.gone);
         loop {
             let Reverse((OrderedFloat(least), number, source)) = waiting.pop()?;
             let link = &self.links[number as usize];
@@ -161,11 +165,12 @@ impl Network {
             let from = source as usize;
             let price = self.cost(number as usize, from, cost, gone);
             let total = cost.total(reached[from]?.0, price);
-            if total <= least {
+            let whole = cost.total(total, ahead.of(target));
+            if whole <= least {
                 reached[target] = Some((total, Some(number)));
                 return Some(target);
             }
-            waiting.push(Reverse((OrderedFloat(total), number, source)));
+            waiting.push(Reverse((OrderedFloat(whole), number, source)));
         }
     }
 
@@ -174,7 +179,7 @@ impl Network {
             Cost::Below { highest, .. } => self.peak(number) <= highest,
             Cost::Highest => number >= self.of_roadmap || self.is_weighed(number),
             Cost::Work | Cost::Probability => true,
-        };
+        } && !self.is_blocked(number);
         may_help && self.is_motion(number, ends)
     }
 
@@ -190,36 +195,42 @@ impl Network {
                 .any(|free| *free == from || goals.contains(free))
     }
 
-    /// What it costs to go along a link from one of its ends, or, `Backwards`, to there.
+    /// What it costs to go along a link from one of its ends, or, `Backwards`, to there; at least, where
+    /// it is not weighed.
     fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
-        let is_back = (self.links[number].from as usize != from) != (gone == Gone::Backwards);
+        if cost == Cost::Highest {
+            return self.peak(number);
+        }
+        let link = &self.links[number];
+        let is_back = (link.from as usize != from) != (gone == Gone::Backwards);
         let direction = usize::from(is_back);
-        let costs = || self.costs(number);
+        let costs = self.costs(number);
         match cost {
-            Cost::Highest => self.peak(number),
-            Cost::Work => costs().work[direction],
-            Cost::Probability => costs().minus_ln_probability[direction],
-            Cost::Below { per_metre, .. } => {
-                let costs = costs();
-                costs.work[direction] + per_metre * costs.length
+            _ if !self.is_weighed(number) => {
+                let climb = costs.work[direction] - costs.work[1 - direction];
+                self.least_cost(cost, costs.length, climb)
             }
+            Cost::Highest => costs.peak,
+            Cost::Work => costs.work[direction],
+            Cost::Probability => costs.minus_ln_probability[direction],
+            Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
         }
     }
 }
 
-/// What it costs at least to go on by a link, the link, and the node it is gone from.
+/// What a route costs at least that goes on by a link, the link, and the node it is gone from.
 type Waiting = Reverse<(OrderedFloat<f64>, u32, u32)>;
 
 /// Between which nodes a search goes.
 #[derive(Clone, Copy)]
-struct Ends<'a> {
-    from: usize,
-    goals: &'a HashSet<usize>,
+pub(super) struct Ends<'a> {
+    pub from: usize,
+    pub goals: &'a HashSet<usize>,
 }
 
 /// In which direction links are gone that a search finds one after the other.
 #[derive(Clone, Copy, PartialEq)]
-enum Gone {
+pub(super) enum Gone {
     Forwards,
     Backwards,
 }

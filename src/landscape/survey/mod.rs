@@ -113,20 +113,30 @@ impl Survey {
         settings: &SurveySettings,
     ) -> Self {
         let mut survey = Self::of_roadmap(problem, roadmap, &settings.edge);
+        survey.explore(problem, guesses, settings);
+        survey
+    }
+
+    /// Finds states, transition states and ways from the roadmap, and from guesses besides.
+    pub fn explore(
+        &mut self,
+        problem: &Problem,
+        guesses: &[Configuration],
+        settings: &SurveySettings,
+    ) {
         // Every configuration is as low as every other: none is a state.
         if problem.is_inert() {
-            survey.network.span(problem);
-            return survey;
+            self.network.span(problem);
+            return;
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
-        survey.find_states(problem, &guesses, settings);
-        survey.find_siblings(problem, 0, settings);
-        survey.find_meetings(problem, settings);
+        self.find_states(problem, &guesses, settings);
+        self.find_siblings(problem, 0, settings);
+        self.find_meetings(problem, settings);
         if let Some(most) = settings.most_kinds {
-            survey.keep_deepest(most);
+            self.keep_deepest(most);
         }
-        survey.settle(problem, 0, settings);
-        survey
+        self.settle(problem, 0, settings);
     }
 
     /// Adds minima that were found otherwise, and how they are joined to the others.

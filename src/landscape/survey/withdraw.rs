@@ -121,7 +121,7 @@ impl Survey {
             .flat_map_iter(|(node, here)| nearest(here).map(move |other| [node, other]))
             .collect();
         for [node, other] in joined {
-            self.network.add_unweighed(node, other);
+            self.network.add_untried(node, other);
         }
     }
 
