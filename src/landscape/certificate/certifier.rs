@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::ends::Ends;
 use super::landscape::Landscape;
 use super::lower::Assessment;
+use super::proved::Proofs;
 use super::query::{Goal, Query, SHARPNESS};
 use super::store::{Key, Store};
 use super::upper::ProvedPath;
@@ -29,6 +30,7 @@ pub struct Certifier<'a> {
     pub(super) assessed: usize,
     /// Pathways that were proved ahead, or that it is known cannot be.
     foreseen: Vec<Foreseen>,
+    pub(super) proofs: Proofs,
 }
 
 /// A pathway, the tolerance (J) of its proof, and what came of that.
@@ -96,6 +98,7 @@ impl<'a> Certifier<'a> {
             ends: Ends::default(),
             assessed,
             foreseen: Vec::new(),
+            proofs: Proofs::default(),
         }
     }
 
@@ -160,7 +163,7 @@ impl<'a> Certifier<'a> {
         if let Some(to) = to.configuration() {
             self.landscape.check(to)?;
         }
-        Ok(Query::new(self, *from, (*to).into(), effort, known).run(watch))
+        Ok(self.run(from, &(*to).into(), known, effort, watch))
     }
 
     /// Brackets the minimax energy from `from` to the first of the `goals` or to tiles far apart.
@@ -178,7 +181,21 @@ impl<'a> Certifier<'a> {
         for end in std::iter::once(from).chain(goals) {
             self.landscape.check(end)?;
         }
-        Ok(Query::new(self, *from, Goal::Any(goals), effort, known).run(&mut |_| true))
+        Ok(self.run(from, &Goal::Any(goals), known, effort, &mut |_| true))
+    }
+
+    fn run(
+        &mut self,
+        from: &Configuration,
+        to: &Goal,
+        known: &[Configuration],
+        effort: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Bracket {
+        let bracket = Query::new(self, *from, to, effort, known).run(watch);
+        let end = bracket.pathway.last();
+        self.proofs.add(from, to, &bracket.bounds, end);
+        bracket
     }
 
     /// Cells assessed so far, over all queries.

@@ -42,6 +42,7 @@ mod flood;
 mod landscape;
 mod level;
 pub(crate) mod lower;
+mod proved;
 mod query;
 mod store;
 pub(super) mod upper;

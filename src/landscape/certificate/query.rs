@@ -45,16 +45,19 @@ impl From<End> for Goal<'_> {
 pub(super) struct Query<'q, 'a> {
     certifier: &'q mut Certifier<'a>,
     from: Configuration,
-    to: Goal<'q>,
+    to: &'q Goal<'q>,
     effort: Effort,
     started: Instant,
     assessed_before: usize,
-    /// Energy (J) that the ends, which are on every path, do reach.
+    /// Energy (J) that every path reaches: the ends do, which are on it, and what was proved before
+    /// says so.
     floor: f64,
     best: Option<ProvedPath>,
     improved: bool,
     caged: bool,
     rounds: usize,
+    /// Whether what was proved before is enough.
+    is_known: bool,
     /// Whether floods rise from the end, which lies higher: its basin is the smaller one.
     from_behind: bool,
 }
@@ -63,18 +66,20 @@ impl<'q, 'a> Query<'q, 'a> {
     pub fn new(
         certifier: &'q mut Certifier<'a>,
         from: Configuration,
-        to: Goal<'q>,
+        to: &'q Goal<'q>,
         effort: &Effort,
         known: &[Configuration],
     ) -> Self {
         let proof = certifier.landscape.proof();
         let mut floor = proof.value(&from).0;
         let mut from_behind = false;
-        if let Goal::At(to) = &to {
+        if let Goal::At(to) = to {
             let end = proof.value(to).0;
             from_behind = end > floor;
             floor = floor.max(end);
         }
+        let proved = certifier.proofs.least(&from, to);
+        floor = floor.max(proved);
         let mut query = Self {
             from,
             to,
@@ -86,12 +91,14 @@ impl<'q, 'a> Query<'q, 'a> {
             improved: false,
             caged: false,
             rounds: 0,
+            is_known: false,
             from_behind,
             certifier,
         };
         query.best = query
             .joined_to_the_ends(known)
             .and_then(|path| query.certifier.known_path(&path, effort.tolerance));
+        query.is_known = query.level() <= proved;
         query
     }
 
@@ -208,7 +215,7 @@ impl<'q, 'a> Query<'q, 'a> {
         }
         let landscape = &self.certifier.landscape;
         let end = match self.to {
-            Goal::At(to) => Some(to),
+            Goal::At(to) => Some(*to),
             Goal::Free => landscape.far_end(&cell(last)),
             Goal::Any(goals) => {
                 let inside = goals.iter().find(|q| cell(last).contains(q)).copied();
@@ -224,7 +231,7 @@ impl<'q, 'a> Query<'q, 'a> {
         let last = known.last()?;
         let mut path = from_its_start(self.from, known);
         match self.to {
-            Goal::At(to) if to != *last => path.push(to),
+            Goal::At(to) if to != last => path.push(*to),
             _ if !self.is_end(last) => return None,
             _ => {}
         }
@@ -236,7 +243,7 @@ impl<'q, 'a> Query<'q, 'a> {
         let landscape = &self.certifier.landscape;
         let is_far = landscape.space.is_far(q);
         match self.to {
-            Goal::At(to) => *q == to,
+            Goal::At(to) => q == to,
             Goal::Free => is_far,
             Goal::Any(goals) => is_far || goals.contains(q),
         }
@@ -250,7 +257,7 @@ impl<'q, 'a> Query<'q, 'a> {
             ends,
             ..
         } = &mut *self.certifier;
-        let Seeds { from, to } = ends.seeds(store, landscape, &self.from, &self.to);
+        let Seeds { from, to } = ends.seeds(store, landscape, &self.from, self.to);
         if self.from_behind {
             Seeds { from: to, to: from }
         } else {
@@ -259,8 +266,12 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     fn conclude(mut self) -> Bracket {
-        let seeds = self.seeds();
-        let lower = least_level(&self.certifier.store, &seeds).max(self.floor);
+        let lower = if self.is_known {
+            self.floor
+        } else {
+            let seeds = self.seeds();
+            least_level(&self.certifier.store, &seeds).max(self.floor)
+        };
         let (cells, rounds) = (self.cells(), self.rounds);
         let (upper, saddle, pathway) = match self.best {
             Some(path) => (Some(path.upper), Some(path.peak), path.points),
