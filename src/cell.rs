@@ -30,7 +30,8 @@ impl Cell {
 
     /// The farthest the reference point gets from where it is at the centre (m).
     pub fn travel(&self) -> f64 {
-        self.half[0].hypot(self.half[1])
+        let [x, y, _] = self.half;
+        (x * x + y * y).sqrt()
     }
 
     /// The farthest a point of the moving tile at the distance `lever` (m) from its reference

@@ -176,6 +176,15 @@ impl Contact {
         self.constraint_at(touch, &Placement::of(q))
     }
 
+    /// The constraints of several.
+    pub fn constraints_of(&self, touches: &[Touch], q: &Configuration) -> Vec<Constraint> {
+        let pose = Placement::of(q);
+        let constraints = touches
+            .iter()
+            .map(|touch| self.constraint_at(*touch, &pose));
+        constraints.collect()
+    }
+
     fn constraint_at(&self, touch: Touch, moving: &Placement) -> Constraint {
         let at = |p: Vector2<f64>| moving.position + moving.rotation * p;
         let (fixed_outline, moving_outline) = (self.fixed(), self.moving());
@@ -206,30 +215,32 @@ impl Contact {
         }
     }
 
-    /// Whether the vertex is in front of the edge, no farther than `margin` (m).
-    pub fn faces(&self, touch: Touch, q: &Configuration, margin: f64) -> bool {
-        let [on_fixed, on_moving] = self.meetings(q);
-        let meeting = match touch.edge_of {
-            EdgeOf::Fixed => on_fixed,
-            EdgeOf::Moving => on_moving,
-        };
-        let at = meeting.vertex(touch.vertex);
-        let facing = meeting.facing(touch.vertex, at, touch.edge, margin);
-        matches!(facing, Facing::Edge)
+    /// Keeps those whose vertex is in front of the edge, no farther than `margin` (m).
+    pub fn keep_faced(&self, touches: &mut Vec<Touch>, q: &Configuration, margin: f64) {
+        let [on_fixed, on_moving] = self.meetings(&Placement::of(q));
+        touches.retain(|touch| {
+            let meeting = match touch.edge_of {
+                EdgeOf::Fixed => &on_fixed,
+                EdgeOf::Moving => &on_moving,
+            };
+            let at = meeting.vertex(touch.vertex);
+            let facing = meeting.facing(touch.vertex, at, touch.edge, margin);
+            matches!(facing, Facing::Edge)
+        });
     }
 
     /// The moving tile's vertices against the fixed one's edges, and the other way round.
-    fn meetings(&self, q: &Configuration) -> [Meeting<'_>; 2] {
+    fn meetings(&self, pose: &Placement) -> [Meeting<'_>; 2] {
         [
             Meeting {
                 a: self.moving(),
                 b: self.fixed(),
-                pose: Placement::of(q),
+                pose: *pose,
             },
             Meeting {
                 a: self.fixed(),
                 b: self.moving(),
-                pose: Placement::of(&q.inverse()),
+                pose: pose.inverse(),
             },
         ]
     }
@@ -239,11 +250,15 @@ impl Contact {
     /// the one that does so most clearly is taken.
     pub fn constraints(&self, q: &Configuration, margin: f64) -> Vec<Constraint> {
         let mut found = Vec::new();
-        if self.is_clear_by(q, margin.next_up()) {
+        let clear = margin.next_up();
+        if self.circles_are_clear_by(q, clear) {
             return found;
         }
-        let [on_fixed, on_moving] = self.meetings(q);
-        let pose = on_fixed.pose;
+        let pose = Placement::of(q);
+        if self.hulls_are_clear_by(&pose, clear) {
+            return found;
+        }
+        let [on_fixed, on_moving] = self.meetings(&pose);
         let touch = |edge_of, edge, vertex| Touch {
             edge_of,
             edge,

@@ -124,7 +124,8 @@ impl Contact {
     }
 
     fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
-        q.position().norm() - self.fixed.circumradius() - self.moving.circumradius() >= least
+        let clear = least + self.fixed.circumradius() + self.moving.circumradius();
+        clear <= 0.0 || q.position().norm_squared() >= clear * clear
     }
 
     fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
@@ -133,15 +134,23 @@ impl Contact {
 
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
     pub(crate) fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
-        if self.circles_are_clear_by(q, 0.0) {
-            return true;
-        }
-        let at = Placement::of(q);
-        self.hulls_are_clear_by(&at, 0.0)
-            || (separated(&self.fixed_core, &self.moving_core, &at, -depth)
-                && self.close_parts(&at, |fixed, moving| {
+        self.circles_are_clear_by(q, 0.0) || self.placed_overlaps_at_most(&Placement::of(q), depth)
+    }
+
+    /// The same without a look at the circles.
+    fn placed_overlaps_at_most(&self, at: &Placement, depth: f64) -> bool {
+        self.hulls_are_clear_by(at, 0.0)
+            || (separated(&self.fixed_core, &self.moving_core, at, -depth)
+                && self.close_parts(at, |fixed, moving| {
                     separated(fixed, moving, &Placement::none(), -depth)
                 }))
+    }
+
+    /// Whether the tiles overlap nowhere deeper than [`TOUCH`] where the moving one is turned and
+    /// placed like this.
+    pub(crate) fn is_free_turned(&self, rotation: Rotation2<f64>, position: Vector2<f64>) -> bool {
+        let at = Placement { rotation, position };
+        self.placed_overlaps_at_most(&at, TOUCH)
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
@@ -260,6 +269,15 @@ impl Placement {
         Self {
             rotation: Rotation2::identity(),
             position: Vector2::zeros(),
+        }
+    }
+
+    /// Where what is placed here sees what it is placed in.
+    fn inverse(&self) -> Self {
+        let rotation = self.rotation.inverse();
+        Self {
+            rotation,
+            position: rotation * -self.position,
         }
     }
 

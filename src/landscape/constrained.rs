@@ -219,10 +219,10 @@ fn slid(
     // A vertex that has slid past the end of its edge presses no longer.
     let contact = problem.contact.as_ref()?;
     let pressed = near.iter().zip(&multipliers).filter(|(_, m)| **m > 0.0);
-    let still: Vec<Touch> = pressed
-        .map(|(constraint, _)| constraint.touch)
-        .filter(|touch| contact.faces(*touch, &moved, margin))
-        .collect();
+    let mut still: Vec<Touch> = pressed.map(|(constraint, _)| constraint.touch).collect();
+    if !still.is_empty() {
+        contact.keep_faced(&mut still, &moved, margin);
+    }
     let closed = close(problem, &still, &moved).unwrap_or(moved);
     let settled = settle(problem, &closed, size)?;
     let is_free = problem.motion_overlaps_at_most(&point.q, &settled, GRAZE);
@@ -260,10 +260,7 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
     };
     let mut q = *q;
     for _ in 0..12 {
-        let rows: Vec<Constraint> = touches
-            .iter()
-            .map(|touch| contact.constraint(*touch, &q))
-            .collect();
+        let rows = contact.constraints_of(touches, &q);
         let widest = rows.iter().map(|c| c.gap.abs()).fold(0.0, f64::max);
         if widest <= 1e-13 {
             return Some(q);
@@ -278,8 +275,8 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
         };
         q = q.moved(inverse * push);
     }
-    let gap = |touch: &Touch| contact.constraint(*touch, &q).gap.abs();
-    touches.iter().all(|touch| gap(touch) <= 1e-10).then_some(q)
+    let rows = contact.constraints_of(touches, &q);
+    rows.iter().all(|row| row.gap.abs() <= 1e-10).then_some(q)
 }
 
 /// The sum of multiples of the gradients that closes these gaps, to first order.

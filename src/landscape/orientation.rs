@@ -3,11 +3,12 @@
 use ordered_float::OrderedFloat;
 use std::f64::consts::TAU;
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 
 use super::map::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::TOUCH;
+use crate::interruption;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
 use crate::tile::{Face, Outline};
@@ -24,6 +25,8 @@ pub struct Search<'a> {
     period: f64,
     /// Ascending, in [0, period).
     thetas: Vec<f64>,
+    /// By them.
+    rotations: Vec<Rotation2<f64>>,
     /// Largest step between two orientations (rad).
     step: f64,
     /// Free in any orientation where the reference points are at least this far apart (m).
@@ -60,10 +63,13 @@ impl<'a> Search<'a> {
                 0.0
             }
         });
+        let thetas = orientations_within(period, count, problem.faces());
+        let rotation = |theta: &f64| at(Vector2::zeros(), *theta).rotation();
         Self {
             problem,
             period,
-            thetas: orientations_within(period, count, problem.faces()),
+            rotations: thetas.iter().map(rotation).collect(),
+            thetas,
             step: period / count as f64,
             outer: problem.space.free_distance,
             inner,
@@ -159,11 +165,13 @@ impl<'a> Search<'a> {
         if distance < self.inner {
             return (Vec::new(), 0.0);
         }
-        let free: Vec<bool> = self
-            .thetas
-            .iter()
-            .map(|&theta| self.is_free(&at(place, theta)))
-            .collect();
+        interruption::check();
+        let contact = self.problem.contact.as_ref();
+        let contact = contact.filter(|_| distance < self.outer);
+        let is_free = |rotation: &Rotation2<f64>| {
+            contact.is_none_or(|contact| contact.is_free_turned(*rotation, place))
+        };
+        let free: Vec<bool> = self.rotations.iter().map(is_free).collect();
         let sampled = self.thetas.iter().zip(&free).filter(|(_, free)| **free);
         let mut thetas: Vec<f64> = sampled.map(|(&theta, _)| theta).collect();
         let ranges = self.free_ranges(place, &free);

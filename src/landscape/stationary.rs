@@ -182,12 +182,7 @@ impl<'a> Surface<'a> {
         self.problem
             .contact
             .as_ref()
-            .map_or_else(Vec::new, |contact| {
-                self.closed
-                    .iter()
-                    .map(|touch| contact.constraint(*touch, q))
-                    .collect()
-            })
+            .map_or_else(Vec::new, |contact| contact.constraints_of(&self.closed, q))
     }
 
     /// Opens the contact that is pulled on most, if any; whether one was opened. A contact that is

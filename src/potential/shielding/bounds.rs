@@ -21,7 +21,7 @@ use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths, ends};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 
 /// Widening of the intervals of near pairs for rounding: relative, and of the reach (m).
 const MARGIN: f64 = 1e-11;
@@ -66,8 +66,13 @@ impl ShieldedBounds {
     }
 
     /// The interval of the pair of a fixed and a moving magnet; `None` where they may coincide.
-    fn interval(&self, cell: &Cell, i: usize, j: usize) -> Option<Interval> {
-        let moved = self.moving[j].moved(&cell.centre, &cell.centre.rotation());
+    fn interval(
+        &self,
+        (cell, rotation): (&Cell, &Rotation2<f64>),
+        i: usize,
+        j: usize,
+    ) -> Option<Interval> {
+        let moved = self.moving[j].moved(&cell.centre, rotation);
         let fixed = &self.fixed[i];
         let angle = |v: Vector2<f64>| v.y.atan2(v.x);
         let scale = MU0_OVER_4PI;
@@ -130,8 +135,9 @@ impl CellBounds for ShieldedBounds {
         if !rest.is_empty() {
             out.slope = f64::INFINITY;
         }
+        let rotation = cell.centre.rotation();
         for (i, j) in rest {
-            let Some(interval) = self.interval(cell, i, j) else {
+            let Some(interval) = self.interval((cell, &rotation), i, j) else {
                 return Enclosure::unknown();
             };
             let middle = (interval.low + interval.high) / 2.0;

@@ -149,12 +149,14 @@ impl ShieldedPotential {
 
     /// The pair of faces whose middles are nearest to each other; of equal ones the first.
     fn nearest_faces(&self, q: &Configuration) -> (usize, usize) {
+        let (rotation, position) = (q.rotation(), q.position());
         let mut nearest = (f64::INFINITY, (0, 0));
-        for (i, fixed) in self.fixed_middles.iter().enumerate() {
-            for (j, moving) in self.moving_middles.iter().enumerate() {
-                let distance = (q.transform(*moving) - fixed).norm();
-                if distance < nearest.0 {
-                    nearest = (distance, (i, j));
+        for (j, moving) in self.moving_middles.iter().enumerate() {
+            let moving = position + rotation * moving;
+            for (i, fixed) in self.fixed_middles.iter().enumerate() {
+                let found = ((moving - fixed).norm(), (i, j));
+                if found < nearest {
+                    nearest = found;
                 }
             }
         }

@@ -23,6 +23,7 @@ impl DipoleBounds {
         };
         let mut out = Enclosure::default();
         let mut weights = Vec::new();
+        let rotation = cell.centre.rotation();
         for meeting in Walk::new([fixed, moving], &cell.centre, leeway) {
             let (form, mut remainder) = self.level.run(Taylor::<false> {
                 bounds: self,
@@ -49,7 +50,8 @@ impl DipoleBounds {
             for (k, _) in near {
                 let (j, i) = (k / meeting.moving.len(), k % meeting.moving.len());
                 let fixed = &self.fixed[meeting.fixed.start + j];
-                self.add_near(&mut out, cell, fixed, meeting.moving.start + i);
+                let i = meeting.moving.start + i;
+                self.add_near(&mut out, (cell, &rotation), fixed, i);
             }
         }
         out

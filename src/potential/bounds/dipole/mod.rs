@@ -17,6 +17,8 @@
 mod groups;
 mod taylor;
 
+use nalgebra::{Rotation2, Vector2};
+
 use super::near::{Interval, NearPair, depths, least_distance};
 use super::{CellBounds, Enclosure, ends};
 use crate::cell::{Cell, Quadratic};
@@ -215,8 +217,9 @@ impl CellBounds for DipoleBounds {
         let (form, remainder, weights) = self.far::<false>(cell);
         let mut out = Enclosure::of_order(3.0, form, remainder);
         out.levers = self.levers;
+        let rotation = cell.centre.rotation();
         for (j, i) in self.near(&weights) {
-            self.add_near(&mut out, cell, &self.fixed[j], i);
+            self.add_near(&mut out, (cell, &rotation), &self.fixed[j], i);
         }
         out
     }
@@ -224,13 +227,20 @@ impl CellBounds for DipoleBounds {
 
 impl DipoleBounds {
     /// Adds the pair of a fixed dipole and the moving one of number `i`.
-    fn add_near(&self, out: &mut Enclosure, cell: &Cell, fixed: &Fixed, i: usize) {
+    fn add_near(
+        &self,
+        out: &mut Enclosure,
+        (cell, rotation): (&Cell, &Rotation2<f64>),
+        fixed: &Fixed,
+        i: usize,
+    ) {
         let moving = &self.moving;
         let strength = fixed.magnitude * moving.magnitude[i];
         if strength == 0.0 {
             return;
         }
-        let at = cell.centre.transform([moving.x[i], moving.y[i]].into());
+        let arm = rotation * Vector2::new(moving.x[i], moving.y[i]);
+        let at = cell.centre.position() + arm;
         let way = [at.x - fixed.position[0], at.y - fixed.position[1]];
         let reach = cell.reach(moving.lever[i]) + self.rounding;
         let depths = fixed.depth + moving.depth[i];
