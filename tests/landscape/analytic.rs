@@ -93,10 +93,7 @@ fn barrier(problem: &Problem, survey: &Survey, a: &Configuration, b: &Configurat
         survey.states[state].node
     };
     let goals = HashSet::from([node(b)]);
-    survey
-        .network
-        .minimax(problem, node(a), &goals)
-        .expect("a way")
+    survey.network.minimax(node(a), &goals).expect("a way")
 }
 
 #[test]

@@ -164,7 +164,7 @@ fn the_survey_finds_both_wells_and_the_saddle_on_the_seam() {
             survey.states[state].node
         });
         for [from, to] in [nodes, [nodes[1], nodes[0]]] {
-            let barrier = survey.network.minimax(&problem, from, &HashSet::from([to]));
+            let barrier = survey.network.minimax(from, &HashSet::from([to]));
             let above = barrier.expect("a way") / HEIGHT - 1.0;
             assert!((-1e-9..SETTLED).contains(&above), "{above}");
         }

@@ -122,7 +122,7 @@ impl Reader<'_> {
         let goals = self.lower_nodes(found);
         self.survey
             .network
-            .minimax(self.problem, self.survey.states[found].node, &goals)
+            .minimax(self.survey.states[found].node, &goals)
             .map_or(f64::INFINITY, |peak| peak - self.energy(found))
     }
 
@@ -147,11 +147,7 @@ impl Reader<'_> {
     /// See [`State::sideways`].
     fn sideways(&self, found: usize) -> Option<f64> {
         let equals = self.nodes(|by| by.abs() <= SAME_ENERGY, found);
-        let pass = |goals| {
-            self.survey
-                .network
-                .minimax(self.problem, self.node(found), goals)
-        };
+        let pass = |goals| self.survey.network.minimax(self.node(found), goals);
         let sideways = pass(&equals)?;
         pass(&self.lower_nodes(found))
             .is_none_or(|down| sideways < down)

@@ -48,10 +48,7 @@ impl<'a> Ahead<'a> {
         if let Some(known) = self.known[node] {
             return known;
         }
-        let least = match self.cost {
-            Cost::Highest => self.cost.of_nothing(),
-            _ => self.least(node),
-        };
+        let least = self.least(node);
         *self.known[node].insert(least)
     }
 
@@ -82,7 +79,6 @@ impl Network {
     /// What a way of at least this length (m) that leads up by `climb` (J) costs at least.
     pub(super) fn least_cost(&self, cost: Cost, length: f64, climb: f64) -> f64 {
         match cost {
-            Cost::Highest => cost.of_nothing(),
             Cost::Work => climb.max(0.0),
             Cost::Below { per_metre, .. } => climb.max(0.0) + per_metre * length,
             Cost::Probability => improbability_at_least(length, climb, &self.settings),

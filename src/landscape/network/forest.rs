@@ -4,14 +4,11 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 use std::iter::Peekable;
 
-use fixedbitset::FixedBitSet;
 use ordered_float::OrderedFloat;
-use petgraph::algo::astar;
-use petgraph::graph::NodeIndex;
 use petgraph::unionfind::UnionFind;
-use petgraph::visit::{Dfs, EdgeFiltered, EdgeRef};
 use rayon::prelude::*;
 
+use super::routes::Ends;
 use super::{Link, Network, Route};
 use crate::problem::Problem;
 
@@ -29,8 +26,9 @@ pub struct Merge {
     pub upper: usize,
 }
 
-/// A link by its peak (J) and, of equal ones, its number.
-type ByPeak = (OrderedFloat<f64>, u32);
+/// A link by its peak (J) and, of equal ones, its length (m), which tells what it takes to weigh it, and
+/// its number.
+type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 
 /// Links in ascending order, to which some come back.
 struct Waiting {
@@ -63,25 +61,34 @@ impl Waiting {
 }
 
 impl Network {
-    /// Works out which links minimax paths use, so that merges need to look at later links only: the
-    /// minimum spanning forest by peak. Between any two nodes, the path in it has the
-    /// lowest possible highest peak. Links of equal peak are taken by their numbers, so that there is
-    /// one such forest only, and links that were not in it before are not in it later.
+    /// Works out which motions minimax paths use, so that merges need to look at later links only: the
+    /// minimum spanning forest by peak. Links without motion are left out, as no route leads through
+    /// `free`. Between any two nodes, the path in it has the lowest possible highest peak. Links of equal
+    /// peak are taken by their lengths and numbers, so that there is one such forest only, and links
+    /// that were not in it before are not in it later.
+    pub fn span(&mut self, problem: &Problem) {
+        let links = self.hung();
+        self.span_by(problem, Vec::new(), links);
+    }
+
+    /// The same of a network that was never spanned.
+    pub(super) fn span_first(&mut self, problem: &Problem) {
+        let tree = self.descents(problem);
+        self.span_by(problem, tree, (0..self.links.len() as u32).collect());
+    }
+
+    /// Goes on from a part of the forest, `tree`, with some links.
     ///
     /// Kruskal's algorithm: links wait by their peaks, those that are not weighed by what these are
     /// at least, and only those that might join something are weighed. Blocked ones join nothing.
-    pub fn span(&mut self, problem: &Problem) {
-        let mut tree = Vec::with_capacity(self.nodes.len());
-        if self.spanned == 0 {
-            tree = self.descents(problem);
-        }
+    fn span_by(&mut self, problem: &Problem, mut tree: Vec<u32>, links: Vec<u32>) {
+        let is_same = |number: &u32| self.is_same(*number as usize);
+        let (same, mut left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         for number in &tree {
             let link = &self.links[*number as usize];
             joined.union(link.from, link.to);
         }
-        let later = self.spanned as u32..self.links.len() as u32;
-        let mut left: Vec<u32> = self.tree.iter().copied().chain(later).collect();
         left.retain(|number| {
             let link = &self.links[*number as usize];
             !joined.equiv(link.from, link.to)
@@ -92,7 +99,7 @@ impl Network {
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
         loop {
             let next = waiting.next();
-            if let Some((_, number)) = next {
+            if let Some((_, _, number)) = next {
                 let Link { from, to, .. } = self.links[number as usize];
                 let parts = [from, to].map(|node| joined.find_mut(node));
                 if parts[0] == parts[1] || self.is_blocked(number as usize) {
@@ -120,21 +127,33 @@ impl Network {
                 touched.clear();
             }
         }
-        self.tree = tree;
-        self.spanned = self.links.len();
+        self.around.iter_mut().for_each(Vec::clear);
+        for number in tree.into_iter().chain(same) {
+            self.hang(number as usize);
+        }
     }
 
-    /// For each node the first link that leads down all the way, where there is one. It peaks at the
+    /// The links around the nodes: the spanning forest, links without motion, and those that were added
+    /// since.
+    fn hung(&self) -> Vec<u32> {
+        let mut links = self.around.concat();
+        links.sort_unstable();
+        links.dedup();
+        links
+    }
+
+    /// For each node the shortest link that leads down all the way, where there is one. It peaks at the
     /// node, as low as any that leads there, and is the first such one: it is in the spanning forest.
     fn descents(&mut self, problem: &Problem) -> Vec<u32> {
         let energy = |node: u32| self.nodes[node as usize].map(|known| known.1);
-        let mut below: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        let mut below: Vec<Vec<(OrderedFloat<f64>, u32)>> = vec![Vec::new(); self.nodes.len()];
         for (number, Link { from, to, .. }) in self.links.iter().enumerate() {
             if let (Some(a), Some(b)) = (energy(*from), energy(*to)) {
                 let upper = if a > b { from } else { to };
-                below[*upper as usize].push(number as u32);
+                below[*upper as usize].push((self.length(number), number as u32));
             }
         }
+        below.iter_mut().for_each(|links| links.sort_unstable());
         let mut found = Vec::with_capacity(self.nodes.len());
         let mut open: Vec<usize> = (0..self.nodes.len()).collect();
         // A look at the next link of each node, all of them side by side.
@@ -143,7 +162,7 @@ impl Network {
             if open.is_empty() {
                 break;
             }
-            let next = |node: &usize| below[*node][turn] as usize;
+            let next = |node: &usize| below[*node][turn].1 as usize;
             let links: Vec<usize> = open.iter().map(next).collect();
             self.weigh(problem, &links);
             open.retain(|node| {
@@ -159,14 +178,18 @@ impl Network {
     }
 
     fn by_peak(&self, number: u32) -> ByPeak {
-        (OrderedFloat(self.peak(number as usize)), number)
+        let link = number as usize;
+        (OrderedFloat(self.peak(link)), self.length(link), number)
     }
 
-    /// The spanning forest with the links that were added since, ascending.
+    fn length(&self, link: usize) -> OrderedFloat<f64> {
+        OrderedFloat(self.costs(link).length)
+    }
+
+    /// Those of them that span the network, `free` and all, ascending.
     fn spanning_links(&self) -> Vec<u32> {
-        let later = self.spanned as u32..self.links.len() as u32;
-        let mut ascending: Vec<u32> = self.tree.iter().copied().chain(later).collect();
-        ascending.par_sort_unstable_by_key(|&number| self.by_peak(number));
+        let mut ascending = self.hung();
+        ascending.par_sort_by_cached_key(|&number| self.by_peak(number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
             let link = &self.links[*number as usize];
@@ -177,48 +200,50 @@ impl Network {
 
     /// For each node whether free motions lead there from `node`, over whatever others.
     pub fn joined_to(&self, node: usize) -> Vec<bool> {
-        // Where any lead, those of the forest do, with the later ones.
-        let mut spans = self.spans();
-        spans.grow(self.links.len());
-        spans.insert_range(self.spanned..);
-        let spanning = EdgeFiltered::from_fn(&self.graph, |edge| spans.contains(edge.id().index()));
         let mut joined = vec![false; self.nodes.len()];
-        let mut walk = Dfs::new(&spanning, NodeIndex::new(node));
-        while let Some(node) = walk.next(&spanning) {
-            joined[node.index()] = true;
+        joined[node] = true;
+        let mut open = vec![node];
+        while let Some(here) = open.pop() {
+            for &number in &self.around[here] {
+                let next = self.links[number as usize].other_end(here as u32) as usize;
+                if !std::mem::replace(&mut joined[next], true) {
+                    open.push(next);
+                }
+            }
         }
         joined
     }
 
-    /// The links of the spanning forest.
-    fn spans(&self) -> FixedBitSet {
-        let mut spans = FixedBitSet::with_capacity(self.links.len());
-        spans.extend(self.tree.iter().map(|number| *number as usize));
-        spans
+    /// The lowest possible highest energy (J) on a route from a node to any of the `goals`, and such a
+    /// route. Links that were added since the network was spanned count.
+    pub fn lowest(&self, from: usize, goals: &HashSet<usize>) -> Option<(f64, Route)> {
+        let ends = Ends { from, goals };
+        // The highest energy on the way to a node, and the link that was gone last.
+        let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
+        let mut waiting =
+            BinaryHeap::from([Reverse((OrderedFloat(f64::NEG_INFINITY), None, from))]);
+        while let Some(Reverse((OrderedFloat(highest), last, here))) = waiting.pop() {
+            if reached[here].is_some() {
+                continue;
+            }
+            reached[here] = Some((highest, last));
+            if goals.contains(&here) {
+                return Some((highest, self.route(here, |node| reached[node]?.1)));
+            }
+            for &number in &self.around[here] {
+                let next = self.links[number as usize].other_end(here as u32) as usize;
+                if reached[next].is_none() && self.is_motion(number as usize, ends) {
+                    let highest = highest.max(self.peak(number as usize));
+                    waiting.push(Reverse((OrderedFloat(highest), Some(number), next)));
+                }
+            }
+        }
+        None
     }
 
-    /// The way from a node to another through the links that minimax paths use, or to `free` where it
-    /// leads there before. Empty where there is none. Later links count from when the network is
-    /// spanned again.
-    pub fn spanning_route(&self, from: usize, to: usize, free: usize) -> Route {
-        let spans = self.spans();
-        let goals = HashSet::from([to, free]);
-        let spanning = EdgeFiltered::from_fn(&self.graph, |edge| spans.contains(edge.id().index()));
-        let found = astar(
-            &spanning,
-            NodeIndex::new(from),
-            |node| goals.contains(&node.index()),
-            |_| 1usize,
-            |_| 0,
-        );
-        let nodes = found.map_or_else(Vec::new, |found| found.1);
-        let link = |pair: &[NodeIndex<u32>]| {
-            let between = self.graph.edges_connecting(pair[0], pair[1]);
-            let mut numbers = between.map(|edge| edge.id().index());
-            let number = numbers.find(|number| spans.contains(*number))?;
-            Some((number, self.links[number].from as usize == pair[0].index()))
-        };
-        nodes.windows(2).filter_map(link).collect()
+    /// The same energy (J) alone.
+    pub fn minimax(&self, from: usize, goals: &HashSet<usize>) -> Option<f64> {
+        self.lowest(from, goals).map(|(highest, _)| highest)
     }
 
     /// The merges of the basins of `labelled` nodes (with their energies, J), ascending: the merge

@@ -12,6 +12,7 @@
 mod ahead;
 mod forest;
 mod routes;
+mod weighing;
 
 use std::collections::HashMap;
 use std::sync::OnceLock;
@@ -28,12 +29,8 @@ use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Known;
 use crate::problem::{Problem, Symmetry};
-use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_of_energies, costs_side_by_side};
+use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
-
-/// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
-const PARTS: usize = 2;
-const FEW: usize = 16;
 
 /// A way between two nodes.
 #[derive(Clone, Debug)]
@@ -88,9 +85,9 @@ pub struct Network {
     ways: HashMap<usize, Way>,
     /// Its edges have the numbers of the links.
     graph: UnGraph<(), (), u32>,
-    /// The links that minimax paths among the first `spanned` links use.
-    tree: Vec<u32>,
-    spanned: usize,
+    /// Of each node the motions that minimax paths use, the links without motion, and all links that
+    /// were added since the network was spanned.
+    around: Vec<Vec<u32>>,
 }
 
 impl Network {
@@ -108,25 +105,25 @@ impl Network {
             of_roadmap: links,
             ways: HashMap::new(),
             graph: UnGraph::with_capacity(nodes, links),
-            tree: Vec::new(),
-            spanned: 0,
+            around: Vec::with_capacity(nodes),
         };
         for milestone in &roadmap.milestones {
             network.add_node(Some((milestone.configuration, milestone.energy)));
         }
         for Edge { from, to, costs } in roadmap.edges {
-            network.add_link(from, to, OnceLock::from(costs));
+            network.push(from, to, OnceLock::from(costs));
         }
         for (from, to) in roadmap.untried {
-            network.add_link(from, to, OnceLock::new());
+            network.push(from, to, OnceLock::new());
         }
-        network.span(problem);
+        network.span_first(problem);
         network
     }
 
     /// Adds a node that nothing joins yet, `None` for free tiles; its number.
     pub fn add_node(&mut self, node: Option<(Configuration, f64)>) -> usize {
         self.nodes.push(node);
+        self.around.push(Vec::new());
         self.graph.add_node(()).index()
     }
 
@@ -141,6 +138,28 @@ impl Network {
     }
 
     fn add_link(&mut self, from: u32, to: u32, costs: OnceLock<EdgeCosts>) -> usize {
+        let number = self.push(from, to, costs);
+        self.hang(number);
+        number
+    }
+
+    /// Adds a link to those around its nodes.
+    fn hang(&mut self, number: usize) {
+        let Link { from, to, .. } = self.links[number];
+        for node in [from, to] {
+            self.around[node as usize].push(number as u32);
+        }
+    }
+
+    /// Whether a link is none of a motion: one of its nodes stands for `free`.
+    fn is_same(&self, link: usize) -> bool {
+        let Link { from, to, .. } = &self.links[link];
+        [from, to]
+            .iter()
+            .any(|node| self.nodes[**node as usize].is_none())
+    }
+
+    fn push(&mut self, from: u32, to: u32, costs: OnceLock<EdgeCosts>) -> usize {
         let ends = [from, to].map(|node| NodeIndex::new(node as usize));
         self.graph.add_edge(ends[0], ends[1], ());
         self.links.push(Link { from, to, costs });
@@ -187,85 +206,6 @@ impl Network {
         let ends = [*from, *to].map(|node| self.nodes[node as usize]);
         let energies = ends.into_iter().flatten().map(|end| end.1);
         energies.fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    fn is_weighed(&self, link: usize) -> bool {
-        self.links[link].costs.get().is_some()
-    }
-
-    fn is_blocked(&self, link: usize) -> bool {
-        self.links[link].costs.get() == Some(&EdgeCosts::BLOCKED)
-    }
-
-    /// How many motions of the roadmap are not known to be blocked.
-    pub fn motions(&self) -> usize {
-        let of_roadmap = 0..self.of_roadmap;
-        of_roadmap.filter(|link| !self.is_blocked(*link)).count()
-    }
-
-    /// Weighs those of some links that are not, side by side.
-    fn weigh(&mut self, problem: &Problem, links: &[usize]) {
-        let open = links.iter().copied();
-        let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
-        let costs: Vec<EdgeCosts> = open
-            .par_chunks(open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
-            .flat_map_iter(|some| self.costs_of_straight(problem, some))
-            .collect();
-        for (number, costs) in open.into_iter().zip(costs) {
-            self.links[number].costs = OnceLock::from(costs);
-        }
-    }
-
-    /// Weighs a link, unless it is.
-    fn weighed(&self, problem: &Problem, number: usize) {
-        let weigh = || self.costs_of_straight(problem, &[number])[0];
-        self.links[number].costs.get_or_init(weigh);
-    }
-
-    /// What straight motions cost, all at once.
-    fn costs_of_straight(&self, problem: &Problem, links: &[usize]) -> Vec<EdgeCosts> {
-        let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
-        let is_free = |of: &usize| self.is_free(problem, links[*of]);
-        let free: Vec<usize> = (0..links.len()).filter(is_free).collect();
-        let ends: Vec<[Milestone; 2]> = free
-            .iter()
-            .filter_map(|of| self.ends(problem, links[*of]))
-            .collect();
-        let ends: Vec<[&Milestone; 2]> = ends.iter().map(|ends| ends.each_ref()).collect();
-        let weighed = costs_side_by_side(problem, &ends, &self.settings);
-        for (of, weighed) in free.into_iter().zip(weighed) {
-            costs[of] = weighed;
-        }
-        costs
-    }
-
-    /// Whether the straight motion between a link's nodes is free.
-    fn is_free(&self, problem: &Problem, link: usize) -> bool {
-        let Link { from, to, .. } = self.links[link];
-        let known = |node: u32| match self.of_milestones.get(node as usize) {
-            Some((_, known)) => *known,
-            None => problem.known(&self.nodes[node as usize]?.0),
-        };
-        problem.known_motion_is_free([from, to].map(known).each_ref())
-    }
-
-    /// The milestones that a straight motion joins.
-    fn ends(&self, problem: &Problem, number: usize) -> Option<[Milestone; 2]> {
-        let Link { from, to, .. } = &self.links[number];
-        let [from, to] = [*from, *to].map(|node| self.milestone(problem, node as usize));
-        Some([from?, to?])
-    }
-
-    fn milestone(&self, problem: &Problem, node: usize) -> Option<Milestone> {
-        let (configuration, energy) = self.nodes[node]?;
-        let Some(&(gradient, _)) = self.of_milestones.get(node) else {
-            return Some(Milestone::new(problem, configuration));
-        };
-        Some(Milestone {
-            configuration,
-            energy,
-            gradient,
-        })
     }
 
     /// Adds a link that takes a far configuration, with its energy (J), and `free` for one.

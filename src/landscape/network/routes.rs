@@ -7,8 +7,8 @@ use ordered_float::OrderedFloat;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
+use super::Network;
 use super::ahead::Ahead;
-use super::{Network, Way};
 use crate::problem::Problem;
 
 /// A path through the network: links with the direction in which each is gone.
@@ -21,8 +21,6 @@ pub enum Cost {
     Work,
     /// -ln of the transition probabilities.
     Probability,
-    /// The highest energy (J).
-    Highest,
     /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
     /// exceed `highest` (J).
     Below {
@@ -33,33 +31,7 @@ pub enum Cost {
     },
 }
 
-impl Cost {
-    /// Of a path without links.
-    pub(super) fn of_nothing(self) -> f64 {
-        match self {
-            Self::Highest => f64::NEG_INFINITY,
-            _ => 0.0,
-        }
-    }
-
-    /// Of a path that goes on along one more link.
-    fn total(self, path: f64, link: f64) -> f64 {
-        match self {
-            Self::Highest => path.max(link),
-            _ => path + link,
-        }
-    }
-}
-
 impl Network {
-    /// The lowest possible highest energy (J) on a route from a node to any of the `goals`. Motions of
-    /// the roadmap that are not weighed are on no such route once the network is spanned; others may
-    /// be, beside `free`, through which no route leads.
-    pub fn minimax(&self, problem: &Problem, from: usize, goals: &HashSet<usize>) -> Option<f64> {
-        let (_, peak, _) = self.cheapest(problem, from, goals, Cost::Highest)?;
-        Some(peak)
-    }
-
     /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
     /// equally cheap ones always the same.
     pub fn cheapest(
@@ -107,7 +79,7 @@ impl Network {
         }
         // What it costs to reach a node, and the link that was gone last.
         let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
-        reached[ends.from] = Some((cost.of_nothing(), None));
+        reached[ends.from] = Some((0.0, None));
         let mut waiting = BinaryHeap::new();
         let mut ahead = Ahead::new(self, ends, cost, gone);
         // What weighed links that wait offer.
@@ -119,27 +91,32 @@ impl Network {
                 if reached[target].is_some() || !self.is_allowed(number, ends, cost) {
                     continue;
                 }
-                let total = cost.total(reached[here]?.0, self.cost(number, here, cost, gone));
-                if total > offered[target] || total == offered[target] && cost == Cost::Highest {
+                let total = reached[here]?.0 + self.cost(number, here, cost, gone);
+                if total > offered[target] {
                     continue;
                 }
                 if self.is_weighed(number) {
                     offered[target] = total;
                 }
-                let whole = OrderedFloat(cost.total(total, ahead.of(target)));
+                let whole = OrderedFloat(total + ahead.of(target));
                 waiting.push(Reverse((whole, number as u32, here as u32)));
             }
             here = self.best_of(problem, &mut waiting, &mut reached, (ends, &mut ahead))?;
         }
+        let route = self.route(here, |node| reached[node]?.1);
+        Some((here, reached[here]?.0, route))
+    }
+
+    /// The route that ends at a node, where it is known by which link it came to each.
+    pub(super) fn route(&self, mut here: usize, last: impl Fn(usize) -> Option<u32>) -> Route {
         let mut route = Route::new();
-        let (end, total) = (here, reached[here]?.0);
-        while let Some((_, Some(number))) = reached[here] {
+        while let Some(number) = last(here) {
             let link = &self.links[number as usize];
             route.push((number as usize, link.to as usize == here));
             here = link.other_end(here as u32) as usize;
         }
         route.reverse();
-        Some((end, total, route))
+        route
     }
 
     /// Reaches the node that is reached best by a link that waits.
@@ -164,8 +141,8 @@ impl Network {
             }
             let from = source as usize;
             let price = self.cost(number as usize, from, cost, gone);
-            let total = cost.total(reached[from]?.0, price);
-            let whole = cost.total(total, ahead.of(target));
+            let total = reached[from]?.0 + price;
+            let whole = total + ahead.of(target);
             if whole <= least {
                 reached[target] = Some((total, Some(number)));
                 return Some(target);
@@ -177,7 +154,6 @@ impl Network {
     fn is_allowed(&self, number: usize, ends: Ends, cost: Cost) -> bool {
         let may_help = match cost {
             Cost::Below { highest, .. } => self.peak(number) <= highest,
-            Cost::Highest => number >= self.of_roadmap || self.is_weighed(number),
             Cost::Work | Cost::Probability => true,
         } && !self.is_blocked(number);
         may_help && self.is_motion(number, ends)
@@ -186,9 +162,9 @@ impl Network {
     /// Whether a route between these ends may use a link: one without motion only where it starts
     /// or ends at the node that stands for `free`. Far configurations are one place to come from
     /// and to go to, but to pass from one to another takes a motion.
-    fn is_motion(&self, number: usize, Ends { from, goals }: Ends) -> bool {
+    pub(super) fn is_motion(&self, number: usize, Ends { from, goals }: Ends) -> bool {
         let link = &self.links[number];
-        !matches!(self.way(number), Way::Same)
+        !self.is_same(number)
             || [link.from as usize, link.to as usize]
                 .iter()
                 .filter(|&&node| self.nodes[node].is_none())
@@ -198,9 +174,6 @@ impl Network {
     /// What it costs to go along a link from one of its ends, or, `Backwards`, to there; at least, where
     /// it is not weighed.
     fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
-        if cost == Cost::Highest {
-            return self.peak(number);
-        }
         let link = &self.links[number];
         let is_back = (link.from as usize != from) != (gone == Gone::Backwards);
         let direction = usize::from(is_back);
@@ -210,7 +183,6 @@ impl Network {
                 let climb = costs.work[direction] - costs.work[1 - direction];
                 self.least_cost(cost, costs.length, climb)
             }
-            Cost::Highest => costs.peak,
             Cost::Work => costs.work[direction],
             Cost::Probability => costs.minus_ln_probability[direction],
             Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,

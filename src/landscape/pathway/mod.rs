@@ -47,7 +47,7 @@ pub fn lowest(
     [goals, ends]: [&HashSet<usize>; 2],
     [depth, bend]: [f64; 2],
 ) -> Option<Lowest> {
-    let limits = Limits::below(highest(problem, network, from, goals, depth)?, depth);
+    let limits = Limits::below(highest(network, from, goals, depth)?, depth);
     let cost = Cost::Below {
         highest: limits.highest,
         per_metre: limits.per_metre,
@@ -66,14 +66,8 @@ pub fn lowest(
 
 /// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
 /// possible, but for rounding.
-fn highest(
-    problem: &Problem,
-    network: &Network,
-    from: usize,
-    goals: &HashSet<usize>,
-    depth: f64,
-) -> Option<f64> {
-    let least = network.minimax(problem, from, goals)?;
+fn highest(network: &Network, from: usize, goals: &HashSet<usize>, depth: f64) -> Option<f64> {
+    let least = network.minimax(from, goals)?;
     let rounding = 1e-12 * depth;
     let is_free = |node: &usize| network.nodes[*node].is_none();
     if !goals.iter().all(is_free) || least >= 0.0 {

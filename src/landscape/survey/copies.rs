@@ -34,10 +34,13 @@ impl Survey {
         let lowest: Vec<(Merge, f64, Route)> = lowest_of(merges, &class_of)
             .into_iter()
             .map(|merge| {
-                let route = self
-                    .network
-                    .spanning_route(merge.upper, merge.lower, self.free);
-                (merge, peak(&merge), route)
+                let lower = HashSet::from([merge.lower]);
+                let route = self.network.lowest(merge.upper, &lower);
+                (
+                    merge,
+                    peak(&merge),
+                    route.map_or_else(Route::new, |way| way.1),
+                )
             })
             .collect();
         for (merge, peak, route) in lowest {

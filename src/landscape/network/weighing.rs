@@ -1,0 +1,95 @@
+//! Which motions are free, and what they cost: found out once somebody asks.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+
+use super::{Link, Network};
+use crate::problem::Problem;
+use crate::roadmap::Milestone;
+use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
+
+/// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
+const PARTS: usize = 2;
+const FEW: usize = 16;
+
+impl Network {
+    pub(super) fn is_weighed(&self, link: usize) -> bool {
+        self.links[link].costs.get().is_some()
+    }
+
+    pub(super) fn is_blocked(&self, link: usize) -> bool {
+        self.links[link].costs.get() == Some(&EdgeCosts::BLOCKED)
+    }
+
+    /// How many motions of the roadmap are not known to be blocked.
+    pub fn motions(&self) -> usize {
+        let of_roadmap = 0..self.of_roadmap;
+        of_roadmap.filter(|link| !self.is_blocked(*link)).count()
+    }
+
+    /// Weighs those of some links that are not, side by side.
+    pub(super) fn weigh(&mut self, problem: &Problem, links: &[usize]) {
+        let open = links.iter().copied();
+        let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
+        let costs: Vec<EdgeCosts> = open
+            .par_chunks(open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
+            .flat_map_iter(|some| self.costs_of_straight(problem, some))
+            .collect();
+        for (number, costs) in open.into_iter().zip(costs) {
+            self.links[number].costs = OnceLock::from(costs);
+        }
+    }
+
+    /// Weighs a link, unless it is.
+    pub(super) fn weighed(&self, problem: &Problem, number: usize) {
+        let weigh = || self.costs_of_straight(problem, &[number])[0];
+        self.links[number].costs.get_or_init(weigh);
+    }
+
+    /// What straight motions cost, all at once.
+    fn costs_of_straight(&self, problem: &Problem, links: &[usize]) -> Vec<EdgeCosts> {
+        let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
+        let is_free = |of: &usize| self.is_free(problem, links[*of]);
+        let free: Vec<usize> = (0..links.len()).filter(is_free).collect();
+        let ends: Vec<[Milestone; 2]> = free
+            .iter()
+            .filter_map(|of| self.ends(problem, links[*of]))
+            .collect();
+        let ends: Vec<[&Milestone; 2]> = ends.iter().map(|ends| ends.each_ref()).collect();
+        let weighed = costs_side_by_side(problem, &ends, &self.settings);
+        for (of, weighed) in free.into_iter().zip(weighed) {
+            costs[of] = weighed;
+        }
+        costs
+    }
+
+    /// Whether the straight motion between a link's nodes is free.
+    fn is_free(&self, problem: &Problem, link: usize) -> bool {
+        let Link { from, to, .. } = self.links[link];
+        let known = |node: u32| match self.of_milestones.get(node as usize) {
+            Some((_, known)) => *known,
+            None => problem.known(&self.nodes[node as usize]?.0),
+        };
+        problem.known_motion_is_free([from, to].map(known).each_ref())
+    }
+
+    /// The milestones that a straight motion joins.
+    fn ends(&self, problem: &Problem, number: usize) -> Option<[Milestone; 2]> {
+        let Link { from, to, .. } = &self.links[number];
+        let [from, to] = [*from, *to].map(|node| self.milestone(problem, node as usize));
+        Some([from?, to?])
+    }
+
+    fn milestone(&self, problem: &Problem, node: usize) -> Option<Milestone> {
+        let (configuration, energy) = self.nodes[node]?;
+        let Some(&(gradient, _)) = self.of_milestones.get(node) else {
+            return Some(Milestone::new(problem, configuration));
+        };
+        Some(Milestone {
+            configuration,
+            energy,
+            gradient,
+        })
+    }
+}
