@@ -8,6 +8,7 @@
 mod admissible;
 pub mod cells;
 mod constraint;
+mod distance;
 mod leaving;
 mod lift;
 pub mod matching;

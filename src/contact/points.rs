@@ -51,21 +51,21 @@ pub struct NearPairs {
     on_moving: Vec<[usize; 2]>,
 }
 
-/// Finds points of contact.
+/// Finds points of contact, and distances.
 #[derive(Clone, Debug)]
 pub struct PointFinder {
-    fixed: Side,
-    moving: Side,
+    pub(super) fixed: Side,
+    pub(super) moving: Side,
 }
 
 /// One outline with trees over its edges and its convex corners.
 #[derive(Clone, Debug)]
-struct Side {
-    outline: Outline,
-    edges: CircleTree,
-    corners: CircleTree,
+pub(super) struct Side {
+    pub outline: Outline,
+    pub edges: CircleTree,
+    pub corners: CircleTree,
     /// The vertex of each piece of `corners`.
-    numbers: Vec<usize>,
+    pub numbers: Vec<usize>,
 }
 
 impl Side {

@@ -101,6 +101,11 @@ impl CircleTree {
         }
     }
 
+    /// The circle around a piece.
+    pub fn circle(&self, piece: usize) -> Circle {
+        self.circles[piece]
+    }
+
     pub fn root(&self) -> Branch {
         self.branch(0)
     }

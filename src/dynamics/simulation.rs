@@ -139,23 +139,19 @@ impl<'a> Simulation<'a> {
     }
 
     /// Distance (m) to the other tile or the rim, whichever is less; a lower bound where it is
-    /// large.
+    /// large, and within the range of contact any distance within it.
     pub(super) fn clearance(&self, phase: &Phase) -> f64 {
         /// Above this a bound is good enough (m).
         const LARGE: f64 = 0.05;
         let q = self.body.configuration(&phase.place);
-        let tile = self
-            .problem
-            .contact
-            .as_ref()
-            .map_or(f64::INFINITY, |contact| {
-                let bound = contact.clearance_bound(&q);
-                if bound > LARGE {
-                    bound
-                } else {
-                    contact.clearance(&q)
-                }
-            });
+        let contact = self.problem.contact.as_ref();
+        let bound = contact.map_or(f64::INFINITY, |contact| contact.clearance_bound(&q));
+        let tile = match &self.finder {
+            Some(finder) if bound <= LARGE => {
+                finder.distance(&q, [self.settings.contact_range, LARGE])
+            }
+            _ => bound,
+        };
         tile.min(self.rim_clearance(&q))
     }
 
