@@ -10,6 +10,9 @@ use crate::contact::{ContactPoint, NearPairs};
 /// Points of contact are looked for at least this far (m): far more than tiles ever overlap.
 const LEAST_MARGIN: f64 = 1e-4;
 
+/// Pairs are looked for so many ranges of contact farther than they are needed, and so less often.
+const AHEAD: f64 = 4.0;
+
 /// What lies ahead of a step.
 pub(super) enum Ahead {
     /// The points that may be touched.
@@ -62,7 +65,7 @@ impl Vicinity {
         let moved = simulation.fastest(&(phase.place - self.place));
         let q = simulation.body.configuration(&phase.place);
         if self.distance - moved < needed {
-            self.distance = needed + 2.0 * simulation.settings.contact_range;
+            self.distance = needed + AHEAD * simulation.settings.contact_range;
             self.place = phase.place;
             self.pairs = finder.near(&q, self.distance);
         }

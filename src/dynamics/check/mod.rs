@@ -26,7 +26,7 @@
 //!   reference points are at least [`free_distance`](crate::ConfigurationSpace::free_distance)
 //!   apart; a trajectory crosses when it enters that set, with whatever energy;
 //! - another state is entered when overdamped motion leads from the tile's configuration into its
-//!   minimum, which is a path that nowhere climbs;
+//!   minimum, which is a path that nowhere climbs (asked where a rough descent leads there too);
 //! - the rim keeps the reference point on the table, as in the certificate, and each knock takes
 //!   energy away, never adds any. A trajectory that the integration's error lifts to the barrier
 //!   proves nothing: it is counted as spoilt and replaced by another one.

@@ -142,17 +142,21 @@ impl<'a> Experiment<'a> {
     }
 }
 
-/// Where slow motion leads from `q`, lifted out of contact first where the tiles overlap by the
-/// little that turning within a step lets them.
+/// Where slow motion leads from `q`.
 pub fn minimum_below(problem: &Problem, q: &Configuration, known: &Known) -> Option<Configuration> {
-    let mut q = *q;
-    if let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(&q)) {
-        let away = q.position().normalize();
-        let position = q.position() + away * (contact.lift(&q, away) + CLEAR);
-        q = Configuration::new(position.x, position.y, q.theta);
-    }
-    match approach(problem, &q, known).outcome {
+    match approach(problem, &out_of_contact(problem, q), known).outcome {
         Outcome::Minimum(found) => Some(found.point.q),
         Outcome::Free | Outcome::Stuck(_) => None,
     }
+}
+
+/// A configuration, lifted out of contact where the tiles overlap by the little that turning within a
+/// step lets them.
+pub fn out_of_contact(problem: &Problem, q: &Configuration) -> Configuration {
+    let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(q)) else {
+        return *q;
+    };
+    let away = q.position().normalize();
+    let position = q.position() + away * (contact.lift(q, away) + CLEAR);
+    Configuration::new(position.x, position.y, q.theta)
 }

@@ -7,8 +7,8 @@ mod rate;
 mod release;
 mod starts;
 
-pub(super) use experiment::minimum_below;
 use experiment::{Experiment, STEPS_BETWEEN_LOOKS};
+pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell, share_within};
 pub use matching::MatchRule;
 pub use rate::{OnRate, exponential_statistic, poisson_interval};

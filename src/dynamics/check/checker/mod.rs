@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 use super::{BarrierCheck, Below, CheckSettings};
 use crate::configuration::Configuration;
-use crate::dynamics::docking::{minimum_below, stream};
+use crate::dynamics::docking::{minimum_below, out_of_contact, stream};
 use crate::dynamics::trajectory::normal;
 use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot};
-use crate::landscape::minimum::Known;
+use crate::landscape::minimum::{Known, Outcome, descend_among};
 use crate::landscape::{Barrier, Place, State};
 use crate::problem::Problem;
 
@@ -267,7 +267,10 @@ impl<'a> Checker<'a> {
         });
         let has_crossed = || match self.barrier.to {
             Place::Free => space.is_far(&run.last.motion.configuration),
-            Place::State(_) => self.place_below(&run.last) == Some(self.barrier.to),
+            Place::State(_) => {
+                let last = &run.last;
+                self.seems_to_enter(last) && self.place_below(last) == Some(self.barrier.to)
+            }
         };
         let fate = if spoilt {
             Fate::Spoilt
@@ -279,19 +282,29 @@ impl<'a> Checker<'a> {
         (fate, run.free_steps + run.contact_steps)
     }
 
+    /// Whether a rough descent leads where the barrier does. Most tiles stay where they were, and of
+    /// those no more is asked.
+    fn seems_to_enter(&self, snapshot: &Snapshot) -> bool {
+        let start = out_of_contact(self.problem, &snapshot.motion.configuration);
+        match descend_among(self.problem, &start, self.known).outcome {
+            Outcome::Minimum(found) => self.place_of(&found.point.q) == Some(self.barrier.to),
+            Outcome::Free | Outcome::Stuck(_) => false,
+        }
+    }
+
     /// The place that slow motion leads to.
     fn place_below(&self, snapshot: &Snapshot) -> Option<Place> {
-        let space = &self.problem.space;
         let q = &snapshot.motion.configuration;
-        if space.is_far(q) {
+        if self.problem.space.is_far(q) {
             return Some(Place::Free);
         }
-        let minimum = minimum_below(self.problem, q, self.known)?;
-        let distance = |state: &State| space.distance(&state.configuration, &minimum);
-        let nearest = self
-            .states
-            .iter()
-            .min_by_key(|state| OrderedFloat(distance(state)));
+        self.place_of(&minimum_below(self.problem, q, self.known)?)
+    }
+
+    /// The state that a minimum is, if it is one that is reported.
+    fn place_of(&self, minimum: &Configuration) -> Option<Place> {
+        let distance = |s: &State| self.problem.space.distance(&s.configuration, minimum);
+        let nearest = self.states.iter().min_by_key(|s| OrderedFloat(distance(s)));
         let nearest = nearest.filter(|state| distance(state) < SAME)?;
         Some(Place::State(nearest.id))
     }
