@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::configuration::Configuration;
 use crate::landscape::approach::Approach;
-use crate::landscape::minimum::{Outcome, drift};
+use crate::landscape::minimum::{Known, Outcome};
 use crate::problem::Problem;
 
 /// Even steps along a line of starts.
@@ -55,16 +55,24 @@ pub struct CaptureRange {
     pub limits: [f64; 3],
 }
 
-/// The capture range of the bound state at `bond` with its energy (J); `None` where not even a tile
-/// that meets the other head-on is captured.
-pub fn find(problem: &Problem, bond: &Configuration, energy: f64) -> Option<CaptureRange> {
+/// The capture range of the bound state at `bond` with its energy (J), where something is known of
+/// where motions end; `None` where not even a tile that meets the other head-on is captured.
+///
+/// Starts of a line lie close together: most of them come onto the slide of one before, from where on
+/// they need not be followed.
+pub fn find(
+    problem: &Problem,
+    mut known: Known,
+    bond: &Configuration,
+    energy: f64,
+) -> Option<CaptureRange> {
     let pair = problem.pair.as_deref()?;
     let approach = Approach::new(pair);
-    let captured = |tilt: f64, offset: f64, gap: f64| {
+    let captured = |known: &mut Known, tilt: f64, offset: f64, gap: f64| {
         let start = approach.before_contact(problem, tilt, offset, gap);
-        start.is_some_and(|start| is_captured(problem, &start, bond, energy))
+        start.is_some_and(|start| is_captured(problem, known, &start, bond, energy))
     };
-    if !captured(0.0, 0.0, 0.0) {
+    if !captured(&mut known, 0.0, 0.0, 0.0) {
         return None;
     }
     let length = pair.target_face().length();
@@ -77,9 +85,13 @@ pub fn find(problem: &Problem, bond: &Configuration, energy: f64) -> Option<Capt
         [-PI, 0.0, 0.0],
         [PI, 0.0, 0.0],
     ];
+    // Each line learns for itself, so that it does not matter which is worked on first.
     let shares: Vec<f64> = ends
         .par_iter()
-        .map(|end| reach(|share| captured(share * end[0], share * end[1], share * end[2])))
+        .map(|[tilt, offset, gap]| {
+            let mut known = known.clone();
+            reach(|share| captured(&mut known, share * tilt, share * offset, share * gap))
+        })
         .collect();
     let amount = |line: usize| shares[line] * ends[line].iter().sum::<f64>();
     Some(CaptureRange {
@@ -92,6 +104,7 @@ pub fn find(problem: &Problem, bond: &Configuration, energy: f64) -> Option<Capt
 
 fn is_captured(
     problem: &Problem,
+    known: &mut Known,
     start: &Configuration,
     bond: &Configuration,
     energy: f64,
@@ -99,17 +112,17 @@ fn is_captured(
     if !problem.is_free(start) {
         return false;
     }
-    match drift(problem, start) {
-        Outcome::Minimum(end) => {
+    match known.learn(problem, &[*start]).pop() {
+        Some(Outcome::Minimum(end)) => {
             problem.space.distance(&end.point.q, bond) < SAME_BOND
                 && end.point.energy <= energy + ENERGY_SHARE * energy.abs()
         }
-        Outcome::Free | Outcome::Stuck(_) => false,
+        _ => false,
     }
 }
 
 /// The largest share of a line, 0 to 1, up to which all that is tried holds.
-fn reach(holds: impl Fn(f64) -> bool) -> f64 {
+fn reach(mut holds: impl FnMut(f64) -> bool) -> f64 {
     let at = |step: f64| step / f64::from(STEPS);
     let first_miss = (1..=STEPS).find(|&step| !holds(at(step.into())));
     let Some(miss) = first_miss else {
@@ -150,7 +163,7 @@ mod tests {
         let design = Design::load("shapes/paper-tile.toml".as_ref()).unwrap();
         let problem = design.problem();
         let energy = problem.energy(&design.pair.bound);
-        let range = find(&problem, &design.pair.bound, energy).unwrap();
+        let range = find(&problem, Known::default(), &design.pair.bound, energy).unwrap();
         // The barrier between the bond and the state slid by one magnet lies between them.
         assert!(
             range.offset[1] > 0.005 && range.offset[1] < 0.040,
@@ -165,9 +178,34 @@ mod tests {
         assert!(range.tilt[0] < -0.05 && range.tilt[1] > 0.05, "{range:?}");
         let slid = |offset: f64| {
             let start = Configuration::new(0.43, offset, 0.0);
-            is_captured(&problem, &start, &design.pair.bound, energy)
+            is_captured(
+                &problem,
+                &mut Known::default(),
+                &start,
+                &design.pair.bound,
+                energy,
+            )
         };
         assert!(slid(0.5 * range.offset[1]) && slid(0.98 * range.offset[1]));
         assert!(!slid(range.offset[1] + 0.0005));
+    }
+    /// What earlier starts teach saves work and changes no end.
+    #[test]
+    fn what_earlier_starts_teach_leaves_the_range_as_it_is() {
+        let design = Design::load("shapes/sine-teeth-10mm.toml".as_ref()).unwrap();
+        let problem = design.problem();
+        let bond = &design.pair.bound;
+        let energy = problem.energy(bond);
+        let range = find(&problem, Known::default(), bond, energy).unwrap();
+        let approach = Approach::new(problem.pair.as_deref().unwrap());
+        let end = range.limits[0];
+        let alone = reach(|share| {
+            let start = approach.before_contact(&problem, 0.0, share * end, 0.0);
+            let nothing = &mut Known::default();
+            start.is_some_and(|start| is_captured(&problem, nothing, &start, bond, energy))
+        });
+        let resolution = 1.0 / f64::from(STEPS) / f64::from(1 << HALVINGS);
+        let found = range.offset[1] / end;
+        assert!((found - alone).abs() <= resolution, "{found} {alone}");
     }
 }

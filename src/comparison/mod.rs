@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
+use crate::landscape::minimum::Known;
 use crate::landscape::{
     Barrier, Claims, Completeness, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
 };
@@ -331,10 +332,12 @@ impl Assessment {
 
 fn bond(analysis: &Analysis, state: &State) -> Bond {
     let q = &state.configuration;
+    let states = analysis.inventory.states.iter();
+    let known = Known::minima(states.map(|state| state.configuration));
     Bond {
         pose: q.to_array(),
         energy: state.energy,
         way_out: Way::new(analysis.inventory.way_out_of_the_bond()),
-        capture_range: capture_range::find(&analysis.problem, q, state.energy),
+        capture_range: capture_range::find(&analysis.problem, known, q, state.energy),
     }
 }
