@@ -10,7 +10,9 @@ use super::{Bracket, Effort, End, Progress};
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
 
-/// Leaves subdivided in one round: at least this many, and this share of all.
+/// Leaves subdivided in one round: at least this many, and this share of those that the query added.
+/// A share of all would make much of the first guesses, which are the worst, where many queries share
+/// a store.
 const SPLITS: usize = 256;
 const SPLIT_SHARE: usize = 16;
 
@@ -49,6 +51,7 @@ pub(super) struct Query<'q, 'a> {
     effort: Effort,
     started: Instant,
     assessed_before: usize,
+    leaves_before: usize,
     /// Energy (J) that every path reaches: the ends do, which are on it, and what was proved before
     /// says so.
     floor: f64,
@@ -86,6 +89,7 @@ impl<'q, 'a> Query<'q, 'a> {
             effort: *effort,
             started: Instant::now(),
             assessed_before: certifier.assessed,
+            leaves_before: certifier.store.len(),
             floor,
             best: None,
             improved: false,
@@ -108,7 +112,7 @@ impl<'q, 'a> Query<'q, 'a> {
             let level = self.level();
             let seeds = self.seeds();
             let store = &self.certifier.store;
-            let most = SPLITS.max(store.len() / SPLIT_SHARE);
+            let most = SPLITS.max((store.len() - self.leaves_before) / SPLIT_SHARE);
             let found = watershed(store, &seeds, level, most);
             let going_on = watch(&Progress {
                 cells: self.cells(),
