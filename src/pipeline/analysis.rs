@@ -63,7 +63,8 @@ impl Analysis {
 pub struct Counts {
     /// Milestones of the roadmap.
     pub milestones: usize,
-    /// Its free motions.
+    /// Motions between neighbours among them, but for those that were found to be blocked; what no
+    /// search asked for was not looked at.
     pub edges: usize,
     /// Transition states found, copies counted one by one.
     pub transition_states: usize,
