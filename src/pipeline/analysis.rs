@@ -63,8 +63,7 @@ impl Analysis {
 pub struct Counts {
     /// Milestones of the roadmap.
     pub milestones: usize,
-    /// Motions between neighbours among them, but for those that were found to be blocked; what no
-    /// search asked for was not looked at.
+    /// Its free motions.
     pub edges: usize,
     /// Transition states found, copies counted one by one.
     pub transition_states: usize,

@@ -137,7 +137,7 @@ pub(crate) fn survey(
     survey.explore(problem, guesses, &settings.survey(roadmap));
     let counts = Counts {
         milestones,
-        edges: survey.network.motions(),
+        edges: survey.network.motions(problem),
         transition_states: survey.transition_states.len(),
         left_out: survey.left_out,
         ..Counts::default()

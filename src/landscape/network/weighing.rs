@@ -22,10 +22,16 @@ impl Network {
         self.links[link].costs.get() == Some(&EdgeCosts::BLOCKED)
     }
 
-    /// How many motions of the roadmap are not known to be blocked.
-    pub fn motions(&self) -> usize {
-        let of_roadmap = 0..self.of_roadmap;
-        of_roadmap.filter(|link| !self.is_blocked(*link)).count()
+    /// How many motions of the roadmap are free, those among them that nobody asked for.
+    pub fn motions(&self, problem: &Problem) -> usize {
+        let is_free = |link: &usize| {
+            if self.is_weighed(*link) {
+                !self.is_blocked(*link)
+            } else {
+                self.is_free(problem, *link)
+            }
+        };
+        (0..self.of_roadmap).into_par_iter().filter(is_free).count()
     }
 
     /// Weighs those of some links that are not, side by side.
