@@ -39,24 +39,28 @@ const CLIMBS: usize = 12;
 /// points is linear to within `bend` (J). Empty where a motion between two of them cannot be made
 /// free by bending it round the tiles.
 pub fn of_configurations(problem: &Problem, all: &[Configuration], bend: f64) -> Pathway {
+    let all: Vec<Milestone> = all.iter().map(|q| Milestone::new(problem, *q)).collect();
+    of_milestones(problem, &all, bend)
+}
+
+/// The same where the energies are known.
+pub(super) fn of_milestones(problem: &Problem, all: &[Milestone], bend: f64) -> Pathway {
     let mut pathway = Pathway::new();
     let corners = free_polyline(problem, all).unwrap_or_default();
-    let mut corners = corners.into_iter().map(|q| Milestone::new(problem, q));
-    let Some(mut here) = corners.next() else {
+    let Some(first) = corners.first() else {
         return pathway;
     };
-    push(problem, &mut pathway, here.configuration, here.energy);
-    for next in corners {
-        add_leg(problem, &mut pathway, [&here, &next], bend, PUSHED);
-        here = next;
+    push(problem, &mut pathway, first.configuration, first.energy);
+    for ends in corners.windows(2) {
+        add_leg(problem, &mut pathway, [&ends[0], &ends[1]], bend, PUSHED);
     }
     pathway
 }
 
 /// Through the configurations, with as many more between them as it takes for each straight motion
 /// to be free; `None` where halving does not get there.
-fn free_polyline(problem: &Problem, all: &[Configuration]) -> Option<Vec<Configuration>> {
-    let mut corners: Vec<Configuration> = all.first().copied().into_iter().collect();
+fn free_polyline(problem: &Problem, all: &[Milestone]) -> Option<Vec<Milestone>> {
+    let mut corners: Vec<Milestone> = all.first().copied().into_iter().collect();
     for next in all.iter().skip(1) {
         join(problem, &mut corners, next, DEEPEST)?;
     }
@@ -64,18 +68,14 @@ fn free_polyline(problem: &Problem, all: &[Configuration]) -> Option<Vec<Configu
 }
 
 /// Appends a free way from the last corner to `to`, its middle pushed out of overlap where needed.
-fn join(
-    problem: &Problem,
-    corners: &mut Vec<Configuration>,
-    to: &Configuration,
-    depth: u32,
-) -> Option<()> {
-    let from = *corners.last()?;
-    if problem.motion_overlaps_at_most(&from, to, OVERLAP) {
+fn join(problem: &Problem, corners: &mut Vec<Milestone>, to: &Milestone, depth: u32) -> Option<()> {
+    let ends = [&corners.last()?.configuration, &to.configuration];
+    if problem.motion_overlaps_at_most(ends[0], ends[1], OVERLAP) {
         corners.push(*to);
         return Some(());
     }
-    let middle = middle(problem, &from, to).filter(|_| depth > 0)?;
+    let middle = middle(problem, ends[0], ends[1]).filter(|_| depth > 0)?;
+    let middle = Milestone::new(problem, middle);
     join(problem, corners, &middle, depth - 1)?;
     join(problem, corners, to, depth - 1)
 }

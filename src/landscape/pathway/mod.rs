@@ -6,12 +6,15 @@ mod shortcut;
 
 use std::collections::HashSet;
 
+use super::constrained::Point;
 use super::network::{Cost, Network, Route, Way};
 use super::results::{Pathway, PathwayPoint, highest_point};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
+use crate::roadmap::Milestone;
 
 pub use legs::of_configurations;
+use legs::of_milestones;
 use shortcut::bypassed;
 pub use shortcut::{Limits, shortened};
 
@@ -113,19 +116,24 @@ pub fn along(
     limits: Option<&Limits>,
     bend: f64,
 ) -> Pathway {
-    let mut all: Vec<Configuration> = Vec::new();
+    let mut all: Vec<Milestone> = Vec::new();
     for stretch in stretches(network, route) {
-        let points = match (stretch, limits) {
-            (Stretch::Straight(points), Some(limits)) => shortened(problem, &points, limits),
-            (Stretch::Straight(points) | Stretch::Way(points), _) => points,
+        let points = match stretch {
+            Stretch::Way(points) => points,
+            Stretch::Straight(points) => {
+                let shorter = limits.map(|limits| shortened(problem, &points, limits));
+                let points = shorter.unwrap_or(points).into_iter();
+                points.map(|q| Milestone::new(problem, q)).collect()
+            }
         };
-        let repeated = usize::from(!all.is_empty() && all.last() == points.first());
+        let ends = [all.last(), points.first()].map(|end| end.map(|it| it.configuration));
+        let repeated = usize::from(!all.is_empty() && ends[0] == ends[1]);
         all.extend(points.into_iter().skip(repeated));
     }
     if let Some(limits) = limits {
-        all = bypassed(problem, &all, limits);
+        all = bypassed(problem, all, limits);
     }
-    of_configurations(problem, &all, bend)
+    of_milestones(problem, &all, bend)
 }
 
 /// Appends a point.
@@ -141,9 +149,18 @@ fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, 
     });
 }
 
+fn milestone(point: &Point) -> Milestone {
+    Milestone {
+        configuration: point.q,
+        energy: point.energy,
+        gradient: point.gradient,
+    }
+}
+
 enum Stretch {
     Straight(Vec<Configuration>),
-    Way(Vec<Configuration>),
+    /// Along which the energy is known.
+    Way(Vec<Milestone>),
 }
 
 /// A route's links, neighbouring straight motions taken together.
@@ -158,7 +175,7 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
         match network.way(number) {
             Way::Same => {}
             Way::Points(points) => {
-                let mut way: Vec<Configuration> = points.iter().map(|p| p.q).collect();
+                let mut way: Vec<Milestone> = points.iter().map(milestone).collect();
                 if !forwards {
                     way.reverse();
                 }

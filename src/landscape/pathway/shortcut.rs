@@ -129,43 +129,41 @@ fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration>
 /// again, where it might have left the one for the other half-way.
 pub fn bypassed(
     problem: &Problem,
-    points: &[Configuration],
+    mut milestones: Vec<Milestone>,
     limits: &Limits,
-) -> Vec<Configuration> {
-    let mut points = points.to_vec();
+) -> Vec<Milestone> {
     for _ in 0..BYPASSES {
-        let Some((from, to)) = worst_detour(problem, &points, limits) else {
+        let Some((from, to)) = worst_detour(problem, &milestones, limits) else {
             break;
         };
-        points.drain(from + 1..to);
+        milestones.drain(from + 1..to);
     }
-    points
+    milestones
 }
 
 /// Two points of a polyline between which a straight motion saves most, as far as was looked.
 fn worst_detour(
     problem: &Problem,
-    points: &[Configuration],
+    milestones: &[Milestone],
     limits: &Limits,
 ) -> Option<(usize, usize)> {
-    let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
-    let price = |from: usize, to: usize, climb: f64| {
-        let length = problem.space.distance(&points[from], &points[to]);
-        climb.max(0.0) + limits.per_metre * length
+    let price = |from: usize, to: usize| {
+        let [from, to] = [from, to].map(|k| &milestones[k]);
+        let ends = [from, to].map(|end| &end.configuration);
+        let length = problem.space.distance(ends[0], ends[1]);
+        (to.energy - from.energy).max(0.0) + limits.per_metre * length
     };
     let mut prices = vec![0.0];
-    for k in 1..points.len() {
-        let step = price(k - 1, k, milestones[k].energy - milestones[k - 1].energy);
-        prices.push(prices[k - 1] + step);
+    for k in 1..milestones.len() {
+        prices.push(prices[k - 1] + price(k - 1, k));
     }
-    let stride = points.len().div_ceil(LOOKED_AT).max(1);
-    let looked_at: Vec<usize> = (0..points.len()).step_by(stride).collect();
+    let stride = milestones.len().div_ceil(LOOKED_AT).max(1);
+    let looked_at: Vec<usize> = (0..milestones.len()).step_by(stride).collect();
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (k, &from) in looked_at.iter().enumerate() {
         for &to in &looked_at[k + 1..] {
             // At best.
-            let direct = price(from, to, milestones[to].energy - milestones[from].energy);
-            let saved = prices[to] - prices[from] - direct;
+            let saved = prices[to] - prices[from] - price(from, to);
             if saved > WORTHWHILE * limits.per_metre {
                 pairs.push((saved, from, to));
             }
