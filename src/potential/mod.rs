@@ -22,8 +22,9 @@
 //!
 //! Of two tiles with very many magnets (128 each) far groups of point dipoles are replaced by fewer dipoles at
 //! the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4 pi
-//! r^3)`, r the distance of the groups; energies, gradients and bounds alike. Along the motions of a
-//! roadmap groups far apart are asked at fewer places than close ones ([`parts`]).
+//! r^3)`, r the distance of the groups; and the field of the fixed tile is tabulated (`patches`)
+//! with the same error, so that an energy costs what the moving tile's magnets are in number, not
+//! what the pairs are.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields
@@ -41,7 +42,7 @@ pub(crate) mod groups;
 pub mod interaction;
 mod lever;
 pub mod motion;
-pub mod parts;
+mod patches;
 pub mod shielding;
 
 use crate::configuration::Configuration;
@@ -51,7 +52,6 @@ pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
 pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
-pub use parts::Parts;
 pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.
@@ -109,10 +109,9 @@ pub trait Potential: Sync {
         0.0
     }
 
-    /// The energy as a sum of very many parts, where following those along motions one by one is
-    /// worth it.
-    fn parts(&self) -> Option<&dyn Parts> {
-        None
+    /// Whether an energy takes so long, of very many magnets, that as few as possible are to be asked.
+    fn is_dear(&self) -> bool {
+        false
     }
 
     /// How much lower, as a fraction of |U|, an energy must be than that of a configuration close

@@ -14,7 +14,6 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
 use crate::contact::{Contact, Known, TOUCH};
 use crate::interruption;
-use crate::potential::parts::{Part, Parts};
 use crate::potential::{
     BoxedBounds, CellBounds, Energy, Interaction, LazyBounds, Potential, Unbounded,
 };
@@ -157,7 +156,7 @@ impl Problem {
 
     /// Whether an energy takes so long, of very many magnets, that as few as possible are to be asked.
     pub fn is_dear(&self) -> bool {
-        self.potential().parts().is_some()
+        self.potential().is_dear()
     }
 
     /// How far (m) the moving tile has to go in a direction until the tiles do not overlap.
@@ -217,18 +216,6 @@ impl Problem {
         for (q, result) in qs.iter().zip(out) {
             *result = self.energy.potential.energy_and_gradient(q);
         }
-    }
-
-    /// U (J) of some of the energy's parts and its gradient, counted as one evaluation.
-    pub fn energy_and_gradient_of(
-        &self,
-        energy: &dyn Parts,
-        parts: &[Part],
-        q: &Configuration,
-        roughly: bool,
-    ) -> (f64, Vector3<f64>) {
-        self.count(1);
-        energy.energy_and_gradient_of(parts, q, roughly)
     }
 
     /// How many energies have been computed so far.

@@ -4,7 +4,6 @@
 pub mod edge;
 pub mod milestone;
 pub mod neighbour;
-mod parted;
 pub mod profile;
 mod stretch;
 

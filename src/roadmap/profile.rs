@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
 use super::Milestone;
-use super::parted::Parted;
 use super::stretch::{Bends, Motion, Stretch};
 use crate::problem::Problem;
 
@@ -38,7 +37,7 @@ pub struct Profile {
 }
 
 /// Stretches are not halved more often than this.
-pub(super) const DEEPEST: u32 = 16;
+const DEEPEST: u32 = 16;
 
 impl Profile {
     /// Samples the straight motion from `a` to `b`.
@@ -58,9 +57,6 @@ impl Profile {
     /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
     /// where the cubic foretells the energy in its middle. That is a check, no proof; proved bounds
     /// of barriers come from the certificate.
-    ///
-    /// Of very many magnets those far apart are asked at fewer places than those close to each
-    /// other ([`crate::potential::parts`]), within the same tolerance.
     pub fn new(
         problem: &Problem,
         a: &Milestone,
@@ -82,13 +78,6 @@ impl Profile {
             .iter()
             .map(|[a, b]| Motion::new(problem, a, b, tolerance))
             .collect();
-        if let Some(parts) = problem.potential().parts() {
-            let followed = motions.iter().zip(pairs).map(|(motion, pair)| {
-                let stretches = Parted::new(motion, parts).settled(motion.ends(*pair));
-                Self::of_stretches(&stretches)
-            });
-            return followed.collect();
-        }
         let mut open: Vec<Stretch> = (0..pairs.len())
             .map(|number| Stretch {
                 number,
@@ -196,16 +185,6 @@ pub(super) fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
         + a.slope * h * (u3 - 2.0 * u2 + u)
         + b.energy * (3.0 * u2 - 2.0 * u3)
         + b.slope * h * (u3 - u2)
-}
-
-/// The slope of the cubic through the values and slopes of two knots.
-pub(super) fn cubic_slope(a: &Knot, b: &Knot, t: f64) -> f64 {
-    let h = b.t - a.t;
-    let u = (t - a.t) / h;
-    let u2 = u * u;
-    (b.energy - a.energy) / h * 6.0 * (u - u2)
-        + a.slope * (3.0 * u2 - 4.0 * u + 1.0)
-        + b.slope * (3.0 * u2 - 2.0 * u)
 }
 
 /// Where the cubic through two knots is highest or lowest between them, in order.

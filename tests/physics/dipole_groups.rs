@@ -1,4 +1,5 @@
-//! Far groups of dipoles that fewer stand for, against the sum over all pairs.
+//! Very many dipoles, in a tabulated field and in groups that fewer stand for, against the sum over
+//! all pairs.
 
 use std::f64::consts::PI;
 
@@ -8,7 +9,6 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
 use tilebind::potential::dipole::{Dipole, ScalarDipoles};
-use tilebind::potential::parts::Part;
 use tilebind::potential::{DipolePotential, Potential};
 use tilebind::units::MU0_OVER_4PI;
 
@@ -148,96 +148,12 @@ fn bounds_of_derivatives_hold() {
             grouped.curvature_bound(&q, reach) + 1e-12 * size / (h * h),
             grouped.fourth_derivative_bound(&q, reach) + 1e-12 * size / h.powi(4),
         ];
+        let narrow = scalar.fourth_derivative_bound(&q, reach);
+        assert!(
+            bounds[1] <= 2.0 * narrow + 1e-12 * size / h.powi(4),
+            "{q:?}: {bounds:?}, {narrow}"
+        );
         assert!(second.abs() <= bounds[0], "{q:?}: {second} {bounds:?}");
         assert!(fourth.abs() <= bounds[1], "{q:?}: {fourth} {bounds:?}");
     }
-}
-
-/// Motions from some poses, one as long as `length` (m) for each.
-fn motions(rng: &mut ChaCha8Rng, grouped: &DipolePotential, length: f64) -> [Vector3<f64>; 2] {
-    let mut direction = || rng.random_range(-1.0..1.0);
-    let step = Vector3::new(direction(), direction(), direction());
-    let slide = Vector3::new(0.0, 1.0, 0.0);
-    [step, slide].map(|step| step * (length / grouped.displacement(step)))
-}
-
-/// The cubic through values and slopes at 0 and 1.
-fn cubic([a, b]: [(f64, f64); 2], t: f64) -> f64 {
-    let (t2, t3) = (t * t, t * t * t);
-    a.0 * (2.0 * t3 - 3.0 * t2 + 1.0)
-        + a.1 * (t3 - 2.0 * t2 + t)
-        + b.0 * (3.0 * t2 - 2.0 * t3)
-        + b.1 * (t3 - t2)
-}
-
-/// Slow and fast parts, of motions ever shorter as in halving a stretch, add up to all pairs; the
-/// slow ones' cubic is off by no more than is said and allowed, and the fast ones' fourth
-/// derivative is within its bound.
-#[test]
-fn slow_parts_are_slow_and_nothing_is_left_out() {
-    let mut rng = ChaCha8Rng::seed_from_u64(8);
-    let mut most = 0f64;
-    for (faces, each, wave, alike) in SHAPES {
-        let [fixed, moving] = [0; 2].map(|_| {
-            let mut dipoles = tile(&mut rng, faces_of(faces), each, wave, alike);
-            dipoles.truncate(faces * each);
-            dipoles
-        });
-        let scalar = ScalarDipoles::new(&fixed, &moving);
-        let grouped = DipolePotential::with_level(&fixed, &moving, Level::best());
-        // (Around a polygon of very many sides none stand for others.)
-        let Some(parts) = grouped.parts() else {
-            assert!(faces > 4, "{faces} x {each}: rows are put in groups");
-            continue;
-        };
-        for q in poses(&mut rng, faces_of(faces), 12) {
-            for length in [0.1, 0.01, 1e-3] {
-                for step in motions(&mut rng, &grouped, length) {
-                    let (size, _) = magnitudes(&fixed, &moving, &q);
-                    let allowed = 1e-6 * size;
-                    let mut open: Vec<Part> = vec![parts.whole()];
-                    let mut slow: Vec<Part> = Vec::new();
-                    // First as on longer stretches around.
-                    for longer in [4.0, 1.0] {
-                        let reach = longer * length / 2.0;
-                        let sifted = parts.sift(&open, &q, reach, allowed);
-                        assert!(sifted.off <= allowed, "{sifted:?}");
-                        slow.extend(&sifted.slow);
-                        open = sifted.fast.clone();
-                        if longer > 1.0 {
-                            continue;
-                        }
-                        let end = |t: f64| {
-                            let at = q.moved(step * (t - 0.5));
-                            let known = parts.energy_and_gradient_of(&sifted.slow, &at, true);
-                            (known.0, known.1.dot(&step))
-                        };
-                        let ends = [end(0.0), end(1.0)];
-                        for k in 0..=10 {
-                            let t = f64::from(k) / 10.0;
-                            let at = q.moved(step * (t - 0.5));
-                            let (slow, _) = parts.energy_and_gradient_of(&sifted.slow, &at, false);
-                            let off = (cubic(ends, t) - slow).abs();
-                            assert!(off <= sifted.off + 1e-11 * size, "{off} {}", sifted.off);
-                            most = most.max(off / sifted.off.max(f64::MIN_POSITIVE));
-                        }
-                    }
-                    let all = [slow, open.clone()].concat();
-                    let (energy, _) = parts.energy_and_gradient_of(&all, &q, false);
-                    assert!((energy - scalar.energy(&q)).abs() <= 2e-11 * size);
-                    let h = 1e-3;
-                    let unit = step / grouped.displacement(step);
-                    let at = |k: f64| {
-                        let at = q.moved(unit * (k * h));
-                        parts.energy_and_gradient_of(&open, &at, false).0
-                    };
-                    let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
-                    let fourth = (a - 4.0 * b + 6.0 * c - 4.0 * d + e) / h.powi(4);
-                    let bound = parts.fourth_derivative_bound_of(&open, &q, 2.0 * h);
-                    assert!(fourth.abs() <= bound + 1e-9 * size / h.powi(4));
-                }
-            }
-        }
-    }
-    assert!(most > 1e-3, "far too wide, {most}");
 }

@@ -1,17 +1,15 @@
-//! Bounds of the energy's derivatives along motions, the moving dipoles in the lanes.
+//! Bounds of the energy's derivatives along motions, the dipoles of one tile in the lanes.
 
-use std::ops::Range;
+use nalgebra::Vector2;
 
-use super::DipolePotential;
 use super::bundle::Bundle;
-use super::field::{Frame, Source, TOGETHER};
+use super::field::{Frame, TOGETHER};
 use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
-use super::tasks::{frame_of_one, walk};
+use super::tasks::frame_of_one;
+use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
-use crate::potential::groups::tree::{LOST_OF_BOUNDS, Purpose};
-use crate::potential::groups::walk::Leeway;
-use crate::potential::motion;
-use crate::potential::parts::Part;
+use crate::potential::groups::walk::Sight;
+use crate::potential::patches::square::{NEAR, POWERS, Spread};
 use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
@@ -22,8 +20,6 @@ pub struct DerivativeBound<'a, const TERMS: usize> {
     pub reach: f64,
     /// The polynomial's coefficients, that of the highest power first.
     pub terms: [f64; TERMS],
-    /// Of a potential with groups some pairs of them only.
-    pub parts: Option<&'a [Part]>,
 }
 
 impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
@@ -32,39 +28,17 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> f64 {
         let frame = frame_of_one(l, self.q);
-        let mut sums = Sums {
-            bound: l.splat(0.0),
-            nearest: l.splat(f64::INFINITY),
-        };
-        let (sources, all) = (&self.potential.sources, 0..self.potential.moving.x.len());
-        let mut lost = 0.0;
-        match &self.potential.groups {
-            None => self.meet(l, &frame, sources, all, &mut sums),
-            Some([fixed, moving]) => {
-                let leeway = Leeway {
-                    travel: self.reach,
-                    purpose: Purpose::Bound,
-                    ..Leeway::default()
-                };
-                for meeting in walk(self.parts, [fixed, moving], self.q, leeway) {
-                    let sources = &sources[meeting.fixed];
-                    self.meet(l, &frame, sources, meeting.moving, &mut sums);
-                    if meeting.replaced > 0.0 {
-                        let k = LOST_OF_BOUNDS * MU0_OVER_4PI * meeting.replaced;
-                        lost += motion::bound(&self.terms, k, meeting.distance);
-                    }
-                }
-            }
+        let mut sums = Sums::none(l);
+        let end = self.potential.moving.x.len();
+        let mut first = 0;
+        while first + 2 * L::WIDTH <= end {
+            self.block::<L, 2>(l, &frame, first, &mut sums);
+            first += 2 * L::WIDTH;
         }
-
-        let mut nearest = [f64::INFINITY; MAX_WIDTH];
-        l.store(sums.nearest, &mut nearest);
-        let bound = l.sum(sums.bound) + lost;
-        if bound.is_finite() && nearest.iter().all(|r| *r > 0.0) {
-            bound
-        } else {
-            f64::INFINITY
+        if first < end {
+            self.block::<L, 1>(l, &frame, first, &mut sums);
         }
+        sums.finish(l)
     }
 }
 
@@ -75,34 +49,49 @@ struct Sums<F> {
     nearest: F,
 }
 
-impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
-    /// The pairs of some moving dipoles, whole vectors of them, with some of the fixed ones.
+impl<F: Copy> Sums<F> {
     #[inline(always)]
-    fn meet<L: Lanes>(
-        &self,
-        l: L,
-        frame: &Frame<L::F>,
-        sources: &[Source],
-        moving: Range<usize>,
-        sums: &mut Sums<L::F>,
-    ) {
-        let mut first = moving.start;
-        while first + 2 * L::WIDTH <= moving.end {
-            self.block::<L, 2>(l, frame, sources, first, sums);
-            first += 2 * L::WIDTH;
-        }
-        if first < moving.end {
-            self.block::<L, 1>(l, frame, sources, first, sums);
+    fn none<L: Lanes<F = F>>(l: L) -> Self {
+        Self {
+            bound: l.splat(0.0),
+            nearest: l.splat(f64::INFINITY),
         }
     }
 
+    #[inline(always)]
+    fn finish<L: Lanes<F = F>>(&self, l: L) -> f64 {
+        let mut nearest = [f64::INFINITY; MAX_WIDTH];
+        l.store(self.nearest, &mut nearest);
+        let bound = l.sum(self.bound);
+        if bound.is_finite() && nearest.iter().all(|r| *r > 0.0) {
+            bound
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// `r^-3` times the polynomial at the way d less the reach, and that distance r.
+#[inline(always)]
+fn bound<A: Arithmetic>(a: A, terms: &[f64], d: [A::F; 2], reach: f64) -> (A::F, A::F) {
+    let r2 = a.mul_add(d[0], d[0], a.mul(d[1], d[1]));
+    let distance = a.mul(r2, a.reciprocal_sqrt(r2));
+    let r = a.sub(distance, a.splat(reach));
+    let w1 = a.reciprocal(r);
+    let mut p = a.splat(terms[0]);
+    for term in &terms[1..] {
+        p = a.mul_add(p, w1, a.splat(*term));
+    }
+    (a.mul(a.mul(w1, a.mul(w1, w1)), p), r)
+}
+
+impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
     /// The pairs of `N` vectors of moving dipoles from the dipole `first` on.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(
         &self,
         l: L,
         frame: &Frame<L::F>,
-        sources: &[Source],
         first: usize,
         sums: &mut Sums<L::F>,
     ) {
@@ -114,7 +103,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
             [*x, *y] = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
         let mut shares = [l.splat(0.0); N];
-        for pair in sources.as_chunks::<TOGETHER>().0 {
+        for pair in self.potential.sources.as_chunks::<TOGETHER>().0 {
             let dx = b.sub(
                 [x; TOGETHER],
                 b.rows([pair[0].position[0], pair[1].position[0]]),
@@ -123,15 +112,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
                 [y; TOGETHER],
                 b.rows([pair[0].position[1], pair[1].position[1]]),
             );
-            let r2 = b.mul_add(dx, dx, b.mul(dy, dy));
-            let distance = b.mul(r2, b.reciprocal_sqrt(r2));
-            let r = b.sub(distance, b.splat(self.reach));
-            let w1 = b.reciprocal(r);
-            let mut p = b.splat(self.terms[0]);
-            for term in &self.terms[1..] {
-                p = b.mul_add(p, w1, b.splat(*term));
-            }
-            let p = b.mul(b.mul(w1, b.mul(w1, w1)), p);
+            let (p, r) = bound(b, &self.terms, [dx, dy], self.reach);
             for j in 0..TOGETHER {
                 let magnitude = l.splat(pair[j].magnitude);
                 for k in 0..N {
@@ -144,5 +125,87 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
             let magnitude = l.load(&moving.magnitude[first + k * L::WIDTH..]);
             sums.bound = l.mul_add(*share, magnitude, sums.bound);
         }
+    }
+}
+
+/// Groups no larger than so many times their distance are asked as one.
+const SMALL: f64 = 1.0 / 16.0;
+
+/// A bound of the same sum for a moving tile that lies within reach of the table of the fixed one's
+/// field. Infinite also where the motion is too long for the table.
+pub struct TabulatedBound<'a, const TERMS: usize> {
+    pub potential: &'a DipolePotential,
+    pub many: &'a Many,
+    pub q: &'a Configuration,
+    pub reach: f64,
+    pub terms: [f64; TERMS],
+}
+
+impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> f64 {
+        let moving = &self.potential.moving;
+        let [fixed, groups] = &self.many.groups;
+        let sight = Sight::new([fixed, groups], self.q);
+        let mut sums = Sums::none(l);
+        let mut far = 0.0;
+        let mut open = vec![0];
+        while let Some(number) = open.pop() {
+            let group = &groups[number];
+            let radius = group.half[0].hypot(group.half[1]);
+            let (place, reach) = (sight.place(group.centre), self.reach + radius);
+            let is_small = radius <= SMALL * sight.distance(&fixed[0], group);
+            let whole = is_small.then(|| self.many.patches.around(place.into(), reach));
+            if let Some(Some(spread)) = whole {
+                let magnitude = MU0_OVER_4PI.sqrt() * group.magnitude;
+                far += self.add(l, spread, (place.into(), reach, magnitude), &mut sums);
+            } else if let Some(parts) = group.parts {
+                open.extend(parts);
+            } else {
+                for i in group.own.clone() {
+                    let magnitude = moving.magnitude[i];
+                    if magnitude == 0.0 {
+                        continue;
+                    }
+                    let place = sight.place(Vector2::new(moving.x[i], moving.y[i]));
+                    let Some(spread) = self.many.patches.around(place.into(), self.reach) else {
+                        return f64::INFINITY;
+                    };
+                    let one = (place.into(), self.reach, magnitude);
+                    far += self.add(l, spread, one, &mut sums);
+                }
+            }
+        }
+        far + sums.finish(l)
+    }
+}
+
+impl<const TERMS: usize> TabulatedBound<'_, TERMS> {
+    /// Adds what dipoles of some magnitude at a place meet that go no farther than their reach, of
+    /// near dipoles; and returns what they meet of others.
+    #[inline(always)]
+    fn add<L: Lanes>(
+        &self,
+        l: L,
+        spread: &Spread,
+        (place, reach, magnitude): ([f64; 2], f64, f64),
+        sums: &mut Sums<L::F>,
+    ) -> f64 {
+        for near in &spread.near {
+            for first in (0..NEAR).step_by(L::WIDTH) {
+                let [x, y] = &near.position;
+                let dx = l.sub(l.splat(place[0]), l.load(&x[first..]));
+                let dy = l.sub(l.splat(place[1]), l.load(&y[first..]));
+                let (p, r) = bound(l, &self.terms, [dx, dy], reach);
+                let product = l.mul(l.load(&near.magnitude[first..]), l.splat(magnitude));
+                sums.nearest = l.min(r, sums.nearest);
+                sums.bound = l.mul_add(p, product, sums.bound);
+            }
+        }
+        let far = spread.far(place, reach);
+        let terms = self.terms.iter().zip(&far[POWERS - TERMS..]);
+        magnitude * terms.map(|(term, sum)| term * sum).sum::<f64>()
     }
 }

@@ -42,6 +42,24 @@ pub struct Field<F> {
     pub slope: [F; 3],
 }
 
+impl<F: Copy> Field<F> {
+    /// Together with another share of the same field.
+    #[inline(always)]
+    pub fn add<L: Arithmetic<F = F>, const SLOPE: bool>(&self, l: L, other: &Self) -> Self {
+        let mut sum = Self {
+            x: l.add(self.x, other.x),
+            y: l.add(self.y, other.y),
+            slope: self.slope,
+        };
+        if SLOPE {
+            for (a, b) in sum.slope.iter_mut().zip(other.slope) {
+                *a = l.add(*a, b);
+            }
+        }
+        sum
+    }
+}
+
 /// How many sources are taken at once; the number of sources must be a multiple of it.
 pub const TOGETHER: usize = 2;
 
@@ -78,30 +96,19 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
         ];
 
         let d = [b.sub(x, position[0]), b.sub(y, position[1])];
-        let r2 = b.mul_add(d[0], d[0], b.mul(d[1], d[1]));
-        let s3 = b.mul_add(thrice[0], d[0], b.mul(thrice[1], d[1]));
-        let w1 = b.reciprocal_sqrt(r2);
-        let w2 = b.mul(w1, w1);
-        let w3 = b.mul(w1, w2);
-        let u = b.mul(s3, w2);
-        let v = [
-            b.neg_mul_add(u, d[0], moment[0]),
-            b.neg_mul_add(u, d[1], moment[1]),
-        ];
+        let share = Share::new(b, d, moment, thrice);
         for j in 0..TOGETHER {
-            for k in 0..N {
-                sums[k].add(l, w3[j][k], [v[0][j][k], v[1][j][k]]);
+            for (k, sum) in sums.iter_mut().enumerate() {
+                let v = [share.v[0][j][k], share.v[1][j][k]];
+                sum.add(l, share.w3[j][k], v);
             }
         }
         if SLOPE {
-            let w5 = b.mul(w3, w2);
-            let f = [b.mul(w5, d[0]), b.mul(w5, d[1])];
-            let u6 = b.mul(u, b.splat(1.0 / 6.0));
-            let z = [b.mul_add(u6, d[0], v[0]), b.mul_add(u6, d[1], v[1])];
+            let (z, f, w5) = share.bend(b, d);
             for j in 0..TOGETHER {
                 for k in 0..N {
                     let (z, f) = ([z[0][j][k], z[1][j][k]], [f[0][j][k], f[1][j][k]]);
-                    sums[k].add_slope(l, z, f, w5[j][k], s3[j][k]);
+                    sums[k].add_slope(l, z, f, w5[j][k], share.s3[j][k]);
                 }
             }
         }
@@ -115,6 +122,66 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
         *field = sum.field(l);
     }
     fields
+}
+
+/// The field at a place of the source in each lane, its place (m) and moment (sqrt(J m^3)) given.
+#[inline(always)]
+pub fn field_of_each<L: Arithmetic, const SLOPE: bool>(
+    l: L,
+    position: [L::F; 2],
+    moment: [L::F; 2],
+    place: [L::F; 2],
+) -> Field<L::F> {
+    let three = l.splat(3.0);
+    let thrice = [l.mul(moment[0], three), l.mul(moment[1], three)];
+    let d = [l.sub(place[0], position[0]), l.sub(place[1], position[1])];
+    let share = Share::new(l, d, moment, thrice);
+    let mut sums = Sums::zero(l);
+    sums.add(l, share.w3, share.v);
+    if SLOPE {
+        let (z, f, w5) = share.bend(l, d);
+        sums.add_slope(l, z, f, w5, share.s3);
+    }
+    sums.field(l)
+}
+
+/// What a source gives, in the words of [`field`]; `w3` is `r^-3`, `s3` is `3 s`.
+struct Share<F> {
+    w2: F,
+    w3: F,
+    s3: F,
+    u: F,
+    v: [F; 2],
+}
+
+impl<F: Copy> Share<F> {
+    #[inline(always)]
+    fn new<A: Arithmetic<F = F>>(a: A, d: [F; 2], moment: [F; 2], thrice: [F; 2]) -> Self {
+        let r2 = a.mul_add(d[0], d[0], a.mul(d[1], d[1]));
+        let s3 = a.mul_add(thrice[0], d[0], a.mul(thrice[1], d[1]));
+        let w1 = a.reciprocal_sqrt(r2);
+        let w2 = a.mul(w1, w1);
+        let w3 = a.mul(w1, w2);
+        let u = a.mul(s3, w2);
+        let v = [
+            a.neg_mul_add(u, d[0], moment[0]),
+            a.neg_mul_add(u, d[1], moment[1]),
+        ];
+        Self { w2, w3, s3, u, v }
+    }
+
+    /// `z`, `f` and `r^-5`.
+    #[inline(always)]
+    fn bend<A: Arithmetic<F = F>>(&self, a: A, d: [F; 2]) -> ([F; 2], [F; 2], F) {
+        let w5 = a.mul(self.w3, self.w2);
+        let f = [a.mul(w5, d[0]), a.mul(w5, d[1])];
+        let u6 = a.mul(self.u, a.splat(1.0 / 6.0));
+        let z = [
+            a.mul_add(u6, d[0], self.v[0]),
+            a.mul_add(u6, d[1], self.v[1]),
+        ];
+        (z, f, w5)
+    }
 }
 
 /// The same pair of numbers in all lanes.

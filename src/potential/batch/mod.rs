@@ -17,13 +17,16 @@ mod derivative;
 mod field;
 pub mod lanes;
 mod level;
-mod parts;
+mod patched;
+pub(super) use patched::Sampled;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sin_cos;
 mod tasks;
 #[cfg(target_arch = "x86_64")]
 mod x86;
+
+use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 
@@ -32,16 +35,18 @@ pub use level::Level;
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::groups::are_many;
-use super::groups::tree::{Group, Purpose, Tree};
+use super::groups::tree::{Group, Tree};
+use super::groups::walk::Sight;
 use super::lever::Lever;
 use super::motion;
-use super::parts::{Part, Parts};
+use super::patches::Patches;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
-use derivative::DerivativeBound;
+use derivative::{DerivativeBound, TabulatedBound};
 use field::{Source, TOGETHER};
-use tasks::{Many, One};
+use patched::Patched;
+use tasks::{InLanes, One};
 
 /// The interaction energy of two sets of point dipoles, one in each tile, laid out for the
 /// instruction set it is computed with.
@@ -55,7 +60,22 @@ pub struct DipolePotential {
     lever: Lever,
     /// Of both tiles, where there are so many dipoles that they are worth it; `sources` and
     /// `moving` are then those of the trees.
-    groups: Option<[Vec<Group>; 2]>,
+    many: Option<Many>,
+}
+
+/// What is known of very many dipoles.
+#[derive(Clone, Debug)]
+struct Many {
+    groups: [Vec<Group>; 2],
+    /// The field of the fixed tile's.
+    patches: Arc<Patches>,
+}
+
+impl Many {
+    /// Whether all moving dipoles, and all that stand for others, are within reach of the table.
+    fn is_tabulated(&self, q: &Configuration) -> bool {
+        q.position().norm() + self.groups[1][0].lever <= self.patches.reach()
+    }
 }
 
 /// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
@@ -82,16 +102,20 @@ impl DipolePotential {
         if are_many(fixed.len(), moving.len()) {
             let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, level.width())];
             if trees.iter().any(Tree::has_stands) {
-                return Self::of_trees(trees, level);
+                let patches = Patches::new(&scaled_and_filled(fixed, 1), level);
+                return Self::of_trees(trees, patches, level);
             }
         }
         Self::one_by_one(fixed, moving, level)
     }
 
-    fn of_trees([fixed, moving]: [Tree; 2], level: Level) -> Self {
+    fn of_trees([fixed, moving]: [Tree; 2], patches: Patches, level: Level) -> Self {
         Self {
             lever: Lever::of([Vector2::new(moving.lever, 0.0)].into_iter()),
-            groups: Some([fixed.groups, moving.groups]),
+            many: Some(Many {
+                groups: [fixed.groups, moving.groups],
+                patches: Arc::new(patches),
+            }),
             ..Self::one_by_one(&fixed.dipoles, &moving.dipoles, level)
         }
     }
@@ -113,7 +137,7 @@ impl DipolePotential {
                 magnitude: column(|d| d.moment.norm()),
             },
             lever: Lever::of(moving.iter().map(|d| d.position)),
-            groups: None,
+            many: None,
         }
     }
 
@@ -122,16 +146,15 @@ impl DipolePotential {
         self.level
     }
 
-    fn one<const SLOPE: bool>(
-        &self,
-        q: &Configuration,
-        parts: Option<(&[Part], Purpose)>,
-    ) -> (f64, Vector3<f64>) {
-        self.level.run(One::<SLOPE> {
-            potential: self,
-            q,
-            parts,
-        })
+    fn one<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        match &self.many {
+            Some(many) if many.is_tabulated(q) => self.level.run(Patched::<SLOPE> {
+                potential: self,
+                many,
+                q,
+            }),
+            _ => self.level.run(One::<SLOPE> { potential: self, q }),
+        }
     }
 
     fn derivative_bound<const TERMS: usize>(
@@ -139,15 +162,28 @@ impl DipolePotential {
         terms: [f64; TERMS],
         q: &Configuration,
         reach: f64,
-        parts: Option<&[Part]>,
     ) -> f64 {
-        self.level.run(DerivativeBound {
-            potential: self,
-            q,
-            reach,
-            terms,
-            parts,
-        })
+        let Some(many) = &self.many else {
+            return self.level.run(DerivativeBound {
+                potential: self,
+                q,
+                reach,
+                terms,
+            });
+        };
+        if many.is_tabulated(q) {
+            return self.level.run(TabulatedBound {
+                potential: self,
+                many,
+                q,
+                reach,
+                terms,
+            });
+        }
+        let [fixed, moving] = [&many.groups[0][0], &many.groups[1][0]];
+        let distance = Sight::new([&many.groups[0], &many.groups[1]], q).distance(fixed, moving);
+        let k = MU0_OVER_4PI * fixed.magnitude * moving.magnitude;
+        motion::bound(&terms, k, distance - reach)
     }
 }
 
@@ -169,22 +205,22 @@ fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
 
 impl Potential for DipolePotential {
     fn energy(&self, q: &Configuration) -> f64 {
-        self.one::<false>(q, None).0
+        self.one::<false>(q).0
     }
 
     fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        self.one::<true>(q, None)
+        self.one::<true>(q)
     }
 
     fn energies(&self, qs: &[Configuration], out: &mut [f64]) {
         assert_eq!(qs.len(), out.len(), "one energy for each configuration");
-        if self.groups.is_some() {
+        if self.many.is_some() {
             for (q, u) in qs.iter().zip(out) {
                 *u = self.energy(q);
             }
             return;
         }
-        self.level.run(Many::<_, false> {
+        self.level.run(InLanes::<_, false> {
             potential: self,
             qs,
             put: |i: usize, energy, _| out[i] = energy,
@@ -193,13 +229,13 @@ impl Potential for DipolePotential {
 
     fn energies_and_gradients(&self, qs: &[Configuration], out: &mut [(f64, Vector3<f64>)]) {
         assert_eq!(qs.len(), out.len(), "one result for each configuration");
-        if self.groups.is_some() {
+        if self.many.is_some() {
             for (q, result) in qs.iter().zip(out) {
                 *result = self.energy_and_gradient(q);
             }
             return;
         }
-        self.level.run(Many::<_, true> {
+        self.level.run(InLanes::<_, true> {
             potential: self,
             qs,
             put: |i: usize, energy, gradient| out[i] = (energy, gradient),
@@ -208,16 +244,16 @@ impl Potential for DipolePotential {
 
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let terms = motion::second_derivative(self.lever.turn());
-        self.derivative_bound(terms, q, reach, None)
+        self.derivative_bound(terms, q, reach)
     }
 
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let terms = motion::fourth_derivative(self.lever.turn());
-        self.derivative_bound(terms, q, reach, None)
+        self.derivative_bound(terms, q, reach)
     }
 
-    fn parts(&self) -> Option<&dyn Parts> {
-        self.groups.is_some().then_some(self as &dyn Parts)
+    fn is_dear(&self) -> bool {
+        self.many.is_some()
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

@@ -9,9 +9,7 @@ use super::field::{Frame, Shares, Source, field, pair_of};
 use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
 use crate::configuration::Configuration;
 use crate::potential::finite;
-use crate::potential::groups::tree::{Group, Purpose};
 use crate::potential::groups::walk::{Leeway, Walk};
-use crate::potential::parts::Part;
 
 /// The same angle, in the range of the vectors' sine and cosine.
 #[inline(always)]
@@ -62,8 +60,6 @@ fn frame_of_many<L: Lanes>(l: L, qs: &[Configuration]) -> Frame<L::F> {
 pub struct One<'a, const SLOPE: bool> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
-    /// Of a potential with groups some pairs of them only, for a purpose.
-    pub parts: Option<(&'a [Part], Purpose)>,
 }
 
 impl<const SLOPE: bool> One<'_, SLOPE> {
@@ -121,52 +117,41 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
         let frame = frame_of_one(l, self.q);
         let mut shares = Shares::zero(l);
         let (sources, all) = (&self.potential.sources, 0..self.potential.moving.x.len());
-        match &self.potential.groups {
+        match &self.potential.many {
             None => self.meet(l, &frame, sources, all, &mut shares),
-            Some([fixed, moving]) => {
-                let leeway = Leeway {
-                    purpose: self.parts.map_or(Purpose::Energy, |(_, purpose)| purpose),
-                    ..Leeway::default()
-                };
-                let parts = self.parts.map(|(parts, _)| parts);
-                for meeting in walk(parts, [fixed, moving], self.q, leeway) {
+            Some(many) => {
+                let [fixed, moving] = &many.groups;
+                for meeting in Walk::new([fixed, moving], self.q, Leeway::default()) {
                     let sources = &sources[meeting.fixed];
                     self.meet(l, &frame, sources, meeting.moving, &mut shares);
                 }
             }
         }
-        let mut sums = shares.to_array();
-        for sum in &mut sums {
-            *sum = l.splat(l.sum(*sum));
-        }
-        let (energy, slope) = Shares::from_array(sums).finish(l, &frame);
-        let slope = Vector3::new(l.first(slope[0]), l.first(slope[1]), l.first(slope[2]));
-        finite(l.first(energy), slope)
+        summed(l, &frame, shares)
     }
 }
 
-/// The meetings of all groups, or within some pairs of them.
-pub fn walk<'a>(
-    parts: Option<&[Part]>,
-    groups: [&'a [Group]; 2],
-    q: &Configuration,
-    leeway: Leeway,
-) -> Walk<'a> {
-    match parts {
-        Some(parts) => Walk::within(parts, groups, q, leeway),
-        None => Walk::new(groups, q, leeway),
+/// The energy of one configuration and its gradient, from what is in each lane.
+#[inline(always)]
+pub fn summed<L: Lanes>(l: L, frame: &Frame<L::F>, shares: Shares<L::F>) -> (f64, Vector3<f64>) {
+    let mut sums = shares.to_array();
+    for sum in &mut sums {
+        *sum = l.splat(l.sum(*sum));
     }
+    let (energy, slope) = Shares::from_array(sums).finish(l, frame);
+    let slope = Vector3::new(l.first(slope[0]), l.first(slope[1]), l.first(slope[2]));
+    finite(l.first(energy), slope)
 }
 
 /// Many configurations, one in each lane; `put` takes a configuration's place, energy and
 /// gradient.
-pub struct Many<'a, P, const SLOPE: bool> {
+pub struct InLanes<'a, P, const SLOPE: bool> {
     pub potential: &'a DipolePotential,
     pub qs: &'a [Configuration],
     pub put: P,
 }
 
-impl<P, const SLOPE: bool> Many<'_, P, SLOPE> {
+impl<P, const SLOPE: bool> InLanes<'_, P, SLOPE> {
     /// The shares of the moving dipoles `first` and `first + 1`.
     #[inline(always)]
     fn two<L: Lanes>(
@@ -215,7 +200,7 @@ impl<P, const SLOPE: bool> Many<'_, P, SLOPE> {
     }
 }
 
-impl<P, const SLOPE: bool> Task for Many<'_, P, SLOPE>
+impl<P, const SLOPE: bool> Task for InLanes<'_, P, SLOPE>
 where
     P: FnMut(usize, f64, Vector3<f64>),
 {

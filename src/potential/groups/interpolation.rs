@@ -47,18 +47,9 @@ pub fn lost(n: usize, half: f64, distance: f64) -> f64 {
     2.0 * ((n + 1) * (n + 2)) as f64 * ratio.powi(n as i32)
 }
 
-/// The same of derivatives of the energy along a motion, as a share of their bounds
-/// ([`crate::potential::motion`]) at the distance: of their terms in powers of `1 / r` up to the
-/// seventh, `(n + 6)! / (6! n!)` times `2 (half / 2 distance)^n`.
-pub fn lost_of_bounds(n: usize, half: f64, distance: f64) -> f64 {
-    let ratio = half / (2.0 * distance);
-    let choices: f64 = (1..=6).map(|k| (n + k) as f64 / k as f64).product();
-    2.0 * choices * ratio.powi(n as i32)
-}
-
-/// The least distance (m), to a part in a million, at which no more than `allowed` is `lost`, which
+/// The least distance (m), to a part in a million, at which no more than `allowed` is [`lost`], which
 /// falls with the distance like its n-th power.
-pub fn least_distance(lost: fn(usize, f64, f64) -> f64, n: usize, half: f64, allowed: f64) -> f64 {
+pub fn least_distance(n: usize, half: f64, allowed: f64) -> f64 {
     half * (lost(n, 1.0, 1.0) / allowed).powf(1.0 / n as f64) * (1.0 + 1e-6)
 }
 

@@ -4,19 +4,13 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
-use super::interpolation::{least_distance, lebesgue, lost, lost_of_bounds, nodes, shares};
+use super::interpolation::{least_distance, lebesgue, lost, nodes, shares};
 use crate::potential::dipole::Dipole;
 
 /// What is lost of a pair of groups, at most, as a share of `mu0 M1 M2 / (4 pi r^3)`, with M the
 /// sums of the moments' magnitudes and r the distance of the groups. (Found are errors a hundred
 /// times smaller; and far groups are weak beside those in contact.)
 pub const LOST: f64 = 1e-11;
-
-/// The same of bounds of derivatives, which need not be narrow, as a share of the bound.
-pub const LOST_OF_BOUNDS: f64 = 1e-3;
-
-/// The same of energies along motions that are followed within a tolerance.
-pub const LOST_ALONG: f64 = 1e-5;
 
 /// Into so many parts what may be lost is divided. Of either group it is lost along and across; of
 /// the second one times Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
@@ -69,23 +63,11 @@ pub struct Group {
     pub stands: Vec<Stand>,
 }
 
-/// What a group is asked for.
-#[derive(Clone, Copy, Debug, Default)]
-pub enum Purpose {
-    /// Energies and their derivatives.
-    #[default]
-    Energy = 0,
-    /// Bounds of derivatives.
-    Bound = 1,
-    /// Energies along motions that are followed within a tolerance.
-    Along = 2,
-}
-
 /// Dipoles that stand for a group from afar.
 #[derive(Clone, Debug)]
 pub struct Stand {
-    /// From these distances (m) of the box on, by purpose.
-    pub from: [f64; 3],
+    /// From this distance (m) of the box on.
+    pub from: f64,
     /// By their numbers in the tree.
     pub dipoles: Range<usize>,
 }
@@ -205,18 +187,11 @@ impl Group {
     /// With a grid of n by k nodes no more is lost than by n nodes along, and by k nodes across
     /// times Lebesgue's constant of the n; with both groups of a pair replaced, than by the one and
     /// by the other times the constants of the one.
-    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, [f64; 3])> {
+    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, f64)> {
         let [length, width] = self.half;
-        let from = least_distance(lost, order, length, LOST / SHARES);
+        let from = least_distance(order, length, LOST / SHARES);
         let across = LOST / (SHARES * lebesgue(order));
         let widths = (1..=8).find(|k| lost(*k, width, from) <= across)?;
-        let across = LOST_OF_BOUNDS / (SHARES * lebesgue(order));
-        let roughly = least_distance(lost_of_bounds, order, length, LOST_OF_BOUNDS / SHARES)
-            .max(least_distance(lost_of_bounds, widths, width, across));
-        let across = LOST_ALONG / (SHARES * lebesgue(order));
-        let along = least_distance(lost, order, length, LOST_ALONG / SHARES)
-            .max(least_distance(lost, widths, width, across));
-        let from = [from, roughly, along];
         if 4 * order * widths > 3 * dipoles.len() {
             return None;
         }
@@ -253,8 +228,8 @@ impl Group {
 
     /// What stands for the group at a distance (m): the fewest dipoles, or its own where it has no
     /// parts; `None` where its parts are to be asked.
-    pub fn at(&self, distance: f64, purpose: Purpose) -> Option<&Range<usize>> {
-        let from = |stand: &&Stand| stand.from[purpose as usize] <= distance;
+    pub fn at(&self, distance: f64) -> Option<&Range<usize>> {
+        let from = |stand: &&Stand| stand.from <= distance;
         let stand = self.stands.iter().find(from);
         match stand {
             Some(stand) => Some(&stand.dipoles),

@@ -4,9 +4,8 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
-use super::tree::{Group, Purpose};
+use super::tree::Group;
 use crate::configuration::Configuration;
-use crate::potential::parts::Part;
 
 /// By how much the dipoles of the moving tile may be elsewhere than in the middle of what is asked
 /// about.
@@ -17,7 +16,6 @@ pub struct Leeway {
     pub turn: f64,
     /// Groups closer than so many times a group's own leeway meet in parts.
     pub near: f64,
-    pub purpose: Purpose,
 }
 
 /// Two groups that meet: the dipoles of either, by their numbers in their trees.
@@ -51,23 +49,6 @@ impl<'a> Walk<'a> {
             open,
         }
     }
-
-    /// The meetings within some pairs of groups.
-    pub fn within(
-        parts: &[Part],
-        groups: [&'a [Group]; 2],
-        q: &Configuration,
-        leeway: Leeway,
-    ) -> Self {
-        let mut open = Vec::with_capacity(parts.len() + 64);
-        open.extend_from_slice(parts);
-        let sight = Sight::new(groups, q);
-        Self {
-            sight,
-            leeway,
-            open,
-        }
-    }
 }
 
 /// The groups of two tiles in a configuration.
@@ -87,6 +68,11 @@ impl<'a> Sight<'a> {
         }
     }
 
+    /// Where a point of the moving tile's frame is.
+    pub fn place(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.place + self.turned(point)
+    }
+
     fn turned(&self, v: Vector2<f64>) -> Vector2<f64> {
         let (cos, sin) = (self.turn.x, self.turn.y);
         Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
@@ -95,7 +81,7 @@ impl<'a> Sight<'a> {
     /// A lower bound of the distance (m) of two groups: in the frame of either box, that of the
     /// upright boxes around both.
     pub fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
-        let way = self.place + self.turned(moving.centre) - fixed.centre;
+        let way = self.place(moving.centre) - fixed.centre;
         let axis = self.turned(moving.axis);
         let cos = fixed.axis.dot(&axis).abs();
         let sin = fixed.axis.perp(&axis).abs();
@@ -126,8 +112,7 @@ impl Iterator for Walk<'_> {
             } else {
                 0.0
             };
-            let purpose = self.leeway.purpose;
-            let split = match (fixed.at(clear, purpose), moving.at(clear, purpose)) {
+            let split = match (fixed.at(clear), moving.at(clear)) {
                 (Some(first), Some(second)) => {
                     let own = fixed.own == *first && moving.own == *second;
                     return Some(Meeting {

@@ -6,7 +6,7 @@ use super::{DipoleBounds, NEAR};
 use crate::cell::Cell;
 use crate::potential::bounds::{Enclosure, depths};
 use crate::potential::dipole::{Dipole, dipoles};
-use crate::potential::groups::tree::{self, Group, Purpose, Tree};
+use crate::potential::groups::tree::{self, Group, Tree};
 use crate::potential::groups::walk::{Leeway, Walk};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
@@ -19,7 +19,6 @@ impl DipoleBounds {
             turn: cell.half[2],
             // A little farther than single pairs, so that no stand-in is near.
             near: NEAR * (1.0 + 1e-6),
-            purpose: Purpose::Energy,
         };
         let mut out = Enclosure::default();
         let mut weights = Vec::new();

@@ -1,0 +1,213 @@
+//! The energy of many dipoles in a tabulated field, and the field where it is tabulated.
+//!
+//! For each moving dipole the powers of its place in a patch are in the lanes, and so are the fixed
+//! dipoles near the patch; its field comes as shares of the lanes, which are summed at the end.
+
+use arrayvec::ArrayVec;
+use nalgebra::Vector3;
+
+use super::field::{Field, Shares, field_of_each};
+use super::lanes::{Lanes, Task};
+use super::tasks::{frame_of_one, summed};
+use super::{DipolePotential, Many};
+use crate::configuration::Configuration;
+use crate::potential::dipole::Dipole;
+use crate::potential::groups::walk::Sight;
+use crate::potential::patches::polynomial::{ORDER, Polynomial};
+use crate::potential::patches::square::{NEAR, Near};
+
+/// The most vectors a row of coefficients takes: of four lanes.
+const MOST: usize = ORDER / 4;
+
+/// So many dipoles are asked together.
+const TOGETHER: usize = 16;
+
+/// One configuration, whose moving dipoles all lie within reach of the table of the fixed ones.
+pub struct Patched<'a, const SLOPE: bool> {
+    pub potential: &'a DipolePotential,
+    pub many: &'a Many,
+    pub q: &'a Configuration,
+}
+
+impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
+    type Output = (f64, Vector3<f64>);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let frame = frame_of_one(l, self.q);
+        let (cos, sin) = (l.first(frame.cos), l.first(frame.sin));
+        let moving = &self.potential.moving;
+        let [fixed, groups] = &self.many.groups;
+        let sight = Sight::new([fixed, groups], self.q);
+        let mut shares = Shares::zero(l);
+        let mut open = vec![0];
+        while let Some(number) = open.pop() {
+            let group = &groups[number];
+            let distance = sight.distance(&fixed[0], group);
+            let Some(some) = group.at(distance) else {
+                open.extend(group.parts.iter().flatten());
+                continue;
+            };
+            // Patches first: so none waits for another's memory.
+            let is_filling = |i: &usize| moving.magnitude[*i] == 0.0;
+            let mut rest = some.clone().filter(|i| !is_filling(i)).peekable();
+            while rest.peek().is_some() {
+                let some = rest.by_ref().take(TOGETHER).map(|i| {
+                    let (x, y) = (moving.x[i], moving.y[i]);
+                    let place = [cos * x - sin * y + self.q.x, sin * x + cos * y + self.q.y];
+                    (i, place, self.many.patches.at(place))
+                });
+                let some: ArrayVec<_, TOGETHER> = some.collect();
+                for (i, place, patch) in &some {
+                    let moment = [moving.moment_x[*i], moving.moment_y[*i]];
+                    let places = [l.splat(place[0]), l.splat(place[1])];
+                    let mut field = far::<L, SLOPE>(l, &patch.far, *place);
+                    for near in &patch.near {
+                        field = of_near::<L, SLOPE>(l, near, places, field);
+                    }
+                    let moment = [l.splat(moment[0]), l.splat(moment[1])];
+                    shares.gather::<L, SLOPE>(l, &frame, moment, places, &field);
+                }
+            }
+        }
+        summed(l, &frame, shares)
+    }
+}
+
+/// What the near dipoles add to the shares of a field.
+#[inline(always)]
+fn of_near<L: Lanes, const SLOPE: bool>(
+    l: L,
+    near: &Near,
+    place: [L::F; 2],
+    mut field: Field<L::F>,
+) -> Field<L::F> {
+    let [x, y] = &near.position;
+    let [along, across] = &near.moment;
+    for first in (0..NEAR).step_by(L::WIDTH) {
+        let position = [l.load(&x[first..]), l.load(&y[first..])];
+        let moment = [l.load(&along[first..]), l.load(&across[first..])];
+        let more = field_of_each::<L, SLOPE>(l, position, moment, place);
+        field = field.add::<L, SLOPE>(l, &more);
+    }
+    field
+}
+
+/// The gradient of a polynomial at a place and the gradient of that, as shares of the lanes: in each
+/// the terms of some powers of x.
+///
+/// Each column of coefficients is a polynomial in y, of which Horner's rule gives value, slope and
+/// half the bend.
+#[inline(always)]
+fn far<L: Lanes, const SLOPE: bool>(l: L, polynomial: &Polynomial, place: [f64; 2]) -> Field<L::F> {
+    let scale = polynomial.scale;
+    let powers = powers((place[0] - polynomial.centre[0]) * scale);
+    let v = l.splat((place[1] - polynomial.centre[1]) * scale);
+    let zero = l.splat(0.0);
+    let (mut value, mut slope, mut bend) = ([zero; MOST], [zero; MOST], [zero; MOST]);
+    for row in polynomial.rows.iter().rev() {
+        for k in 0..ORDER / L::WIDTH {
+            if SLOPE {
+                bend[k] = l.mul_add(bend[k], v, slope[k]);
+            }
+            slope[k] = l.mul_add(slope[k], v, value[k]);
+            value[k] = l.mul_add(value[k], v, l.load(&row[k * L::WIDTH..]));
+        }
+    }
+    let once = l.splat(scale);
+    let mut field = Field {
+        x: l.mul(along::<L, 1>(l, &value, &powers), once),
+        y: l.mul(along::<L, 0>(l, &slope, &powers), once),
+        slope: [zero; 3],
+    };
+    if SLOPE {
+        let twice = l.splat(scale * scale);
+        field.slope = [
+            l.mul(along::<L, 2>(l, &value, &powers), twice),
+            l.mul(along::<L, 1>(l, &slope, &powers), twice),
+            l.mul(
+                along::<L, 0>(l, &bend, &powers),
+                l.splat(2.0 * scale * scale),
+            ),
+        ];
+    }
+    field
+}
+
+/// The powers of u from the -2nd on, those of negative order as 0.
+#[inline(always)]
+fn powers(u: f64) -> [f64; ORDER + 2] {
+    let mut powers = [0.0; ORDER + 2];
+    powers[2] = 1.0;
+    powers[3] = u;
+    for k in 2..ORDER {
+        powers[2 + k] = powers[2 + k / 2] * powers[2 + k - k / 2];
+    }
+    powers
+}
+
+/// What the `TIMES`-th derivative of each power is that power lowered by `TIMES`, times: `i (i - 1) ...`.
+static WEIGHTS: [[f64; ORDER]; 3] = {
+    let mut weights = [[1.0; ORDER]; 3];
+    let mut i = 0;
+    while i < ORDER {
+        weights[1][i] = i as f64;
+        weights[2][i] = (i * i) as f64 - i as f64;
+        i += 1;
+    }
+    weights
+};
+
+/// The `TIMES`-th derivative by x of columns of coefficients, as shares of the lanes.
+#[inline(always)]
+fn along<L: Lanes, const TIMES: usize>(
+    l: L,
+    columns: &[L::F; MOST],
+    powers: &[f64; ORDER + 2],
+) -> L::F {
+    let mut sum = l.splat(0.0);
+    for (k, column) in columns.iter().enumerate().take(ORDER / L::WIDTH) {
+        let i = k * L::WIDTH;
+        let mut power = l.load(&powers[i + 2 - TIMES..]);
+        if TIMES > 0 {
+            power = l.mul(power, l.load(&WEIGHTS[TIMES][i..]));
+        }
+        sum = l.mul_add(*column, power, sum);
+    }
+    sum
+}
+
+/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, as exact as f64 is.
+pub struct Sampled<'a> {
+    pub far: &'a [Dipole],
+    /// The places' x, and the y of all (m).
+    pub xs: &'a [f64; ORDER],
+    pub y: f64,
+    pub out: &'a mut [f64; ORDER],
+}
+
+impl Task for Sampled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        for first in (0..ORDER).step_by(L::WIDTH) {
+            let x = l.load(&self.xs[first..]);
+            let mut sum = l.splat(0.0);
+            // Some at a time, as roundings grow with the number of terms.
+            for some in self.far.chunks(TOGETHER) {
+                let mut share = l.splat(0.0);
+                for source in some {
+                    let dx = l.sub(x, l.splat(source.position.x));
+                    let dy = l.splat(self.y - source.position.y);
+                    let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
+                    let along = l.mul(l.splat(source.moment.y), dy);
+                    let along = l.mul_add(l.splat(source.moment.x), dx, along);
+                    share = l.add(share, l.div(along, l.mul(r2, l.sqrt(r2))));
+                }
+                sum = l.add(sum, share);
+            }
+            l.store(sum, &mut self.out[first..]);
+        }
+    }
+}
