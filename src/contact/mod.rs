@@ -9,6 +9,7 @@ mod admissible;
 pub mod cells;
 mod constraint;
 mod distance;
+mod halving;
 mod leaving;
 mod lift;
 pub mod matching;
@@ -19,6 +20,7 @@ mod tree;
 
 pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
+pub use halving::Halves;
 pub use motion::Known;
 pub use points::{ContactPoint, NearPairs, PointFinder};
 

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
-use crate::contact::{Contact, Known, TOUCH};
+use crate::contact::{Contact, Halves, Known, TOUCH};
 use crate::interruption;
 use crate::potential::{
     BoxedBounds, CellBounds, Energy, Interaction, LazyBounds, Potential, Unbounded,
@@ -284,10 +284,23 @@ impl Problem {
     ) -> Vec<(u32, u32)> {
         // Of every configuration once, not of every pair.
         let known: Vec<_> = configurations.par_iter().map(|q| self.known(q)).collect();
-        let is_free = |&(from, to): &(u32, u32)| {
-            self.known_motion_is_free([from, to].map(|end| &known[end as usize]))
-        };
-        pairs.par_iter().copied().filter(is_free).collect()
+        let ends = |&(from, to): &(u32, u32)| [from, to].map(|end| &known[end as usize]);
+        self.free_among(pairs.par_iter().copied(), ends).collect()
+    }
+
+    /// Those of some motions that are free, in the order given, `ends` telling what is known of where
+    /// each begins and ends.
+    pub fn free_among<'a, M: Send>(
+        &'a self,
+        motions: impl ParallelIterator<Item = M> + 'a,
+        ends: impl Fn(&M) -> [&'a Option<Known>; 2] + Send + Sync + 'a,
+    ) -> impl ParallelIterator<Item = M> + 'a {
+        motions
+            .map_init(Halves::default, move |left, motion| {
+                let is_free = self.known_motion_is_free(ends(&motion), left);
+                is_free.then_some(motion)
+            })
+            .flatten_iter()
     }
 
     /// What every motion from or to a configuration asks of contact; `None` where there is none.
@@ -295,13 +308,14 @@ impl Problem {
         self.contact.as_ref().map(|contact| contact.known(*q))
     }
 
-    /// Whether the straight motion between two free configurations is free, of which that is known.
-    pub fn known_motion_is_free(&self, [a, b]: [&Option<Known>; 2]) -> bool {
+    /// Whether the straight motion between two free configurations is free, of which that is known;
+    /// `left` is lent.
+    pub fn known_motion_is_free(&self, [a, b]: [&Option<Known>; 2], left: &mut Halves) -> bool {
         interruption::check();
         let (Some(contact), Some(a), Some(b)) = (&self.contact, a, b) else {
             return true;
         };
-        contact.known_motion_overlaps_at_most([a, b], TOUCH)
+        contact.known_motion_overlaps_at_most([a, b], TOUCH, left)
     }
 
     /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::{Link, Network};
+use crate::contact::Halves;
 use crate::problem::Problem;
 use crate::roadmap::Milestone;
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
@@ -24,14 +25,17 @@ impl Network {
 
     /// How many motions of the roadmap are free, those among them that nobody asked for.
     pub fn motions(&self, problem: &Problem) -> usize {
-        let is_free = |link: &usize| {
-            if self.is_weighed(*link) {
-                !self.is_blocked(*link)
-            } else {
-                self.is_free(problem, *link)
-            }
+        let (weighed, open): (Vec<usize>, Vec<usize>) =
+            (0..self.of_roadmap).partition(|link| self.is_weighed(*link));
+        let ends = |link: &usize| {
+            let Link { from, to, .. } = self.links[*link];
+            [from, to].map(|node| &self.of_milestones[node as usize].1)
         };
-        (0..self.of_roadmap).into_par_iter().filter(is_free).count()
+        let free = problem.free_among(open.into_par_iter(), ends).count();
+        free + weighed
+            .iter()
+            .filter(|link| !self.is_blocked(**link))
+            .count()
     }
 
     /// Weighs those of some links that are not, side by side.
@@ -56,7 +60,8 @@ impl Network {
     /// What straight motions cost, all at once.
     fn costs_of_straight(&self, problem: &Problem, links: &[usize]) -> Vec<EdgeCosts> {
         let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
-        let is_free = |of: &usize| self.is_free(problem, links[*of]);
+        let mut left = Halves::default();
+        let is_free = |of: &usize| self.is_free(problem, links[*of], &mut left);
         let free: Vec<usize> = (0..links.len()).filter(is_free).collect();
         let ends: Vec<[Milestone; 2]> = free
             .iter()
@@ -71,13 +76,13 @@ impl Network {
     }
 
     /// Whether the straight motion between a link's nodes is free.
-    fn is_free(&self, problem: &Problem, link: usize) -> bool {
+    fn is_free(&self, problem: &Problem, link: usize, left: &mut Halves) -> bool {
         let Link { from, to, .. } = self.links[link];
         let known = |node: u32| match self.of_milestones.get(node as usize) {
             Some((_, known)) => *known,
             None => problem.known(&self.nodes[node as usize]?.0),
         };
-        problem.known_motion_is_free([from, to].map(known).each_ref())
+        problem.known_motion_is_free([from, to].map(known).each_ref(), left)
     }
 
     /// The milestones that a straight motion joins.
