@@ -3,19 +3,15 @@
 
 use std::ops::Range;
 
-use super::motion::{End, Motion, Step};
-use super::{Contact, separated};
+use super::motion::{Motion, Step};
+use super::{Contact, Placement, separated};
 use crate::tile::outline::ConvexPart;
 
 /// Motions shorter than this (m) are as good as their ends.
 pub(super) const SHORTEST: f64 = 1e-7;
 
-/// Stretches halved so often are looked at with an eye on those pairs of convex parts that may meet
-/// in them. Of longer stretches these are many, most of them far apart in each half.
-const LISTED: usize = 1;
-
-/// What is left to be proved of a motion. Who tries many motions lends the same to all of them, so
-/// that none has to ask for memory.
+/// What is left to be proved of a motion. Who tries many motions of the same tiles lends the same to
+/// all of them, so that none has to ask for memory.
 #[derive(Debug, Default)]
 pub struct Halves {
     stretches: Vec<Stretch>,
@@ -23,11 +19,14 @@ pub struct Halves {
     /// Pairs of convex parts, of the fixed and of the moving tile.
     open: Vec<[usize; 2]>,
     kept: Vec<[usize; 2]>,
+    /// The pair that blocked a motion last. It is the first to be looked at in the next one, which
+    /// often leads from the same place.
+    blocking: Option<[usize; 2]>,
 }
 
 #[derive(Clone, Debug)]
 struct Stretch {
-    ends: [End; 2],
+    ends: [Placement; 2],
     /// Those of the open pairs that are not proved to stay separated; all parts where `None`.
     pairs: Option<Range<usize>>,
 }
@@ -40,8 +39,16 @@ impl Halves {
         self.kept.clear();
     }
 
+    /// What was left of stretches becomes what is looked at.
+    fn next(&mut self) {
+        std::mem::swap(&mut self.stretches, &mut self.finer);
+        std::mem::swap(&mut self.open, &mut self.kept);
+        self.finer.clear();
+        self.kept.clear();
+    }
+
     /// Both halves of a stretch are to be looked at.
-    fn halve(&mut self, [a, b]: [End; 2], middle: End, pairs: Option<Range<usize>>) {
+    fn halve(&mut self, [a, b]: [Placement; 2], middle: Placement, pairs: Option<Range<usize>>) {
         for ends in [[a, middle], [middle, b]] {
             let pairs = pairs.clone();
             self.finer.push(Stretch { ends, pairs });
@@ -55,34 +62,30 @@ impl Contact {
     /// one: what blocks a motion is found soon.
     pub(super) fn stretches_overlap_at_most(
         &self,
-        ends: [End; 2],
+        ends: [Placement; 2],
         mut step: Step,
         allowed: f64,
         left: &mut Halves,
     ) -> bool {
         left.clear();
         let mut reach = step.reach(self);
-        let mut halved = 0;
         left.stretches.push(Stretch { ends, pairs: None });
         while !left.stretches.is_empty() && reach > SHORTEST {
-            for k in 0..left.stretches.len() {
-                let Stretch { ends, pairs } = left.stretches[k].clone();
-                let motion = Motion::new(&ends, &step, allowed);
-                let is_free = match pairs {
-                    Some(pairs) => self.open_pairs_stay_apart(&motion, pairs, left),
-                    None => self.parts_stay_apart(&motion, halved >= LISTED, left),
-                };
-                if !is_free {
-                    return false;
+            let stretches = std::mem::take(&mut left.stretches);
+            let are_free = stretches.iter().all(|Stretch { ends, pairs }| {
+                let motion = Motion::new(ends, &step, allowed);
+                match pairs {
+                    Some(pairs) => self.open_pairs_stay_apart(&motion, pairs.clone(), left),
+                    None => self.parts_stay_apart(&motion, left),
                 }
+            });
+            left.stretches = stretches;
+            if !are_free {
+                return false;
             }
-            std::mem::swap(&mut left.stretches, &mut left.finer);
-            std::mem::swap(&mut left.open, &mut left.kept);
-            left.finer.clear();
-            left.kept.clear();
+            left.next();
             step = step.half();
             reach /= 2.0;
-            halved += 1;
         }
         true
     }
@@ -114,8 +117,8 @@ impl Contact {
         true
     }
 
-    /// The same for all parts; pairs that may meet are told apart where they are to be listed.
-    fn parts_stay_apart(&self, motion: &Motion, listed: bool, left: &mut Halves) -> bool {
+    /// The same for all parts.
+    fn parts_stay_apart(&self, motion: &Motion, left: &mut Halves) -> bool {
         if motion.separates((&self.fixed_hull, &self.moving_hull)) {
             return true;
         }
@@ -129,23 +132,22 @@ impl Contact {
             left.halve(*motion.ends, middle, None);
             return true;
         }
-        if !listed {
-            left.halve(*motion.ends, middle, None);
-            return self.fixed_tree.near_pairs(
-                &self.moving_tree,
-                &middle.place(),
-                &|_| 0.0,
-                &mut |i, j| are_separated(self.pair([i, j]), &middle, motion.allowed),
-            );
+        let overlap = |pair: [usize; 2]| !are_separated(self.pair(pair), &middle, motion.allowed);
+        if left.blocking.is_some_and(overlap) {
+            return false;
         }
         let first = left.kept.len();
-        let kept = &mut left.kept;
+        let Halves { kept, blocking, .. } = left;
         let is_free = self.near_pairs(motion, &middle, &mut |i, j| {
-            let parts = self.pair([i, j]);
-            motion.separates(parts) || {
-                kept.push([i, j]);
-                are_separated(parts, &middle, motion.allowed)
+            if motion.separates(self.pair([i, j])) {
+                return true;
             }
+            kept.push([i, j]);
+            let blocks = overlap([i, j]);
+            if blocks {
+                *blocking = Some([i, j]);
+            }
+            !blocks
         });
         let pairs = first..left.kept.len();
         if is_free && !pairs.is_empty() {
@@ -160,6 +162,10 @@ impl Contact {
 }
 
 /// Whether two parts overlap by no more than `allowed` (m) where the moving one is placed.
-fn are_separated((fixed, moving): (&ConvexPart, &ConvexPart), at: &End, allowed: f64) -> bool {
-    separated(fixed, moving, &at.placement, -allowed)
+fn are_separated(
+    (fixed, moving): (&ConvexPart, &ConvexPart),
+    at: &Placement,
+    allowed: f64,
+) -> bool {
+    separated(fixed, moving, at, -allowed)
 }

@@ -284,6 +284,12 @@ impl Placement {
         }
     }
 
+    /// Where a point of the part is.
+    fn place(&self) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
+        let Self { rotation, position } = *self;
+        move |p| position + rotation * p
+    }
+
     /// A direction in the part's frame.
     fn direction(&self, d: &Vector2<f64>) -> Vector2<f64> {
         self.rotation.inverse_transform_vector(d)

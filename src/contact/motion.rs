@@ -3,7 +3,6 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::halving::{Halves, SHORTEST};
-use super::tree::Circle;
 use super::{Contact, Placement, TOUCH};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::outline::ConvexPart;
@@ -28,19 +27,13 @@ impl Contact {
         allowed: f64,
     ) -> bool {
         // Of a single motion, clearances would cost more than they save.
-        let ends = [a, b].map(|end| Known {
-            end: End::of(end),
-            clearance: 0.0,
-        });
+        let ends = [a, b].map(|end| Known::of(end, 0.0));
         self.known_motion_overlaps_at_most(ends.each_ref(), allowed, &mut Halves::default())
     }
 
     /// A configuration with what every motion from or to it asks for.
     pub fn known(&self, q: Configuration) -> Known {
-        Known {
-            end: End::of(&q),
-            clearance: self.clearance_bound(&q),
-        }
+        Known::of(&q, self.clearance_bound(&q))
     }
 
     /// The same between configurations that are known; `left` is lent.
@@ -50,7 +43,7 @@ impl Contact {
         allowed: f64,
         left: &mut Halves,
     ) -> bool {
-        let step = Step::between(&a.end, &b.end);
+        let step = Step::between(a, b);
         let reach = step.reach(self);
         // What is closer to an end than its clearance is free, what is a little farther overlaps by
         // that little, and a motion that brings no point farther than both together passes from the
@@ -58,7 +51,7 @@ impl Contact {
         let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
         around[0] + around[1] >= reach
             || reach <= SHORTEST
-            || self.stretches_overlap_at_most([a.end, b.end], step, allowed, left)
+            || self.stretches_overlap_at_most([a.placement, b.placement], step, allowed, left)
     }
 
     /// Whether every pair of convex parts is proved to stay separated by the line of one of their
@@ -75,8 +68,9 @@ impl Contact {
     /// less than the [parabola](stays_above) through both does: ways that are bent where this proves
     /// nothing keep off contact there.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
-        let ends = [a, b].map(End::of);
-        let step = Step::between(&ends[0], &ends[1]);
+        let [a, b] = [a, b].map(|end| Known::of(end, 0.0));
+        let ends = [a.placement, b.placement];
+        let step = Step::between(&a, &b);
         let motion = Motion {
             even: true,
             ..Motion::new(&ends, &step, allowed)
@@ -92,49 +86,37 @@ impl Contact {
     pub(super) fn near_pairs(
         &self,
         motion: &Motion,
-        middle: &End,
+        middle: &Placement,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
         // From half way no point gets farther than half the motion takes it.
         let Step { path, turn, .. } = *motion.step;
-        let lever = |(centre, radius): &Circle| centre.norm() + radius;
         let room = (-motion.allowed).max(0.0);
         self.fixed_tree.near_pairs(
             &self.moving_tree,
             &middle.place(),
-            &|circle| (path + turn.abs() * lever(circle)) / 2.0 + room,
+            &|lever| (path + turn.abs() * lever) / 2.0 + room,
             found,
         )
     }
 }
 
-/// A configuration: where it places the moving tile, and its angle, of any number of turns.
+/// A configuration: where it places the moving tile, and how far (m) that is from the other at least.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
-    pub placement: Placement,
+pub struct Known {
+    placement: Placement,
     theta: f64,
+    clearance: f64,
 }
 
-impl End {
-    fn of(q: &Configuration) -> Self {
+impl Known {
+    fn of(q: &Configuration, clearance: f64) -> Self {
         Self {
             placement: Placement::of(q),
             theta: q.theta,
+            clearance,
         }
     }
-
-    /// Where a point of the moving tile is.
-    pub fn place(&self) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
-        let Placement { rotation, position } = self.placement;
-        move |p| position + rotation * p
-    }
-}
-
-/// A configuration, where it places the moving tile, and how far (m) that is from the other at least.
-#[derive(Clone, Copy, Debug)]
-pub struct Known {
-    end: End,
-    clearance: f64,
 }
 
 /// How far a motion goes.
@@ -147,7 +129,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    fn between(a: &End, b: &End) -> Self {
+    fn between(a: &Known, b: &Known) -> Self {
         Self {
             path: (b.placement.position - a.placement.position).norm(),
             turn: wrap_angle(b.theta - a.theta),
@@ -169,7 +151,7 @@ impl Step {
 
 /// A motion or a part of one, and what of it counts for proofs of separation.
 pub(super) struct Motion<'a> {
-    pub ends: &'a [End; 2],
+    pub ends: &'a [Placement; 2],
     step: &'a Step,
     /// Depth of overlap (m) let pass.
     pub allowed: f64,
@@ -178,7 +160,7 @@ pub(super) struct Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    pub fn new(ends: &'a [End; 2], step: &'a Step, allowed: f64) -> Self {
+    pub fn new(ends: &'a [Placement; 2], step: &'a Step, allowed: f64) -> Self {
         Self {
             ends,
             step,
@@ -188,22 +170,29 @@ impl<'a> Motion<'a> {
     }
 
     /// Half way.
-    pub fn middle(&self) -> End {
+    pub fn middle(&self) -> Placement {
         let [a, b] = self.ends;
-        let theta = a.theta + self.step.turn / 2.0;
-        End {
-            placement: Placement {
-                rotation: Rotation2::new(theta),
-                position: (a.placement.position + b.placement.position) / 2.0,
-            },
-            theta,
+        Placement {
+            rotation: self.half_turned(),
+            position: (a.position + b.position) / 2.0,
         }
+    }
+
+    /// The rotation half way: between those at the ends, the sum of which is too short to tell where
+    /// they are nearly opposite.
+    fn half_turned(&self) -> Rotation2<f64> {
+        let [a, b] = self.ends.each_ref().map(|at| &at.rotation);
+        if self.step.turn.abs() > 3.0 {
+            return a * Rotation2::new(self.step.turn / 2.0);
+        }
+        let sum = a.matrix() + b.matrix();
+        Rotation2::from_matrix_unchecked(sum / sum.column(0).norm())
     }
 
     /// Whether the line of one edge keeps a fixed part and a moving one, given in its own frame,
     /// apart throughout.
     pub fn separates(&self, (fixed, moving): (&ConvexPart, &ConvexPart)) -> bool {
-        let [a, b] = self.ends.each_ref().map(|end| &end.placement);
+        let [a, b] = self.ends;
         let [(inside_moving, moving_radius), (inside_fixed, fixed_radius)] =
             [moving.disc, fixed.disc];
         let seen = |at: &Placement| at.position + at.rotation * inside_moving;
@@ -223,7 +212,7 @@ impl<'a> Motion<'a> {
         normal: &Vector2<f64>,
         moving: &ConvexPart,
     ) -> bool {
-        let [a, b] = self.ends.each_ref().map(|end| &end.placement);
+        let [a, b] = self.ends;
         let turn = self.step.turn * self.step.turn;
         let (normal_a, normal_b) = (a.direction(normal), b.direction(normal));
         let level = |at: &Placement| normal.dot(&(at.position - point)) + self.allowed;
@@ -241,7 +230,7 @@ impl<'a> Motion<'a> {
         normal: &Vector2<f64>,
         fixed: &ConvexPart,
     ) -> bool {
-        let [a, b] = self.ends.each_ref().map(|end| &end.placement);
+        let [a, b] = self.ends;
         let turn = self.step.turn * self.step.turn;
         let both = 2.0 * self.step.turn.abs() * self.step.path;
         let (normal_a, normal_b) = (a.rotation * normal, b.rotation * normal);
@@ -278,4 +267,30 @@ fn stays_above([p, q]: [f64; 2], bend: impl Fn() -> f64) -> bool {
     }
     let rest = bend() / 2.0 - p - q;
     rest <= 0.0 || rest * rest <= 4.0 * p * q
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of parabolas with a second derivative that a bound allows, the steepest touches 0 where the
+    /// bound does.
+    #[test]
+    fn what_stays_above_is_told_from_what_bends_below() {
+        for (p, q) in [(0.0, 2.0), (0.5, 0.5), (0.1, 3.0), (2.0, 1e-6), (0.0, 0.0)] {
+            let most = 2.0 * (f64::sqrt(p) + f64::sqrt(q)).powi(2);
+            let lowest = |bend: f64| {
+                let at = |t: f64| (1.0 - t) * p + t * q - bend * t * (1.0 - t) / 2.0;
+                (0..=1000)
+                    .map(|k| at(f64::from(k) / 1000.0))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            assert!(stays_above([p, q], || most * (1.0 - 1e-9)));
+            assert!(lowest(most) >= -1e-12);
+            assert!(!stays_above([p, q], || most * 1.02 + 1e-3));
+            assert!(lowest(most * 1.02 + 1e-3) < 0.0);
+        }
+        assert!(!stays_above([-1e-12, 1.0], || 0.0));
+        assert!(!stays_above([1.0, -1e-12], || 0.0));
+    }
 }

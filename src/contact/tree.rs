@@ -13,6 +13,8 @@ const LEAF: usize = 4;
 struct Node {
     centre: Vector2<f64>,
     radius: f64,
+    /// How far (m) any point in the circle is from the origin at most.
+    lever: f64,
     /// The pieces below it, as a range of `order`.
     first: usize,
     end: usize,
@@ -27,10 +29,16 @@ pub(super) struct CircleTree {
     order: Vec<usize>,
     /// Of the pieces, by their numbers.
     circles: Vec<Circle>,
+    /// How far (m) any point of a piece is from the origin at most.
+    levers: Vec<f64>,
 }
 
 /// A circle: its centre and its radius (m).
 pub(super) type Circle = (Vector2<f64>, f64);
+
+fn lever((centre, radius): &Circle) -> f64 {
+    centre.norm() + radius
+}
 
 /// A node of a tree and the circle around all its pieces.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +76,7 @@ impl CircleTree {
             nodes: Vec::new(),
             order: (0..circles.len()).collect(),
             circles: circles.to_vec(),
+            levers: circles.iter().map(lever).collect(),
         };
         tree.build(circles, 0, circles.len());
         tree
@@ -89,6 +98,7 @@ impl CircleTree {
         self.nodes.push(Node {
             centre,
             radius,
+            lever: lever(&(centre, radius)),
             first,
             end,
             second: 0,
@@ -195,13 +205,13 @@ impl CircleTree {
     }
 
     /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
-    /// `place`, that may come as near to each other as `distance` says of the other's circle, until
-    /// it returns false; returns whether it never did.
+    /// `place`, that may come as near to each other as `distance` says of how far the other's are from
+    /// its origin, until it returns false; returns whether it never did.
     pub fn near_pairs(
         &self,
         other: &Self,
         place: &impl Fn(Vector2<f64>) -> Vector2<f64>,
-        distance: &impl Fn(&Circle) -> f64,
+        distance: &impl Fn(f64) -> f64,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
         let search = PairSearch {
@@ -233,13 +243,13 @@ struct Placed {
 impl<P, D> PairSearch<'_, P, D>
 where
     P: Fn(Vector2<f64>) -> Vector2<f64>,
-    D: Fn(&Circle) -> f64,
+    D: Fn(f64) -> f64,
 {
     fn placed(&self, branch: Branch) -> Placed {
         Placed {
             branch,
             centre: (self.place)(branch.centre),
-            reach: branch.radius + (self.distance)(&(branch.centre, branch.radius)),
+            reach: branch.radius + (self.distance)(self.theirs.nodes[branch.node].lever),
         }
     }
 
@@ -249,7 +259,7 @@ where
             return true;
         }
         match (self.ours.below(a), self.theirs.below(&b.branch)) {
-            (Below::Pieces(ours), Below::Pieces(theirs)) => self.among(ours, theirs, found),
+            (Below::Pieces(ours), Below::Pieces(theirs)) => self.among(a, ours, theirs, found),
             (Below::Branches(ours), theirs)
                 if a.radius >= b.branch.radius || matches!(theirs, Below::Pieces(_)) =>
             {
@@ -266,14 +276,19 @@ where
 
     fn among(
         &self,
+        around: &Branch,
         ours: &[usize],
         theirs: &[usize],
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
         theirs.iter().all(|&j| {
-            let circle = &self.theirs.circles[j];
-            let centre = (self.place)(circle.0);
-            let reach = circle.1 + (self.distance)(circle);
+            let (centre, radius) = self.theirs.circles[j];
+            let centre = (self.place)(centre);
+            let reach = radius + (self.distance)(self.theirs.levers[j]);
+            let most = around.radius + reach;
+            if (around.centre - centre).norm_squared() > most * most {
+                return true;
+            }
             ours.iter().all(|&i| {
                 let (ours, radius) = self.ours.circles[i];
                 let most = radius + reach;

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::contact::{Contact, TOUCH};
+use tilebind::contact::{Contact, Halves, TOUCH};
 
 use super::{saw, square};
 
@@ -97,4 +97,32 @@ fn flush_sliding_is_proved_with_touch_and_refused_where_room_is_asked_for() {
     assert!(!contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), -1e-12));
     assert!(contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0009));
     assert!(!contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0011));
+}
+
+#[test]
+fn what_is_lent_to_many_motions_changes_no_verdict() {
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let mut counts = [0, 0];
+    for (a, b) in [(square(0.4), square(0.4)), (saw(false), saw(true))] {
+        let contact = Contact::new(&a, &b);
+        let mut left = Halves::default();
+        let mut near = || {
+            let q = Configuration::new(
+                rng.random_range(0.39..0.46),
+                rng.random_range(-0.1..0.1),
+                rng.random_range(-0.15..0.15),
+            );
+            contact.is_free(&q).then_some(q)
+        };
+        for _ in 0..4000 {
+            let (Some(a), Some(b)) = (near(), near()) else {
+                continue;
+            };
+            let known = [a, b].map(|q| contact.known(q));
+            let verdict = contact.known_motion_overlaps_at_most(known.each_ref(), TOUCH, &mut left);
+            assert_eq!(verdict, contact.motion_is_free(&a, &b), "{a:?} {b:?}");
+            counts[usize::from(verdict)] += 1;
+        }
+    }
+    assert!(counts[0] > 100 && counts[1] > 100, "{counts:?}");
 }
