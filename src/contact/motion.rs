@@ -65,7 +65,7 @@ impl Contact {
     /// of the moving one.
     ///
     /// Here the distance is taken for the smaller of its two end values throughout, which proves
-    /// less than the [parabola](stays_above) through both does: ways that are bent where this proves
+    /// less than the parabola through both does: ways that are bent where this proves
     /// nothing keep off contact there.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
         let [a, b] = [a, b].map(|end| Known::of(end, 0.0));

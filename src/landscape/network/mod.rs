@@ -182,19 +182,23 @@ impl Network {
 
     /// What a link costs, or what it costs at least as long as it is not weighed.
     pub fn costs(&self, link: usize) -> EdgeCosts {
-        let Link { from, to, costs } = &self.links[link];
-        costs.get().copied().unwrap_or_else(|| {
-            let ends = [*from, *to].map(|node| self.nodes[node as usize]);
-            let [Some((a, from)), Some((b, to))] = ends else {
-                return EdgeCosts::default();
-            };
-            EdgeCosts {
-                peak: from.max(to),
-                length: self.space.distance(&a, &b),
-                work: [(to - from).max(0.0), (from - to).max(0.0)],
-                ..EdgeCosts::default()
-            }
-        })
+        let costs = self.links[link].costs.get();
+        costs.copied().unwrap_or_else(|| self.costs_at_least(link))
+    }
+
+    /// What a straight motion between a link's nodes costs at least.
+    fn costs_at_least(&self, link: usize) -> EdgeCosts {
+        let Link { from, to, .. } = self.links[link];
+        let ends = [from, to].map(|node| self.nodes[node as usize]);
+        let [Some((a, from)), Some((b, to))] = ends else {
+            return EdgeCosts::default();
+        };
+        EdgeCosts {
+            peak: from.max(to),
+            length: self.space.distance(&a, &b),
+            work: [(to - from).max(0.0), (from - to).max(0.0)],
+            ..EdgeCosts::default()
+        }
     }
 
     /// The same of its peak alone (J).

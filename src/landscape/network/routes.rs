@@ -98,8 +98,8 @@ impl Network {
                 if self.is_weighed(number) {
                     offered[target] = total;
                 }
-                let whole = OrderedFloat(total + ahead.of(target));
-                waiting.push(Reverse((whole, number as u32, here as u32)));
+                let key = [total + ahead.of(target), total].map(OrderedFloat);
+                waiting.push(Reverse((key, number as u32, here as u32)));
             }
             here = self.best_of(problem, &mut waiting, &mut reached, (ends, &mut ahead))?;
         }
@@ -129,7 +129,7 @@ impl Network {
     ) -> Option<usize> {
         let (cost, gone) = (ahead.cost, ahead.gone);
         loop {
-            let Reverse((OrderedFloat(least), number, source)) = waiting.pop()?;
+            let Reverse((least, number, source)) = waiting.pop()?;
             let link = &self.links[number as usize];
             let target = link.other_end(source) as usize;
             if reached[target].is_some() {
@@ -142,12 +142,12 @@ impl Network {
             let from = source as usize;
             let price = self.cost(number as usize, from, cost, gone);
             let total = reached[from]?.0 + price;
-            let whole = total + ahead.of(target);
-            if whole <= least {
+            let key = [total + ahead.of(target), total].map(OrderedFloat);
+            if key <= least {
                 reached[target] = Some((total, Some(number)));
                 return Some(target);
             }
-            waiting.push(Reverse((OrderedFloat(whole), number, source)));
+            waiting.push(Reverse((key, number, source)));
         }
     }
 
@@ -172,26 +172,31 @@ impl Network {
     }
 
     /// What it costs to go along a link from one of its ends, or, `Backwards`, to there; at least, where
-    /// it is not weighed.
+    /// it is not weighed. A motion never costs less than that, be it by a rounding: a search would find
+    /// another of two as good routes where somebody else had weighed the link before.
     fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
         let link = &self.links[number];
         let is_back = (link.from as usize != from) != (gone == Gone::Backwards);
         let direction = usize::from(is_back);
+        let least = self.costs_at_least(number);
+        let climb = least.work[direction] - least.work[1 - direction];
+        let least = self.least_cost(cost, least.length, climb);
+        if !self.is_weighed(number) {
+            return least;
+        }
         let costs = self.costs(number);
-        match cost {
-            _ if !self.is_weighed(number) => {
-                let climb = costs.work[direction] - costs.work[1 - direction];
-                self.least_cost(cost, costs.length, climb)
-            }
+        let price = match cost {
             Cost::Work => costs.work[direction],
             Cost::Probability => costs.minus_ln_probability[direction],
             Cost::Below { per_metre, .. } => costs.work[direction] + per_metre * costs.length,
-        }
+        };
+        price.max(least)
     }
 }
 
-/// What a route costs at least that goes on by a link, the link, and the node it is gone from.
-type Waiting = Reverse<(OrderedFloat<f64>, u32, u32)>;
+/// What a route costs at least that goes on by a link, to its end and to the link's, the link, and
+/// the node it is gone from.
+type Waiting = Reverse<([OrderedFloat<f64>; 2], u32, u32)>;
 
 /// Between which nodes a search goes.
 #[derive(Clone, Copy)]
