@@ -8,7 +8,6 @@ use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
 use super::tasks::frame_of_one;
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
-use crate::potential::groups::walk::Sight;
 use crate::potential::patches::square::{NEAR, POWERS, Spread};
 use crate::units::MU0_OVER_4PI;
 
@@ -134,11 +133,8 @@ const SMALL: f64 = 1.0 / 16.0;
 /// A bound of the same sum for a moving tile that lies within reach of the table of the fixed one's
 /// field. Infinite also where the motion is too long for the table.
 pub struct TabulatedBound<'a, const TERMS: usize> {
-    pub potential: &'a DipolePotential,
+    pub bound: DerivativeBound<'a, TERMS>,
     pub many: &'a Many,
-    pub q: &'a Configuration,
-    pub reach: f64,
-    pub terms: [f64; TERMS],
 }
 
 impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
@@ -146,16 +142,17 @@ impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> f64 {
-        let moving = &self.potential.moving;
-        let [fixed, groups] = &self.many.groups;
-        let sight = Sight::new([fixed, groups], self.q);
+        let DerivativeBound { potential, q, .. } = self.bound;
+        let moving = &potential.moving;
+        let sight = self.many.sight(q);
+        let [fixed, groups] = sight.groups;
         let mut sums = Sums::none(l);
         let mut far = 0.0;
         let mut open = vec![0];
         while let Some(number) = open.pop() {
             let group = &groups[number];
             let radius = group.half[0].hypot(group.half[1]);
-            let (place, reach) = (sight.place(group.centre), self.reach + radius);
+            let (place, reach) = (sight.place(group.centre), self.bound.reach + radius);
             let is_small = radius <= SMALL * sight.distance(&fixed[0], group);
             let whole = is_small.then(|| self.many.patches.around(place.into(), reach));
             if let Some(Some(spread)) = whole {
@@ -170,10 +167,10 @@ impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
                         continue;
                     }
                     let place = sight.place(Vector2::new(moving.x[i], moving.y[i]));
-                    let Some(spread) = self.many.patches.around(place.into(), self.reach) else {
+                    let one = (place.into(), self.bound.reach, magnitude);
+                    let Some(spread) = self.many.patches.around(one.0, one.1) else {
                         return f64::INFINITY;
                     };
-                    let one = (place.into(), self.reach, magnitude);
                     far += self.add(l, spread, one, &mut sums);
                 }
             }
@@ -198,14 +195,14 @@ impl<const TERMS: usize> TabulatedBound<'_, TERMS> {
                 let [x, y] = &near.position;
                 let dx = l.sub(l.splat(place[0]), l.load(&x[first..]));
                 let dy = l.sub(l.splat(place[1]), l.load(&y[first..]));
-                let (p, r) = bound(l, &self.terms, [dx, dy], reach);
+                let (p, r) = bound(l, &self.bound.terms, [dx, dy], reach);
                 let product = l.mul(l.load(&near.magnitude[first..]), l.splat(magnitude));
                 sums.nearest = l.min(r, sums.nearest);
                 sums.bound = l.mul_add(p, product, sums.bound);
             }
         }
         let far = spread.far(place, reach);
-        let terms = self.terms.iter().zip(&far[POWERS - TERMS..]);
+        let terms = self.bound.terms.iter().zip(&far[POWERS - TERMS..]);
         magnitude * terms.map(|(term, sum)| term * sum).sum::<f64>()
     }
 }

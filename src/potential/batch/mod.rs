@@ -76,6 +76,10 @@ impl Many {
     fn is_tabulated(&self, q: &Configuration) -> bool {
         q.position().norm() + self.groups[1][0].lever <= self.patches.reach()
     }
+
+    fn sight(&self, q: &Configuration) -> Sight<'_> {
+        Sight::new(self.groups.each_ref().map(Vec::as_slice), q)
+    }
 }
 
 /// The moving tile's dipoles, as a structure of arrays: places (m) and scaled moments
@@ -163,25 +167,20 @@ impl DipolePotential {
         q: &Configuration,
         reach: f64,
     ) -> f64 {
+        let bound = DerivativeBound {
+            potential: self,
+            q,
+            reach,
+            terms,
+        };
         let Some(many) = &self.many else {
-            return self.level.run(DerivativeBound {
-                potential: self,
-                q,
-                reach,
-                terms,
-            });
+            return self.level.run(bound);
         };
         if many.is_tabulated(q) {
-            return self.level.run(TabulatedBound {
-                potential: self,
-                many,
-                q,
-                reach,
-                terms,
-            });
+            return self.level.run(TabulatedBound { bound, many });
         }
-        let [fixed, moving] = [&many.groups[0][0], &many.groups[1][0]];
-        let distance = Sight::new([&many.groups[0], &many.groups[1]], q).distance(fixed, moving);
+        let [fixed, moving] = many.groups.each_ref().map(|groups| &groups[0]);
+        let distance = many.sight(q).distance(fixed, moving);
         let k = MU0_OVER_4PI * fixed.magnitude * moving.magnitude;
         motion::bound(&terms, k, distance - reach)
     }

@@ -4,7 +4,7 @@
 //! dipoles near the patch; its field comes as shares of the lanes, which are summed at the end.
 
 use arrayvec::ArrayVec;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use super::field::{Field, Shares, field_of_each};
 use super::lanes::{Lanes, Task};
@@ -12,9 +12,8 @@ use super::tasks::{frame_of_one, summed};
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
 use crate::potential::dipole::Dipole;
-use crate::potential::groups::walk::Sight;
 use crate::potential::patches::polynomial::{ORDER, Polynomial};
-use crate::potential::patches::square::{NEAR, Near};
+use crate::potential::patches::square::{NEAR, Near, Patch};
 
 /// The most vectors a row of coefficients takes: of four lanes.
 const MOST: usize = ORDER / 4;
@@ -35,10 +34,9 @@ impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let frame = frame_of_one(l, self.q);
-        let (cos, sin) = (l.first(frame.cos), l.first(frame.sin));
         let moving = &self.potential.moving;
-        let [fixed, groups] = &self.many.groups;
-        let sight = Sight::new([fixed, groups], self.q);
+        let sight = self.many.sight(self.q);
+        let [fixed, groups] = sight.groups;
         let mut shares = Shares::zero(l);
         let mut open = vec![0];
         while let Some(number) = open.pop() {
@@ -53,25 +51,32 @@ impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
             let mut rest = some.clone().filter(|i| !is_filling(i)).peekable();
             while rest.peek().is_some() {
                 let some = rest.by_ref().take(TOGETHER).map(|i| {
-                    let (x, y) = (moving.x[i], moving.y[i]);
-                    let place = [cos * x - sin * y + self.q.x, sin * x + cos * y + self.q.y];
+                    let place = sight.place(Vector2::new(moving.x[i], moving.y[i])).into();
                     (i, place, self.many.patches.at(place))
                 });
                 let some: ArrayVec<_, TOGETHER> = some.collect();
                 for (i, place, patch) in &some {
                     let moment = [moving.moment_x[*i], moving.moment_y[*i]];
-                    let places = [l.splat(place[0]), l.splat(place[1])];
-                    let mut field = far::<L, SLOPE>(l, &patch.far, *place);
-                    for near in &patch.near {
-                        field = of_near::<L, SLOPE>(l, near, places, field);
-                    }
+                    let field = field_in::<L, SLOPE>(l, patch, *place);
+                    let place = [l.splat(place[0]), l.splat(place[1])];
                     let moment = [l.splat(moment[0]), l.splat(moment[1])];
-                    shares.gather::<L, SLOPE>(l, &frame, moment, places, &field);
+                    shares.gather::<L, SLOPE>(l, &frame, moment, place, &field);
                 }
             }
         }
         summed(l, &frame, shares)
     }
+}
+
+/// The field at a place in a patch, as shares of the lanes.
+#[inline(always)]
+fn field_in<L: Lanes, const SLOPE: bool>(l: L, patch: &Patch, place: [f64; 2]) -> Field<L::F> {
+    let mut field = far::<L, SLOPE>(l, &patch.far, place);
+    let place = [l.splat(place[0]), l.splat(place[1])];
+    for near in &patch.near {
+        field = of_near::<L, SLOPE>(l, near, place, field);
+    }
+    field
 }
 
 /// What the near dipoles add to the shares of a field.
@@ -194,18 +199,13 @@ impl Task for Sampled<'_> {
         for first in (0..ORDER).step_by(L::WIDTH) {
             let x = l.load(&self.xs[first..]);
             let mut sum = l.splat(0.0);
-            // Some at a time, as roundings grow with the number of terms.
-            for some in self.far.chunks(TOGETHER) {
-                let mut share = l.splat(0.0);
-                for source in some {
-                    let dx = l.sub(x, l.splat(source.position.x));
-                    let dy = l.splat(self.y - source.position.y);
-                    let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
-                    let along = l.mul(l.splat(source.moment.y), dy);
-                    let along = l.mul_add(l.splat(source.moment.x), dx, along);
-                    share = l.add(share, l.div(along, l.mul(r2, l.sqrt(r2))));
-                }
-                sum = l.add(sum, share);
+            for source in self.far {
+                let dx = l.sub(x, l.splat(source.position.x));
+                let dy = l.splat(self.y - source.position.y);
+                let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
+                let along = l.mul(l.splat(source.moment.y), dy);
+                let along = l.mul_add(l.splat(source.moment.x), dx, along);
+                sum = l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))));
             }
             l.store(sum, &mut self.out[first..]);
         }

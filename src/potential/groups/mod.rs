@@ -12,10 +12,9 @@
 //! remainder of the interpolation ([`interpolation::lost`]): no pair of groups loses more than
 //! [`tree::LOST`] = 1e-11 of `mu0 M1 M2 / (4 pi r^3)`, r their distance and M the sums of the
 //! magnitudes of the moments: some 1e-15 of the energies of tiles in contact. A row of magnets needs
-//! nodes along it only. Groups that are closer meet in halves, and in the end
-//! magnet by magnet ([`walk::Walk`]). Energies at one place each are asked of the
-//! table of the other tile's field ([`super::patches`]), which the moving groups meet alone; pairs of groups
-//! make the bounds over cells.
+//! nodes along it only. Groups that are closer meet in halves, and in the end magnet by magnet
+//! ([`walk::Walk`]). So bounds over cells are made; energies are asked of a table of the fixed tile's
+//! field ([`super::patches`]), in which the moving tile's groups lie, as far as that reaches.
 //!
 //! The method is that of Fong and Darve, *The black-box fast multipole method* (Journal of
 //! Computational Physics 228 (2009), 8712), without translations between levels: a pair of groups
