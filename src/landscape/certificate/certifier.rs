@@ -11,6 +11,7 @@ use super::proved::Proofs;
 use super::query::{Goal, Query, SHARPNESS};
 use super::store::{Key, Store};
 use super::upper::ProvedPath;
+use super::ways::Ways;
 use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
@@ -31,6 +32,7 @@ pub struct Certifier<'a> {
     /// Pathways that were proved ahead, or that it is known cannot be.
     foreseen: Vec<Foreseen>,
     pub(super) proofs: Proofs,
+    ways: Ways,
 }
 
 /// A pathway, the tolerance (J) of its proof, and what came of that.
@@ -99,6 +101,7 @@ impl<'a> Certifier<'a> {
             assessed,
             foreseen: Vec::new(),
             proofs: Proofs::default(),
+            ways: Ways::default(),
         }
     }
 
@@ -196,6 +199,26 @@ impl<'a> Certifier<'a> {
         let end = bracket.pathway.last();
         self.proofs.add(from, to, &bracket.bounds, end);
         bracket
+    }
+
+    /// Takes note of a proved pathway, from end to end.
+    pub(super) fn note_way(&mut self, points: &[Configuration]) {
+        if self.ways.include(points) {
+            return;
+        }
+        let proof = self.landscape.proof();
+        let way: Vec<_> = points.iter().map(|q| (*q, proof.value(q).0)).collect();
+        let start = self.ends.holding(&self.store, &points[0]);
+        self.ways.add(&self.store, start, &way);
+    }
+
+    /// The leaves that proved pathways run through and at which energy (J) they do, where their
+    /// middles would not tell that they can be passed.
+    pub(super) fn passable(&mut self) -> Vec<(u32, f64)> {
+        let store = &self.store;
+        let is_misjudged = |id: u32| store.leaf(id).known.is_overlapping();
+        let leaves = self.ways.leaves(store);
+        leaves.filter(|(id, _)| is_misjudged(*id)).collect()
     }
 
     /// Cells assessed so far, over all queries.

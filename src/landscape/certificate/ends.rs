@@ -67,7 +67,8 @@ impl Ends {
         }
     }
 
-    fn holding(&mut self, store: &Store, q: &Configuration) -> Vec<u32> {
+    /// The leaves that hold a configuration.
+    pub fn holding(&mut self, store: &Store, q: &Configuration) -> Vec<u32> {
         let bits = [q.x, q.y, q.theta].map(f64::to_bits);
         let place = store.place(q);
         let holds = |id: u32| {

@@ -37,6 +37,11 @@ const BARRED: u8 = 16;
 const NONE: u32 = u32::MAX;
 const DRY: u32 = u32::MAX - 1;
 
+/// A leaf that a known way runs through is one to be passed, whatever its middle says, if the way lies
+/// below the level by more than the leaf's lower bound lies below the way, by this factor. In larger
+/// ones there is more than the way, and a flood would leak through.
+const SETTLED: f64 = 16.0;
+
 /// A leaf to spread to: its rank, its number, and the leaf before it. In this order they decide
 /// which comes first.
 type Entry = Reverse<(u64, u32, u32)>;
@@ -52,7 +57,7 @@ type Entry = Reverse<(u64, u32, u32)>;
 /// the end: states that are left over low passes are many, and their basins small.
 struct Flood<'a> {
     store: &'a Store,
-    ranks: &'a [f64],
+    ranks: Vec<f64>,
     /// Leaves that hold the other end, and the energy (J) known of it there, by their numbers.
     goals: Vec<(u32, f64)>,
     state: Vec<u8>,
@@ -67,10 +72,16 @@ struct Flood<'a> {
     found: Watershed,
 }
 
-/// What keeps the ends of a query apart. Of a divide of more than `most` leaves (at least one) those
-/// of the lowest passes are found.
-pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64, most: usize) -> Watershed {
-    let mut flood = Flood::new(store, seeds, level);
+/// What keeps the ends of a query apart below a level (J), where `known` leaves can be passed at an
+/// energy (J). Of a divide of more than `most` leaves (at least one) those of the lowest passes are
+/// found.
+pub(super) fn watershed(
+    store: &Store,
+    seeds: &Seeds,
+    (level, known): (f64, &[(u32, f64)]),
+    most: usize,
+) -> Watershed {
+    let mut flood = Flood::new(store, seeds, level, known);
     while flood.found.divide.len() < most {
         let Some(Reverse((rank, id, before))) = flood.queue.pop() else {
             break;
@@ -84,15 +95,23 @@ pub(super) fn watershed(store: &Store, seeds: &Seeds, level: f64, most: usize) -
 }
 
 impl<'a> Flood<'a> {
-    fn new(store: &'a Store, seeds: &Seeds, level: f64) -> Self {
+    fn new(store: &'a Store, seeds: &Seeds, level: f64, known: &[(u32, f64)]) -> Self {
+        let mut ranks = if level < f64::INFINITY {
+            store.by_energy().to_vec()
+        } else {
+            store.by_overlap().to_vec()
+        };
+        for &(id, energy) in known {
+            let settled = energy + SETTLED * (energy - store.lower(id));
+            if settled < level {
+                let rank = &mut ranks[id as usize];
+                *rank = rank.min(settled);
+            }
+        }
         let barred = |lower: &f64| if *lower <= level { 0 } else { BARRED };
         let mut flood = Self {
             store,
-            ranks: if level < f64::INFINITY {
-                store.by_energy()
-            } else {
-                store.by_overlap()
-            },
+            ranks,
             goals: seeds.to.clone(),
             state: store.lowers().iter().map(barred).collect(),
             before: vec![DRY; store.len()],
@@ -274,11 +293,11 @@ mod tests {
             };
             let mut level = 0.8;
             for round in 0..40 {
-                let all = watershed(&store, &seeds, level, usize::MAX);
+                let all = watershed(&store, &seeds, (level, &[]), usize::MAX);
                 let lowest = minimax(&store, &seeds, level, &[]);
                 assert_eq!(all.pass.is_some(), lowest.is_some());
                 assert_eq!(minimax(&store, &seeds, level, &all.divide), None);
-                let few = watershed(&store, &seeds, level, 12);
+                let few = watershed(&store, &seeds, (level, &[]), 12);
                 assert_eq!(few.divide, all.divide[..few.divide.len()]);
                 let Some((_, chain)) = all.pass else {
                     continue;

@@ -33,6 +33,11 @@ impl Assessment {
         self.estimate + UNCERTAINTY * (self.estimate - self.lower)
     }
 
+    /// Whether the estimate is but that of a cell whose middle lies deep in overlap.
+    pub fn is_overlapping(&self) -> bool {
+        self.estimate >= OVERLAPPING
+    }
+
     /// This of a part of a cell of which `whole` is known.
     pub fn within(self, whole: &Self) -> Self {
         Self {

@@ -46,6 +46,7 @@ mod proved;
 mod query;
 mod store;
 pub(super) mod upper;
+mod ways;
 
 use std::time::Duration;
 

@@ -102,6 +102,9 @@ impl<'q, 'a> Query<'q, 'a> {
         query.best = query
             .joined_to_the_ends(known)
             .and_then(|path| query.certifier.known_path(&path, effort.tolerance));
+        if let Some(best) = &query.best {
+            query.certifier.note_way(&best.points);
+        }
         query.is_known = query.level() <= proved;
         query
     }
@@ -111,9 +114,10 @@ impl<'q, 'a> Query<'q, 'a> {
         while self.level() > self.floor {
             let level = self.level();
             let seeds = self.seeds();
+            let known = self.certifier.passable();
             let store = &self.certifier.store;
             let most = SPLITS.max((store.len() - self.leaves_before) / SPLIT_SHARE);
-            let found = watershed(store, &seeds, level, most);
+            let found = watershed(store, &seeds, (level, &known), most);
             let going_on = watch(&Progress {
                 cells: self.cells(),
                 rounds: self.rounds,
@@ -191,6 +195,7 @@ impl<'q, 'a> Query<'q, 'a> {
         let ceiling = self.level() + (1.0 - GAIN) * self.effort.tolerance;
         match self.prove(&path, ceiling) {
             Ok(proved) if proved.upper <= ceiling || self.best.is_none() => {
+                self.certifier.note_way(&proved.points);
                 self.best = Some(proved);
                 self.improved = true;
                 Ok(())

@@ -62,6 +62,8 @@ pub(super) struct Leaf {
     pub neighbours: Vec<u32>,
     /// Whether it still is a leaf.
     pub live: bool,
+    /// The leaf that it was cut from; itself, if it is one of the first.
+    pub whole: u32,
 }
 
 /// The leaves. Those of the table's whole configuration space that are not among them are blocked.
@@ -162,7 +164,7 @@ impl Store {
 
     /// Adds the first cells.
     pub fn fill(&mut self, cells: &[(Key, Assessment)]) {
-        self.add(cells, &[]);
+        self.add(None, cells, &[]);
     }
 
     /// Puts the parts of a leaf that are not blocked in its place.
@@ -176,11 +178,11 @@ impl Store {
                 list.swap_remove(place);
             }
         }
-        self.add(parts, &around);
+        self.add(Some(id), parts, &around);
     }
 
-    /// Adds leaves that touch each other and the leaves `around` only.
-    fn add(&mut self, parts: &[(Key, Assessment)], around: &[u32]) {
+    /// Adds leaves that touch each other and the leaves `around` only, cut from the leaf `whole`.
+    fn add(&mut self, whole: Option<u32>, parts: &[(Key, Assessment)], around: &[u32]) {
         let first = self.leaves.len() as u32;
         for (id, &(key, known)) in (first..).zip(parts) {
             let neighbours: Vec<u32> = around
@@ -200,6 +202,7 @@ impl Store {
                 known,
                 neighbours,
                 live: true,
+                whole: whole.unwrap_or(id),
             });
         }
     }

@@ -7,3 +7,4 @@ mod paper_tile;
 mod quadratic;
 mod random_designs;
 mod scene;
+mod slots;

@@ -1,0 +1,30 @@
+//! Deep slots without play, in which almost every configuration overlaps.
+
+use tilebind::design::Design;
+use tilebind::observer::Silent;
+use tilebind::pipeline::{Settings, analyse};
+
+/// Five square teeth of this depth (m).
+fn teeth(depth: f64) -> Design {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shapes/square-teeth-10mm.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let deeper = text.replace("depth = 0.010", &format!("depth = {depth}"));
+    assert_ne!(deeper, text);
+    Design::parse(&deeper, "deep.toml").unwrap()
+}
+
+/// Between teeth that stand on each other slots lead to other bonds. What keeps two states apart lies
+/// before the slots, not in them, where ways in are known.
+#[test]
+fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
+    let mut settings = Settings {
+        milestones: 4000,
+        far_starts: 100,
+        ..Settings::default()
+    };
+    settings.completeness.seconds = 0.0;
+    let analysis = analyse(&teeth(0.05), &settings, &Silent);
+    // Three of them are narrowed to no width that is worth while, for 20,000 to 50,000 cells each.
+    let cells = analysis.counts.cells;
+    assert!(cells < 300_000, "{cells}");
+}
