@@ -150,10 +150,23 @@ impl Contact {
     }
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`] where the moving one is turned and
-    /// placed like this.
-    pub(crate) fn is_free_turned(&self, rotation: Rotation2<f64>, position: Vector2<f64>) -> bool {
+    /// placed like this, and how far (m) it may be moved, not turned, with the same answer: 0 where
+    /// neither the convex hulls nor the largest parts tell.
+    pub(crate) fn is_free_turned(
+        &self,
+        rotation: Rotation2<f64>,
+        position: Vector2<f64>,
+    ) -> (bool, f64) {
         let at = Placement { rotation, position };
-        self.placed_overlaps_at_most(&at, TOUCH)
+        let apart = separation(&self.fixed_hull, &self.moving_hull, &at);
+        if apart >= 0.0 {
+            return (true, apart);
+        }
+        let deep = -TOUCH - separation(&self.fixed_core, &self.moving_core, &at);
+        if deep > 0.0 {
+            return (false, deep);
+        }
+        (self.placed_overlaps_at_most(&at, TOUCH), 0.0)
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.

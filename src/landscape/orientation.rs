@@ -7,7 +7,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::map::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::TOUCH;
+use crate::contact::{Contact, TOUCH};
 use crate::interruption;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
@@ -81,9 +81,14 @@ impl<'a> Search<'a> {
         thetas.iter().any(|&theta| self.is_free(&at(place, theta)))
     }
 
-    /// What is free at each place, as far as the sampled orientations tell.
+    /// What is free at each place, as far as the sampled orientations tell; soonest told where each
+    /// place is near the one before.
     pub fn find(&self, places: &[Vector2<f64>]) -> Vec<Option<Found>> {
-        let free: Vec<_> = places.iter().map(|p| self.free_orientations(*p)).collect();
+        let mut known = Known::default();
+        let free = places
+            .iter()
+            .map(|p| self.free_orientations(*p, &mut known));
+        let free: Vec<_> = free.collect();
         let candidates = free.iter().map(|(candidates, _)| candidates.clone());
         let lowest = self.lowest(candidates.collect());
         lowest
@@ -160,7 +165,11 @@ impl<'a> Search<'a> {
 
     /// The free orientations at a place with those in contact at the ends of each free range, and
     /// the middle of the widest range (rad).
-    fn free_orientations(&self, place: Vector2<f64>) -> (Vec<Configuration>, f64) {
+    fn free_orientations(
+        &self,
+        place: Vector2<f64>,
+        known: &mut Known,
+    ) -> (Vec<Configuration>, f64) {
         let distance = place.norm();
         if distance < self.inner {
             return (Vec::new(), 0.0);
@@ -168,10 +177,10 @@ impl<'a> Search<'a> {
         interruption::check();
         let contact = self.problem.contact.as_ref();
         let contact = contact.filter(|_| distance < self.outer);
-        let is_free = |rotation: &Rotation2<f64>| {
-            contact.is_none_or(|contact| contact.is_free_turned(*rotation, place))
+        let free = match contact {
+            Some(contact) => known.free_at(place, contact, &self.rotations),
+            None => vec![true; self.rotations.len()],
         };
-        let free: Vec<bool> = self.rotations.iter().map(is_free).collect();
         let sampled = self.thetas.iter().zip(&free).filter(|(_, free)| **free);
         let mut thetas: Vec<f64> = sampled.map(|(&theta, _)| theta).collect();
         let ranges = self.free_ranges(place, &free);
@@ -217,6 +226,37 @@ impl<'a> Search<'a> {
             }
         }
         free
+    }
+}
+
+/// What is known of the sampled orientations from the place that was looked at last.
+#[derive(Default)]
+struct Known {
+    place: Vector2<f64>,
+    /// Whether each is free, and how far (m) from that place it stays so.
+    free: Vec<(bool, f64)>,
+}
+
+impl Known {
+    /// Which orientations are free at a place; only those are looked at that may have changed.
+    fn free_at(
+        &mut self,
+        place: Vector2<f64>,
+        contact: &Contact,
+        rotations: &[Rotation2<f64>],
+    ) -> Vec<bool> {
+        let step = (place - self.place).norm();
+        self.place = place;
+        self.free.resize(rotations.len(), (false, 0.0));
+        let all = self.free.iter_mut().zip(rotations);
+        let look = |((free, around), rotation): (&mut (bool, f64), &Rotation2<f64>)| {
+            *around -= step;
+            if *around <= TOUCH {
+                (*free, *around) = contact.is_free_turned(*rotation, place);
+            }
+            *free
+        };
+        all.map(look).collect()
     }
 }
 

@@ -177,8 +177,7 @@ pub(super) fn rounded(value: f64, count: u8) -> String {
     while digits.is_multiple_of(10) {
         digits /= 10;
     }
-    let sign = if value < 0.0 { "-" } else { "" };
-    format!("{sign}{}", written(&digits.to_string(), power))
+    written(value < 0.0, &digits.to_string(), power)
 }
 
 /// `size` times a power of ten, rounded.
@@ -188,26 +187,43 @@ fn scaled(size: f64, power: i32) -> u64 {
     (size * 10f64.powi(first) * 10f64.powi(rest)).round() as u64
 }
 
-/// Some digits, the first of which counts as this power of ten.
-fn written(digits: &str, power: i32) -> String {
-    let after = digits.len() as i32 - 1 - power;
+/// A number of some digits, the first of which counts as this power of ten.
+fn written(is_negative: bool, digits: &str, power: i32) -> String {
+    let (count, size) = (digits.len() as i32, power.unsigned_abs());
     let plain = match power {
-        ..0 => format!("0.{}{digits}", "0".repeat((-1 - power) as usize)),
-        _ if after <= 0 => format!("{digits}{}", "0".repeat(-after as usize)),
-        _ => format!(
-            "{}.{}",
-            &digits[..=power as usize],
-            &digits[power as usize + 1..]
-        ),
+        ..0 => 1 - power + count,
+        _ if count <= power + 1 => power + 1,
+        _ => count + 1,
     };
-    let (first, rest) = digits.split_at(1);
-    let point = if rest.is_empty() { "" } else { "." };
-    let scientific = format!("{first}{point}{rest}e{power}");
-    if scientific.len() < plain.len() {
-        scientific
-    } else {
-        plain
+    let exponent = i32::from(power < 0) + 1 + size.checked_ilog10().unwrap_or(0) as i32;
+    let scientific = count + i32::from(count > 1) + 1 + exponent;
+    let mut text = String::with_capacity(1 + plain.min(scientific) as usize);
+    if is_negative {
+        text.push('-');
     }
+    if scientific < plain {
+        let (first, rest) = digits.split_at(1);
+        text.push_str(first);
+        if !rest.is_empty() {
+            text.push('.');
+            text.push_str(rest);
+        }
+        text.push('e');
+        text.push_str(&power.to_string());
+    } else if power < 0 {
+        text.push_str("0.");
+        text.extend((1..size).map(|_| '0'));
+        text.push_str(digits);
+    } else if count <= power + 1 {
+        text.push_str(digits);
+        text.extend((count..=power).map(|_| '0'));
+    } else {
+        let (whole, rest) = digits.split_at(power as usize + 1);
+        text.push_str(whole);
+        text.push('.');
+        text.push_str(rest);
+    }
+    text
 }
 
 #[cfg(test)]

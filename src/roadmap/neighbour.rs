@@ -90,21 +90,24 @@ pub fn neighbour_pairs(
     }
     let k = k.min(milestones.len() - 1);
     let search = NeighbourSearch::new(milestones, space);
-    let mut pairs: Vec<(u32, u32)> = milestones
+    let near: Vec<Vec<u32>> = milestones
         .par_iter()
-        .enumerate()
-        .flat_map_iter(|(i, milestone)| {
+        .map(|milestone| {
             interruption::check();
-            let i = i as u32;
-            search
-                .nearest(&milestone.configuration, k + 1)
-                .into_iter()
-                .filter(move |f| f.1 != i)
-                .take(k)
-                .map(move |(_, j)| (i.min(j), i.max(j)))
+            let found = search.nearest(&milestone.configuration, k + 1);
+            found.into_iter().map(|(_, index)| index).collect()
         })
         .collect();
-    pairs.par_sort_unstable();
-    pairs.dedup();
-    pairs
+    let mut later: Vec<Vec<u32>> = vec![Vec::new(); milestones.len()];
+    for (i, near) in (0u32..).zip(&near) {
+        for &j in near.iter().filter(|j| **j != i).take(k) {
+            later[i.min(j) as usize].push(i.max(j));
+        }
+    }
+    later.par_iter_mut().for_each(|later| {
+        later.sort_unstable();
+        later.dedup();
+    });
+    let with = |(i, later): (u32, Vec<u32>)| later.into_iter().map(move |j| (i, j));
+    (0..).zip(later).flat_map(with).collect()
 }
