@@ -124,6 +124,7 @@ fn sampled(
 ) -> Grid<Sample> {
     let values = y
         .par_iter()
+        .with_max_len(1)
         .flat_map_iter(|&y| {
             let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
             let free: Vec<_> = row.iter().flatten().copied().collect();

@@ -90,6 +90,7 @@ impl EnergyMap {
         let search = Search::new(problem, orientations);
         let found = y
             .par_iter()
+            .with_max_len(1)
             .flat_map_iter(|&y| {
                 let places: Vec<_> = x.iter().map(|&x| window.place(x, y)).collect();
                 search.find(&places)

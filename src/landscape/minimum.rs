@@ -96,9 +96,10 @@ impl Known {
     pub fn learn(&mut self, problem: &Problem, starts: &[Configuration]) -> Vec<Outcome> {
         let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
         while outcomes.len() < starts.len() {
-            // As many again as there were, which may come on the slides of those.
+            // As many again as there were, which may come on the slides of those. One by one: left to
+            // itself, rayon deals out a few long parts, and threads wait for the last.
             let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
-            let new = starts[outcomes.len()..next].par_iter();
+            let new = starts[outcomes.len()..next].par_iter().with_max_len(1);
             let descents: Vec<Descent> = new.map(|q| approach(problem, q, self)).collect();
             for descent in descents {
                 self.slides.add(descent.stretches, &descent.outcome);

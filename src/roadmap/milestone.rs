@@ -22,7 +22,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::Milestone;
+use super::{Milestone, PART};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
@@ -76,7 +76,8 @@ const MOST_PROPOSALS: usize = 10_000;
 pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Milestone> {
     (0..settings.count)
         .into_par_iter()
-        .with_min_len(16)
+        .with_min_len(PART / 4)
+        .with_max_len(PART)
         .filter_map(|i| {
             let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
             rng.set_stream(i as u64);

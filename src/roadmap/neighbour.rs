@@ -7,7 +7,7 @@ use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use ordered_float::OrderedFloat;
 use rayon::prelude::*;
 
-use super::Milestone;
+use super::{Milestone, PART};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::interruption;
 
@@ -92,6 +92,7 @@ pub fn neighbour_pairs(
     let search = NeighbourSearch::new(milestones, space);
     let near: Vec<Vec<u32>> = milestones
         .par_iter()
+        .with_max_len(PART)
         .map(|milestone| {
             interruption::check();
             let found = search.nearest(&milestone.configuration, k + 1);

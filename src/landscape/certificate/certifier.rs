@@ -22,6 +22,9 @@ use crate::potential::bounds::CellBounds;
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: usize = 3;
 
+/// Leaves that a thread subdivides one after the other.
+const TOGETHER: usize = 8;
+
 /// Certifies barriers of one landscape. What one query finds out about the landscape serves the
 /// next ones.
 pub struct Certifier<'a> {
@@ -122,7 +125,8 @@ impl<'a> Certifier<'a> {
                 tolerance,
             })
         };
-        self.foreseen = paths.into_par_iter().filter_map(foreseen).collect();
+        let paths = paths.into_par_iter().with_max_len(1);
+        self.foreseen = paths.filter_map(foreseen).collect();
     }
 
     /// What comes of proving a known pathway for a query with a tolerance (J).
@@ -231,6 +235,7 @@ impl<'a> Certifier<'a> {
     pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
         let divided: Vec<_> = ids
             .par_iter()
+            .with_max_len(TOGETHER)
             .map(|&id| {
                 interruption::check();
                 let leaf = self.store.leaf(id);

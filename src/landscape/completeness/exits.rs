@@ -87,6 +87,7 @@ impl<'a> Exits<'a> {
         while !left.is_empty() {
             let joined: Vec<Option<usize>> = left
                 .par_iter()
+                .with_max_len(1)
                 .map(|&k| self.join(&places[k], first))
                 .collect();
             for (&k, ending) in left.iter().zip(joined) {
@@ -95,7 +96,8 @@ impl<'a> Exits<'a> {
             left.retain(|&k| found[k].is_none());
             first = self.exits.len();
             let rest = left.split_off(left.len().min(TOGETHER));
-            let ways: Vec<_> = left.par_iter().map(|&k| self.descent(&places[k])).collect();
+            let each = left.par_iter().with_max_len(1);
+            let ways: Vec<_> = each.map(|&k| self.descent(&places[k])).collect();
             for (&k, way) in left.iter().zip(ways) {
                 let Some((minimum, highest)) = way else {
                     continue;

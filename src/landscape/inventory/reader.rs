@@ -48,7 +48,8 @@ impl Reader<'_> {
         let bound = order.first().copied();
         let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
         let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
-        let states: Vec<State> = classes.par_iter().flat_map_iter(of_class).collect();
+        let each = classes.par_iter().with_max_len(1);
+        let states: Vec<State> = each.flat_map_iter(of_class).collect();
         Inventory {
             barriers: self.barriers(&classes, &ids, bound),
             alternatives: self.alternatives(&states, &order, bound),
@@ -223,7 +224,8 @@ impl Reader<'_> {
     /// also where none is known for the bond, or no way out at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
-        classes.par_iter().flat_map_iter(of_class).collect()
+        let each = classes.par_iter().with_max_len(1);
+        each.flat_map_iter(of_class).collect()
     }
 
     fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
@@ -278,7 +280,8 @@ impl Reader<'_> {
             }
         }
         let found = |(from, to, by)| self.alternative(from, to, by);
-        asked.into_par_iter().filter_map(found).collect()
+        let each = asked.into_par_iter().with_max_len(1);
+        each.filter_map(found).collect()
     }
 
     fn alternative(

@@ -37,8 +37,7 @@ struct Waiting {
 }
 
 impl Waiting {
-    fn new(links: impl Iterator<Item = ByPeak>) -> Self {
-        let mut ascending: Vec<ByPeak> = links.collect();
+    fn new(mut ascending: Vec<ByPeak>) -> Self {
         ascending.par_sort_unstable();
         Self {
             ascending: ascending.into_iter().peekable(),
@@ -93,7 +92,8 @@ impl Network {
             let link = &self.links[*number as usize];
             !joined.equiv(link.from, link.to)
         });
-        let mut waiting = Waiting::new(left.into_iter().map(|number| self.by_peak(number)));
+        let by_peak = |number| self.by_peak(number);
+        let mut waiting = Waiting::new(left.into_par_iter().map(by_peak).collect());
         // Once a link has to be weighed, others that follow and join other parts of the forest; all
         // that are looked at meanwhile, and the parts that they touch.
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
@@ -153,7 +153,7 @@ impl Network {
                 below[*upper as usize].push((self.length(number), number as u32));
             }
         }
-        below.iter_mut().for_each(|links| links.sort_unstable());
+        below.par_iter_mut().for_each(|links| links.sort_unstable());
         let mut found = Vec::with_capacity(self.nodes.len());
         let mut open: Vec<usize> = (0..self.nodes.len()).collect();
         // A look at the next link of each node, all of them side by side.

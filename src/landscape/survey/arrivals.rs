@@ -35,6 +35,7 @@ impl Survey {
         let known = self.known();
         let found: Vec<Stationary> = new
             .into_par_iter()
+            .with_max_len(1)
             .filter_map(|end| match descend_among(problem, end, &known).outcome {
                 Outcome::Minimum(found) if found.point.energy < below => Some(*found),
                 _ => None,
@@ -62,6 +63,7 @@ impl Survey {
         let known = self.known();
         let descents: Vec<_> = starts
             .par_iter()
+            .with_max_len(1)
             .map(|q| approach(problem, q, &known))
             .collect();
         for mut descent in descents {

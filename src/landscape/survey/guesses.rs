@@ -78,6 +78,7 @@ impl Survey {
         let verified = self.known();
         let descents: Vec<Descent> = places
             .par_iter()
+            .with_max_len(1)
             .map(|q| descend_among(problem, q, &verified))
             .collect();
         for descent in &descents {

@@ -217,6 +217,7 @@ impl Survey {
             let known = self.known();
             let descents: Vec<Descent> = some
                 .par_iter()
+                .with_max_len(1)
                 .map(|(_, q)| descend_among(problem, q, &known))
                 .collect();
             for ((node, _), descent) in some.iter().zip(descents) {

@@ -39,6 +39,7 @@ impl Survey {
     ) {
         let found: Vec<Option<Stationary>> = places
             .par_iter()
+            .with_max_len(1)
             .map(|(q, along)| {
                 stationary::transition_state(problem, q, along)
                     .filter(|found| problem.is_free(&found.point.q))
@@ -57,6 +58,7 @@ impl Survey {
         let known = self.known();
         let joined: Vec<[Option<Descent>; 2]> = fresh
             .par_iter()
+            .with_max_len(1)
             .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
             .collect();
         for (saddle, sides) in fresh.into_iter().zip(joined) {
