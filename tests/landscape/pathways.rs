@@ -137,3 +137,24 @@ fn a_smaller_tolerance_never_gives_a_wider_bracket() {
     assert!(no_wider(&narrowest, &narrow), "{narrowest:?} {narrow:?}");
     assert!(narrowest.iter().sum::<f64>() < 0.9 * wide.iter().sum::<f64>());
 }
+
+/// Searches side by side weigh motions for each other, in whatever order: which of two equally good
+/// routes is taken does not depend on it.
+#[test]
+fn ways_are_the_same_on_any_number_of_threads() {
+    let design = designs::load("shapes/square-teeth-10mm.toml");
+    let mut settings = Settings {
+        far_starts: 60,
+        certify_seconds: 0.0,
+        ..Settings::default()
+    };
+    settings.completeness.seconds = 0.0;
+    let [one, two] = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap()
+            .install(|| analyse(&design, &settings, &Silent))
+    });
+    assert_eq!(one.inventory.barriers, two.inventory.barriers);
+    assert_eq!(one.inventory.alternatives, two.inventory.alternatives);
+    assert_eq!(one.counts.energy_evaluations, two.counts.energy_evaluations);
+}
