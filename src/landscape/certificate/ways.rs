@@ -27,7 +27,7 @@ impl Ways {
             let known = self.points[range.clone()].iter().map(|(q, _)| q);
             range.len() == points.len() && known.eq(points)
         };
-        self.each.iter().any(|range| is_it(range))
+        self.each.iter().any(is_it)
     }
 
     /// Adds a pathway that starts in the leaves `start`.
