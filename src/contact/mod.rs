@@ -144,9 +144,14 @@ impl Contact {
     fn placed_overlaps_at_most(&self, at: &Placement, depth: f64) -> bool {
         self.hulls_are_clear_by(at, 0.0)
             || (separated(&self.fixed_core, &self.moving_core, at, -depth)
-                && self.close_parts(at, |fixed, moving| {
-                    separated(fixed, moving, &Placement::none(), -depth)
-                }))
+                && self.parts_overlap_at_most(at, depth))
+    }
+
+    /// The same, part by part.
+    fn parts_overlap_at_most(&self, at: &Placement, depth: f64) -> bool {
+        self.close_parts(at, |fixed, moving| {
+            separated(fixed, moving, &Placement::none(), -depth)
+        })
     }
 
     /// Whether the tiles overlap nowhere deeper than [`TOUCH`] where the moving one is turned and
@@ -166,7 +171,7 @@ impl Contact {
         if deep > 0.0 {
             return (false, deep);
         }
-        (self.placed_overlaps_at_most(&at, TOUCH), 0.0)
+        (self.parts_overlap_at_most(&at, TOUCH), 0.0)
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.

@@ -222,32 +222,34 @@ impl Store {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    const KNOWN: Assessment = Assessment {
+    pub const KNOWN: Assessment = Assessment {
         lower: 0.0,
         estimate: 0.0,
         overlap: 0.0,
         axis: 0,
     };
 
-    #[test]
-    fn neighbours_are_exactly_the_leaves_that_touch() {
+    /// The first cells of a table, nothing known of any.
+    pub fn first_cells() -> Store {
         let space = ConfigurationSpace {
             half_size: [1.0, 0.7],
             rho: 0.2,
             free_distance: 0.9,
         };
         let mut store = Store::new(&space);
-        store.fill(
-            &Store::first_keys()
-                .iter()
-                .map(|k| (*k, KNOWN))
-                .collect::<Vec<_>>(),
-        );
+        let keys = Store::first_keys().into_iter();
+        store.fill(&keys.map(|key| (key, KNOWN)).collect::<Vec<_>>());
+        store
+    }
+
+    #[test]
+    fn neighbours_are_exactly_the_leaves_that_touch() {
+        let mut store = first_cells();
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         for _ in 0..200 {
             let id = rng.random_range(0..store.len() as u32);

@@ -121,17 +121,10 @@ fn within(store: &Store, key: &Key, [from, to]: [&Configuration; 2]) -> Option<[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::ConfigurationSpace;
-    use crate::landscape::certificate::lower::Assessment;
+    use crate::landscape::certificate::ends::Ends;
+    use crate::landscape::certificate::store::tests::{KNOWN, first_cells};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-
-    const KNOWN: Assessment = Assessment {
-        lower: 0.0,
-        estimate: 0.0,
-        overlap: 0.0,
-        axis: 0,
-    };
 
     /// Some steps on, the energy being x, over the turn at the half circle.
     fn way(rng: &mut ChaCha8Rng) -> Vec<(Configuration, f64)> {
@@ -164,27 +157,14 @@ mod tests {
 
     #[test]
     fn ways_are_in_the_leaves_that_hold_their_points_however_those_are_cut() {
-        let space = ConfigurationSpace {
-            half_size: [1.0, 0.7],
-            rho: 0.2,
-            free_distance: 0.9,
-        };
         let mut rng = ChaCha8Rng::seed_from_u64(4);
-        let mut store = Store::new(&space);
-        let first: Vec<_> = Store::first_keys().iter().map(|k| (*k, KNOWN)).collect();
-        store.fill(&first);
+        let mut store = first_cells();
+        let mut ends = Ends::default();
         let mut ways = Ways::default();
         let mut all = Vec::new();
         for _ in 0..3 {
             let new = way(&mut rng);
-            let holds = |leaf: &crate::landscape::certificate::store::Leaf| {
-                store.cell(&leaf.key).contains(&new[0].0)
-            };
-            let start = store
-                .live()
-                .filter(|(_, leaf)| holds(leaf))
-                .map(|(id, _)| id);
-            let start: Vec<u32> = start.collect();
+            let start = ends.holding(&store, &new[0].0);
             let points: Vec<Configuration> = new.iter().map(|(q, _)| *q).collect();
             assert!(!ways.include(&points));
             ways.add(&store, start, &new);
