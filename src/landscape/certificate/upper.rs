@@ -1,6 +1,7 @@
 //! The upper bound: a pathway proved free and bounded in energy between its points too.
 
 use nalgebra::{Matrix3, Vector3};
+use ordered_float::OrderedFloat;
 
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
@@ -11,10 +12,12 @@ use crate::potential::bounds::CellBounds;
 /// them does not cut into it.
 const LIFT: f64 = 1e-6;
 
-/// How far off contact an inner point is lifted, and how far around (m) contacts are heeded: where
-/// corners are near, not all that are within a millimetre can be kept open at once, and in a slot
-/// without play there is no room to be lifted into.
-const LIFTS: [(f64, f64); 3] = [(LIFT, 1e-3), (LIFT, 10.0 * LIFT), (0.0, 10.0 * LIFT)];
+/// How far around (m) contacts are heeded where a point is lifted off contact: where corners are near,
+/// not all that are within a millimetre can be kept open at once, or only far away.
+const AROUND: [f64; 2] = [1e-3, 10.0 * LIFT];
+
+/// A point that is lifted no farther (m) than this need not be lifted otherwise.
+const SHORT: f64 = 10.0 * LIFT;
 
 /// A stretch is halved at most this often to prove it free.
 const DEPTH: usize = 12;
@@ -128,9 +131,19 @@ impl PathProof<'_> {
         let Some(contact) = self.contact else {
             return Some(*q);
         };
-        LIFTS
-            .into_iter()
-            .find_map(|lift| self.lifted_by(contact, q, lift))
+        let [wide, close] = AROUND;
+        let moved = |at: &Configuration| self.space.distance(q, at);
+        let first = self.lifted_by(contact, q, (LIFT, wide));
+        let second = if first.is_some_and(|at| moved(&at) <= SHORT) {
+            None
+        } else {
+            self.lifted_by(contact, q, (LIFT, close))
+        };
+        let lifted = first.into_iter().chain(second);
+        lifted
+            .min_by_key(|at| OrderedFloat(moved(at)))
+            // In a slot without play there is no room to be lifted into.
+            .or_else(|| self.lifted_by(contact, q, (0.0, close)))
     }
 
     fn lifted_by(

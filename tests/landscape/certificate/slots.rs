@@ -1,4 +1,4 @@
-//! Deep slots without play, in which almost every configuration overlaps.
+//! Slots: deep ones without play, in which almost every configuration overlaps, and one with little play.
 
 use tilebind::design::Design;
 use tilebind::observer::Silent;
@@ -27,4 +27,27 @@ fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
     // Three of them are narrowed to no width that is worth while, for 20,000 to 50,000 cells each.
     let cells = analysis.counts.cells;
     assert!(cells < 300_000, "{cells}");
+}
+
+/// Between a tab and a slot contacts near a point are closed on more than one side, and corners a
+/// millimetre away mislead where a pathway is to be lifted off contact.
+#[test]
+fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shapes/dovetail.toml");
+    let mut settings = Settings {
+        far_starts: 100,
+        ..Settings::default()
+    };
+    settings.completeness.seconds = 0.0;
+    let design = Design::load(path.as_ref()).unwrap();
+    let analysis = analyse(&design, &settings, &Silent);
+    let told = analysis.inventory.barriers.iter().filter(|b| b.has_way());
+    let excess: Vec<f64> = told
+        .map(|b| (b.bounds.upper.unwrap() - b.saddle_energy) / b.forward())
+        .collect();
+    // The width that is worth while.
+    assert!(
+        excess.len() >= 5 && excess.iter().all(|excess| *excess < 0.05),
+        "{excess:?}"
+    );
 }
