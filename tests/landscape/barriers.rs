@@ -1,4 +1,5 @@
-//! Barriers of real tiles: none lower by way of a third state, and a way out without play.
+//! Barriers of real tiles: none lower by way of a third state, nor less proved of it than by that way;
+//! and a way out without play.
 
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
 use tilebind::observer::Silent;
@@ -38,6 +39,35 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
         }
     }
     assert!(compared > 10, "{compared}");
+}
+
+/// Of the minimax energies between three places the two highest are equal: what leads on from a place
+/// that is reached lower is proved of the whole way, whichever was looked at first.
+#[test]
+fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
+    let settings = Settings {
+        far_starts: 100,
+        completeness: unsought(),
+        ..Settings::default()
+    };
+    let design = designs::load("shapes/arrowhead.toml");
+    let analysis = analyse(&design, &settings, &Silent);
+    let barriers = &analysis.inventory.barriers;
+    let mut compared = 0;
+    for first in barriers {
+        for second in barriers.iter().filter(|b| b.from == first.to) {
+            let upper = first.bounds.upper.unwrap();
+            let Some(lower) = second.bounds.lower.filter(|lower| upper < *lower) else {
+                continue;
+            };
+            let direct = |b: &&Barrier| b.from == first.from && b.to == second.to;
+            for direct in barriers.iter().filter(direct) {
+                assert!(direct.bounds.least() >= lower, "{direct:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 3, "{compared}");
 }
 
 /// Few milestones and no certificate.

@@ -191,6 +191,11 @@ impl<'a> Certifier<'a> {
         Ok(self.run(from, &Goal::Any(goals), known, effort, &mut |_| true))
     }
 
+    /// What follows from all that was proved so far (J): no path between two ends is lower.
+    pub fn proved(&self, from: &Configuration, to: &End) -> f64 {
+        self.proofs.least(from, &(*to).into())
+    }
+
     fn run(
         &mut self,
         from: &Configuration,

@@ -100,6 +100,7 @@ pub fn certify(
     let contact = problem.contact.as_ref();
     let mut certifier = Certifier::within(bounds, contact, &problem.space, limit)?;
     let mut left: Vec<usize> = vec![settings.cells; inventory.barriers.len()];
+    let mut most = vec![f64::INFINITY; inventory.barriers.len()];
     let mut rounds = VecDeque::from(schedule::rounds(inventory, settings, depth));
     let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
     let mut done = 0;
@@ -130,13 +131,14 @@ pub fn certify(
                 cells: left[number],
                 time: Some(time),
             };
-            let (cells, beside) = narrow(problem, &mut certifier, inventory, number, &effort);
+            let narrowed = narrow(problem, &mut certifier, inventory, number, &effort);
+            most[number] = narrowed.most;
             left[number] = schedule::cells_left(
-                left[number].saturating_sub(cells),
+                left[number].saturating_sub(narrowed.cells),
                 inventory.barriers[number].bounds.width() <= effort.tolerance,
                 settings,
             );
-            if beside.is_some_and(|way| inventory.add_way(way)) {
+            if narrowed.beside.is_some_and(|way| inventory.add_way(way)) {
                 // The new one is narrowed further where this one is.
                 for (_, later) in rounds
                     .iter_mut()
@@ -146,64 +148,91 @@ pub fn certify(
                     count += 1;
                 }
                 left.push(left[number]);
+                most.push(f64::INFINITY);
             }
         }
         joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
     }
+    raise(&certifier, inventory, &most);
     // What was found beside a barrier stands beside it.
     inventory.barriers.sort_by_key(|barrier| barrier.from);
     Ok(certifier.assessed())
 }
 
-/// Narrows the bounds of a barrier, those of an escape over all ways out; returns the cells that
-/// took and the barrier to another place that was found to be lower, if any.
+/// Raises lower bounds to what follows from all that was proved, after they were narrowed too, but none
+/// above the `most` (J) that may be said of its barrier.
+fn raise(certifier: &Certifier, inventory: &mut Inventory, most: &[f64]) {
+    for (number, most) in most.iter().enumerate() {
+        let barrier = &inventory.barriers[number];
+        let (Some(lower), Some((start, to, _))) = (barrier.bounds.lower, ends(inventory, barrier))
+        else {
+            continue;
+        };
+        let follows = certifier.proved(&start, &to).min(*most);
+        inventory.barriers[number].bounds.lower = Some(lower.max(follows));
+    }
+}
+
+/// What narrowing the bounds of a barrier came to.
+struct Narrowed {
+    /// Cells that it took.
+    cells: usize,
+    /// The barrier to another place that was found to be lower, if any.
+    beside: Option<Barrier>,
+    /// The lower bound (J) may not be said to be higher.
+    most: f64,
+}
+
+/// Narrows the bounds of a barrier, those of an escape over all ways out.
 fn narrow(
     problem: &Problem,
     certifier: &mut Certifier,
     inventory: &mut Inventory,
     number: usize,
     effort: &Effort,
-) -> (usize, Option<Barrier>) {
+) -> Narrowed {
+    let mut narrowed = Narrowed {
+        cells: 0,
+        beside: None,
+        most: f64::INFINITY,
+    };
     let bend = BEND * problem.depth();
     let barrier = &inventory.barriers[number];
     let (Place::State(from), Some((start, to, known))) = (barrier.from, ends(inventory, barrier))
     else {
-        return (0, None);
+        return narrowed;
     };
     let since = Instant::now();
     let escape = escapes::bracket(problem, certifier, inventory, (barrier, &known), effort);
     let barrier = &mut inventory.barriers[number];
-    let mut cells = 0;
-    let mut beside = None;
-    let mut most = f64::INFINITY;
     if let Some((escape, found)) = escape {
-        cells = escape.cells;
+        narrowed.cells = escape.cells;
         match found {
             None if !escape.improved => {
                 barrier.bounds.tighten(escape.bounds);
-                return (cells, None);
+                return narrowed;
             }
             // There is a lower way that cannot be told: the escape is no higher.
-            None => most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
+            None => narrowed.most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
             Some(way) if way.to == barrier.to => {
                 take_over(problem, barrier, &escape, bend);
-                return (cells, None);
+                return narrowed;
             }
             Some(way) if !barrier.has_way() && inventory.bound_state != Some(from) => {
                 *barrier = way;
-                return (cells, None);
+                return narrowed;
             }
-            way => beside = way,
+            way => narrowed.beside = way,
         }
     }
     let time = effort.time.map(|time| time.saturating_sub(since.elapsed()));
     let rest = Effort { time, ..*effort };
     if let Ok(bracket) = certifier.bracket(&start, &to, &known, &rest) {
-        cells += bracket.cells;
+        narrowed.cells += bracket.cells;
         take_over(problem, barrier, &bracket, bend);
     }
-    barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(most));
-    (cells, beside)
+    barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(narrowed.most));
+    narrowed
 }
 
 /// Where a barrier's ways start and end, and the one that is known, the end included.
