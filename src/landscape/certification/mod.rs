@@ -18,6 +18,9 @@ use crate::problem::Problem;
 
 pub use schedule::widths;
 
+/// Bounds are narrowed once more where no more than this share of a width is wanted after all.
+const LESS: f64 = 0.75;
+
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
@@ -118,6 +121,8 @@ pub fn certify(
             Some((start, known, tolerance))
         });
         certifier.foresee(foreseen.collect(), || since.elapsed() >= limit);
+        // Barriers that turned out so much lower that more is wanted of their bounds.
+        let mut lowered = Vec::new();
         for number in numbers {
             observer.part("certificate", done, count);
             done += 1;
@@ -138,6 +143,10 @@ pub fn certify(
                 inventory.barriers[number].bounds.width() <= effort.tolerance,
                 settings,
             );
+            if open(inventory, &left, number).is_some_and(|next| next < LESS * effort.tolerance) {
+                lowered.push(number);
+                count += 1;
+            }
             if narrowed.beside.is_some_and(|way| inventory.add_way(way)) {
                 // The new one is narrowed further where this one is.
                 for (_, later) in rounds
@@ -152,6 +161,9 @@ pub fn certify(
             }
         }
         joined::take_over_chains(&problem.space, inventory, LEAST_GAIN * depth);
+        if !lowered.is_empty() {
+            rounds.push_front((width, lowered));
+        }
     }
     raise(&certifier, inventory, &most);
     // What was found beside a barrier stands beside it.

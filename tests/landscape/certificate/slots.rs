@@ -50,4 +50,16 @@ fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
         excess.len() >= 5 && excess.iter().all(|excess| *excess < 0.05),
         "{excess:?}"
     );
+    // Those of two traps turned out a thousandth of what was first known of them.
+    let shallow = analysis
+        .inventory
+        .barriers
+        .iter()
+        .filter(|b| b.has_way() && b.forward() < 1e-5);
+    let widths: Vec<f64> = shallow.map(|b| b.bounds.width()).collect();
+    let wanted = 1e-5 * analysis.problem.depth();
+    assert!(
+        widths.len() == 2 && widths.iter().all(|width| *width <= wanted),
+        "{widths:?} {wanted}"
+    );
 }
