@@ -16,27 +16,33 @@ fn unsought() -> CompletenessSettings {
     }
 }
 
+/// Barriers, those that start where they end, and those that lead to the same places at once.
+fn triples(barriers: &[Barrier]) -> impl Iterator<Item = [&Barrier; 3]> {
+    barriers.iter().flat_map(move |first| {
+        let onward = barriers.iter().filter(|b| b.from == first.to);
+        onward.flat_map(move |second| {
+            let direct = move |b: &&Barrier| b.from == first.from && b.to == second.to;
+            let direct = barriers.iter().filter(direct);
+            direct.map(move |direct| [first, second, direct])
+        })
+    })
+}
+
 #[test]
 fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     let design = designs::load("shapes/paper-tile.toml");
     let analysis = analyse(&design, &Settings::default(), &Silent);
-    let barriers = &analysis.inventory.barriers;
     let mut compared = 0;
-    for first in barriers {
-        for second in barriers.iter().filter(|b| b.from == first.to) {
-            let direct = |b: &&Barrier| b.from == first.from && b.to == second.to;
-            for direct in barriers.iter().filter(direct) {
-                let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
-                let chain = upper(first).max(upper(second));
-                // A natural way to free is not given up for one lower by a hundredth of the barrier.
-                let allowed = match direct.to {
-                    Place::Free => 0.01 * direct.forward(),
-                    Place::State(_) => 1e-6 * 65.5e-3,
-                };
-                assert!(upper(direct) <= chain + allowed, "{direct:?}");
-                compared += 1;
-            }
-        }
+    for [first, second, direct] in triples(&analysis.inventory.barriers) {
+        let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
+        let chain = upper(first).max(upper(second));
+        // A natural way to free is not given up for one lower by a hundredth of the barrier.
+        let allowed = match direct.to {
+            Place::Free => 0.01 * direct.forward(),
+            Place::State(_) => 1e-6 * 65.5e-3,
+        };
+        assert!(upper(direct) <= chain + allowed, "{direct:?}");
+        compared += 1;
     }
     assert!(compared > 10, "{compared}");
 }
@@ -52,19 +58,12 @@ fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
     };
     let design = designs::load("shapes/arrowhead.toml");
     let analysis = analyse(&design, &settings, &Silent);
-    let barriers = &analysis.inventory.barriers;
     let mut compared = 0;
-    for first in barriers {
-        for second in barriers.iter().filter(|b| b.from == first.to) {
-            let upper = first.bounds.upper.unwrap();
-            let Some(lower) = second.bounds.lower.filter(|lower| upper < *lower) else {
-                continue;
-            };
-            let direct = |b: &&Barrier| b.from == first.from && b.to == second.to;
-            for direct in barriers.iter().filter(direct) {
-                assert!(direct.bounds.least() >= lower, "{direct:?}");
-                compared += 1;
-            }
+    for [first, second, direct] in triples(&analysis.inventory.barriers) {
+        let upper = first.bounds.upper.unwrap();
+        if let Some(lower) = second.bounds.lower.filter(|lower| upper < *lower) {
+            assert!(direct.bounds.least() >= lower, "{direct:?}");
+            compared += 1;
         }
     }
     assert!(compared > 3, "{compared}");

@@ -4,6 +4,8 @@ use tilebind::design::Design;
 use tilebind::observer::Silent;
 use tilebind::pipeline::{Settings, analyse};
 
+use crate::designs;
+
 /// Five square teeth of this depth (m).
 fn teeth(depth: f64) -> Design {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shapes/square-teeth-10mm.toml");
@@ -33,13 +35,12 @@ fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
 /// millimetre away mislead where a pathway is to be lifted off contact.
 #[test]
 fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shapes/dovetail.toml");
     let mut settings = Settings {
         far_starts: 100,
         ..Settings::default()
     };
     settings.completeness.seconds = 0.0;
-    let design = Design::load(path.as_ref()).unwrap();
+    let design = designs::load("shapes/dovetail.toml");
     let analysis = analyse(&design, &settings, &Silent);
     let told = analysis.inventory.barriers.iter().filter(|b| b.has_way());
     let excess: Vec<f64> = told
