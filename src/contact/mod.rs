@@ -26,9 +26,6 @@ pub use points::{ContactPoint, NearPairs, PointFinder};
 
 use nalgebra::{Rotation2, Vector2};
 use ordered_float::OrderedFloat;
-use parry2d_f64::math::{Pose, Vector};
-use parry2d_f64::query;
-use parry2d_f64::shape::{Compound, SharedShape};
 
 use self::tree::CircleTree;
 use crate::configuration::Configuration;
@@ -44,8 +41,7 @@ pub const TOUCH: f64 = 1e-9;
 pub struct Contact {
     fixed: Outline,
     moving: Outline,
-    fixed_shape: Compound,
-    moving_shape: Compound,
+    finder: PointFinder,
     fixed_tree: CircleTree,
     moving_tree: CircleTree,
     fixed_bounds: Vec<Bounds>,
@@ -60,8 +56,7 @@ impl Contact {
     /// For a fixed and a moving outline, each in its own tile's frame (m).
     pub fn new(fixed: &Outline, moving: &Outline) -> Self {
         Self {
-            fixed_shape: compound(fixed),
-            moving_shape: compound(moving),
+            finder: PointFinder::new(fixed, moving),
             fixed_tree: CircleTree::of_parts(fixed),
             moving_tree: CircleTree::of_parts(moving),
             fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
@@ -84,6 +79,11 @@ impl Contact {
         &self.moving
     }
 
+    /// Finds points of contact and distances of the two outlines.
+    pub fn finder(&self) -> &PointFinder {
+        &self.finder
+    }
+
     /// Signed clearance (m): the distance of the two outlines where they are apart, minus the
     /// depth of the deepest overlap of two of their convex parts where they are not.
     pub fn clearance(&self, q: &Configuration) -> f64 {
@@ -91,14 +91,7 @@ impl Contact {
         if depth > 0.0 {
             return -depth;
         }
-        let pose = Pose::new(Vector::new(q.x, q.y), q.theta);
-        query::distance(
-            &Pose::identity(),
-            &self.fixed_shape,
-            &pose,
-            &self.moving_shape,
-        )
-        .map_or(0.0, |found| found.distance)
+        self.finder.distance(q, [0.0, f64::INFINITY])
     }
 
     /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
@@ -326,17 +319,4 @@ fn core(outline: &Outline) -> ConvexPart {
     let parts = outline.parts().iter();
     let largest = parts.max_by_key(|part| OrderedFloat(part.area()));
     largest.map_or_else(|| outline.hull(), ConvexPart::clone)
-}
-
-fn compound(outline: &Outline) -> Compound {
-    let parts = outline
-        .parts()
-        .iter()
-        .filter_map(|part| {
-            let points = part.points.iter().map(|p| Vector::new(p.x, p.y)).collect();
-            SharedShape::convex_polyline_unmodified(points)
-        })
-        .map(|shape| (Pose::identity(), shape))
-        .collect();
-    Compound::new(parts)
 }

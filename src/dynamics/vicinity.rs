@@ -58,7 +58,7 @@ impl Vicinity {
 
     /// The points of contact within a margin (m).
     fn points(&mut self, simulation: &Simulation, phase: &Phase, margin: f64) -> Vec<ContactPoint> {
-        let Some(finder) = &simulation.finder else {
+        let Some(finder) = simulation.finder() else {
             return Vec::new();
         };
         let needed = 1.5 * margin;

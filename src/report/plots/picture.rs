@@ -170,6 +170,9 @@ fn png(drawing: &Pixmap, underlays: &[Underlay], fine: f64) -> Result<Vec<u8>, P
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, page.width(), page.height());
     encoder.set_color(png::ColorType::Rgb);
+    // Drawings, of few colours: filters and longer searches take time and make them no smaller.
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(3));
     encoder.write_header()?.write_image_data(&rgb)?;
     Ok(bytes)
 }
