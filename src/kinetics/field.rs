@@ -127,7 +127,7 @@ impl<'a> Field<'a> {
     pub fn evaluate(&mut self) {
         let is_new = |id: &usize| {
             let leaf = &self.mesh.leaves[*id];
-            leaf.live && !leaf.blocked && !leaf.seen
+            leaf.is_live() && !leaf.blocked && !leaf.seen
         };
         let new: Vec<usize> = (0..self.mesh.leaves.len()).filter(is_new).collect();
         let integrate = |&id: &usize| {

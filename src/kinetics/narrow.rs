@@ -39,7 +39,7 @@ impl Field<'_> {
             let before = self.mesh.leaves.len();
             let known: Vec<f64> = (0..before).map(|id| self.held(id)).collect();
             self.divide(&divided);
-            let is_gone = |id: &usize| !self.mesh.leaves[*id].live;
+            let is_gone = |id: &usize| !self.mesh.leaves[*id].is_live();
             let gone: f64 = (0..before).filter(is_gone).map(|id| known[id]).sum();
             let come: f64 = (before..self.mesh.leaves.len())
                 .map(|id| self.held(id))

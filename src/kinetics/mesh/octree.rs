@@ -1,7 +1,5 @@
 //! An octree over the folded configurations.
 
-use std::collections::HashMap;
-
 use super::chart::{Chart, DEEPEST, Place, UNITS};
 use super::element::Element;
 use crate::configuration::Configuration;
@@ -13,8 +11,8 @@ pub(in crate::kinetics) struct Leaf {
     pub low: Place,
     /// How often it was halved.
     pub level: u8,
-    /// Whether it has not been divided.
-    pub live: bool,
+    /// The first of the eight cells, in the order of their corners, into which it is divided.
+    parts: Option<u32>,
     /// What is integrated over it; `None` where no configuration is free.
     pub element: Option<Box<Element>>,
     /// Whether contact proves that none is.
@@ -33,13 +31,18 @@ impl Leaf {
         Self {
             low,
             level,
-            live: true,
+            parts: None,
             element: None,
             blocked,
             seen: false,
             parent,
             doubt: 0.0,
         }
+    }
+
+    /// Whether it has not been divided.
+    pub fn is_live(&self) -> bool {
+        self.parts.is_none()
     }
 
     /// Its size in smallest units.
@@ -53,13 +56,12 @@ impl Leaf {
     }
 }
 
-/// The cells, and which of them lies where.
+/// The cells: first those into which the chart is divided, in rows along theta, then their parts.
 pub(in crate::kinetics) struct Octree {
     pub chart: Chart,
     pub leaves: Vec<Leaf>,
     /// Radius of gyration (m).
     pub rho: f64,
-    index: HashMap<(u8, Place), u32>,
 }
 
 impl Octree {
@@ -70,31 +72,31 @@ impl Octree {
             chart,
             leaves: Vec::new(),
             rho,
-            index: HashMap::new(),
         };
         for i in 0..n {
             for j in 0..m {
                 for k in 0..l {
-                    mesh.add(Leaf::new([i * UNITS, j * UNITS, k * UNITS], 0, false, None));
+                    let low = [i, j, k].map(|cell| cell * UNITS);
+                    mesh.leaves.push(Leaf::new(low, 0, false, None));
                 }
             }
         }
         mesh
     }
 
-    fn add(&mut self, leaf: Leaf) {
-        self.index
-            .insert((leaf.level, leaf.low), self.leaves.len() as u32);
-        self.leaves.push(leaf);
-    }
-
     /// The undivided cell that holds the unit cell with this lower corner.
     pub fn find(&self, place: Place) -> Option<usize> {
         let place = self.chart.fold(place, false)?;
-        (0..=DEEPEST).find_map(|level| {
-            let low = place.map(|units| units & !((UNITS >> level) - 1));
-            self.index.get(&(level, low)).map(|&id| id as usize)
-        })
+        let [_, across, turning] = self.chart.cells;
+        let [i, j, k] = place.map(|units| units / UNITS);
+        let mut id = ((i * across + j) * turning + k) as usize;
+        let mut half = UNITS;
+        while let Some(first) = self.leaves[id].parts {
+            half /= 2;
+            let upper = |axis: usize| usize::from(place[axis] & half != 0) << axis;
+            id = first as usize + upper(0) + upper(1) + upper(2);
+        }
+        Some(id)
     }
 
     /// The undivided cells that a configuration lies in or on the side of.
@@ -117,7 +119,7 @@ impl Octree {
     /// parts.
     pub fn divide(&mut self, id: usize) {
         let (low, level) = (self.leaves[id].low, self.leaves[id].level);
-        if !self.leaves[id].live || level >= DEEPEST {
+        if !self.leaves[id].is_live() || level >= DEEPEST {
             return;
         }
         let size = self.leaves[id].size();
@@ -130,20 +132,25 @@ impl Octree {
                 self.divide(other);
             }
         }
+        let first = self.leaves.len() as u32;
         let leaf = &mut self.leaves[id];
-        leaf.live = false;
+        leaf.parts = Some(first);
         leaf.element = None;
         let blocked = leaf.blocked;
-        self.index.remove(&(level, low));
         for number in 0..8 {
             let part = std::array::from_fn(|i| low[i] + (number >> i & 1) * size / 2);
-            self.add(Leaf::new(part, level + 1, blocked, Some(id as u32)));
+            let leaf = Leaf::new(part, level + 1, blocked, Some(id as u32));
+            self.leaves.push(leaf);
         }
     }
 
     /// The undivided cells that hold free configurations, with their numbers.
     pub fn live(&self) -> impl Iterator<Item = (usize, &Leaf, &Element)> {
-        let live = self.leaves.iter().enumerate().filter(|(_, leaf)| leaf.live);
+        let live = self
+            .leaves
+            .iter()
+            .enumerate()
+            .filter(|(_, leaf)| leaf.is_live());
         live.filter_map(|(id, leaf)| Some((id, leaf, leaf.element.as_deref()?)))
     }
 
@@ -163,7 +170,7 @@ impl Octree {
     pub fn joined(&self, is_one: &dyn Fn(&Leaf) -> bool) -> Vec<Vec<u32>> {
         let mut beside = vec![Vec::new(); self.leaves.len()];
         for (id, leaf) in self.leaves.iter().enumerate() {
-            if !leaf.live || !is_one(leaf) {
+            if !leaf.is_live() || !is_one(leaf) {
                 continue;
             }
             let half = leaf.size() / 2;

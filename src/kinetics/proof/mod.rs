@@ -167,7 +167,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let rim = sets.len();
     // Where contact reaches to where tiles are free, as at corners, both are done without.
     let is_narrow = |(id, leaf): (usize, &Leaf)| {
-        leaf.live && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
+        leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
     };
     let narrow: Vec<bool> = mesh.leaves.par_iter().enumerate().map(is_narrow).collect();
     // Dirichlet's side.
@@ -251,7 +251,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
 fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
     let leaves = &field.mesh.leaves;
     let of = |id: usize| {
-        if !leaves[id].live {
+        if !leaves[id].is_live() {
             return [f64::INFINITY; 2];
         }
         let is_open = |[low, high]: Range| {
