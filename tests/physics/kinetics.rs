@@ -356,7 +356,7 @@ fn far_below_the_passes_the_mean_time_lies_between_its_bounds() {
         certify: Some(Certify {
             pieces: 0,
             distance: 0.5,
-            unknowns: 20_000,
+            unknowns: 10_000,
         }),
         ..ExitSettings::new(1.6e-4, start, basin, 0.61)
     };
