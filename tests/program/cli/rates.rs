@@ -16,15 +16,6 @@ const SLID: [&str; 10] = [
     "0.9",
 ];
 
-/// What a command writes into its report, and what it prints.
-fn reported(arguments: &[&str]) -> (serde_json::Value, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let out = ["--out", folder.path().to_str().unwrap()];
-    let text = stdout(&tilebind(&[arguments, &out].concat()));
-    let report = std::fs::read(folder.path().join("report.json")).unwrap();
-    (serde_json::from_slice(&report).unwrap(), text)
-}
-
 #[test]
 fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     let entry = json(
@@ -180,7 +171,7 @@ fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
 #[test]
 fn of_a_bond_that_contact_shuts_in_the_rates_are_known_to_be_none() {
     let dovetail = ["rates", "shapes/dovetail.toml", "--kt", "3e-3"];
-    let (entry, text) = reported(&dovetail);
+    let entry = json(&[&dovetail[..], &["--json"]].concat());
     for rate in entry["rates"].as_array().unwrap() {
         for key in ["lower_per_s", "value_per_s", "upper_per_s"] {
             assert_eq!(rate[key], 0.0, "{rate}");
@@ -191,6 +182,8 @@ fn of_a_bond_that_contact_shuts_in_the_rates_are_known_to_be_none() {
     assert_eq!(bond["way_out"], "blocked");
     assert_eq!(bond["leaving_bounds_per_s"], serde_json::json!([0.0, 0.0]));
     assert!(bond["mean_exit_s"].is_null());
+    let output = tilebind(&dovetail);
+    let text = stdout(&output);
     assert!(text.contains("no tile ever binds or comes off: contact blocks every way"));
     assert!(!text.contains("at most"), "{text}");
 }
