@@ -127,7 +127,7 @@ impl Contact {
         if !are_separated(cores, &middle, motion.allowed) {
             return false;
         }
-        if self.fixed.parts().len() == 1 && self.moving.parts().len() == 1 {
+        if self.fixed().parts().len() == 1 && self.moving().parts().len() == 1 {
             // Hulls and cores are all there is.
             left.halve(*motion.ends, middle, None);
             return true;
@@ -157,7 +157,7 @@ impl Contact {
     }
 
     pub(super) fn pair(&self, [i, j]: [usize; 2]) -> (&ConvexPart, &ConvexPart) {
-        (&self.fixed.parts()[i], &self.moving.parts()[j])
+        (&self.fixed().parts()[i], &self.moving().parts()[j])
     }
 }
 

@@ -39,8 +39,7 @@ pub const TOUCH: f64 = 1e-9;
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
-    fixed: Outline,
-    moving: Outline,
+    /// Holds the outlines.
     finder: PointFinder,
     fixed_tree: CircleTree,
     moving_tree: CircleTree,
@@ -64,19 +63,17 @@ impl Contact {
             moving_hull: moving.hull(),
             fixed_core: core(fixed),
             moving_core: core(moving),
-            fixed: fixed.clone(),
-            moving: moving.clone(),
         }
     }
 
     /// The outline of the fixed tile.
     pub fn fixed(&self) -> &Outline {
-        &self.fixed
+        &self.finder.fixed.outline
     }
 
     /// The outline of the moving tile, in its own frame.
     pub fn moving(&self) -> &Outline {
-        &self.moving
+        &self.finder.moving.outline
     }
 
     /// Finds points of contact and distances of the two outlines.
@@ -97,7 +94,8 @@ impl Contact {
     /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
     /// use (but still right) where the hulls overlap.
     pub fn clearance_bound(&self, q: &Configuration) -> f64 {
-        let circles = q.position().norm() - self.fixed.circumradius() - self.moving.circumradius();
+        let circles =
+            q.position().norm() - self.fixed().circumradius() - self.moving().circumradius();
         if circles > 0.0 {
             return circles;
         }
@@ -120,7 +118,7 @@ impl Contact {
     }
 
     fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
-        let clear = least + self.fixed.circumradius() + self.moving.circumradius();
+        let clear = least + self.fixed().circumradius() + self.moving().circumradius();
         clear <= 0.0 || q.position().norm_squared() >= clear * clear
     }
 
@@ -202,11 +200,11 @@ impl Contact {
                 let bounds = match placed {
                     Some((k, bounds)) if k == j => bounds,
                     _ => {
-                        part.place(&self.moving.parts()[j], &rotation, &position);
+                        part.place(&self.moving().parts()[j], &rotation, &position);
                         placed.insert((j, part.bounds())).1
                     }
                 };
-                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed.parts()[i], &part)
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed().parts()[i], &part)
             },
         )
     }

@@ -48,9 +48,9 @@ impl Contact {
             &|_| length / 2.0,
             &mut |i, j| {
                 if placed.replace(j) != Some(j) {
-                    part.place(&self.moving.parts()[j], &at.rotation, &at.position);
+                    part.place(&self.moving().parts()[j], &at.rotation, &at.position);
                 }
-                blocked.extend(shift.overlap(&self.fixed.parts()[i], &part));
+                blocked.extend(shift.overlap(&self.fixed().parts()[i], &part));
                 true
             },
         );

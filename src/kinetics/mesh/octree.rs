@@ -139,8 +139,8 @@ impl Octree {
         let blocked = leaf.blocked;
         for number in 0..8 {
             let part = std::array::from_fn(|i| low[i] + (number >> i & 1) * size / 2);
-            let leaf = Leaf::new(part, level + 1, blocked, Some(id as u32));
-            self.leaves.push(leaf);
+            let part = Leaf::new(part, level + 1, blocked, Some(id as u32));
+            self.leaves.push(part);
         }
     }
 
