@@ -5,14 +5,15 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::constrained::{self, Heading, Point, downhill, length, step_along};
+use super::constrained::{self, Point, downhill, step_along};
+use super::foresight::Past;
 use super::slides::{Slides, Stretch};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
 /// Longest step of a descent (m, mass metric).
-const LONGEST_STEP: f64 = 5e-3;
+const LONGEST_STEP: f64 = 1e-2;
 /// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
 /// direction at its end tells. With a tenth of it shares of captures are the same; with a tenfold, a
 /// seventh of all far starts goes the wrong way around a tab.
@@ -167,7 +168,7 @@ fn trace(
     let mut size = LONGEST_STEP;
     let mut newton_below = TRY_NEWTON;
     let mut motion = None;
-    let mut before = None;
+    let mut past = Past::default();
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
         if is_free(&here.q) {
@@ -180,26 +181,27 @@ fn trace(
             return outcome.clone();
         }
         let next = along.as_ref().and_then(|along| {
-            let bent = bent(along, &before, size);
-            let next = step_along(problem, &here, &bent, size)?;
+            let foretold = past.foretell(along, size);
+            let next = step_along(problem, &here, &foretold.heading, size)?;
             let after = downhill(problem, &next);
-            let strays = |after| strays(problem, &here, [along, &bent, after], size);
+            let strays = |after| foretold.strays(problem, &here.q, after, size);
             let strays = after.as_ref().map_or(0.0, strays);
-            Some((next, after, strays))
+            let fitting = 0.8 * (aside / strays).powf(1.0 / f64::from(foretold.order));
+            Some((next, after, strays, size * fitting.clamp(0.3, 2.0)))
         });
         match next {
-            Some((next, after, strays)) => {
-                // Of second order: the error goes with the cube of the size.
-                let fitting = size * (0.8 * (aside / strays).cbrt()).clamp(0.3, 1.5);
+            Some((next, after, strays, fitting)) => {
                 if strays <= aside || size <= SHORT {
                     way.push(next);
                     let ends = [along.as_ref(), after.as_ref()];
                     stretches.extend(Stretch::between([here.q, next.q], ends));
                     motion = after;
                     // Steps of first order are the longer ones in a steep valley.
-                    before = along
-                        .filter(|_| aside.is_finite())
-                        .map(|along| (along, size));
+                    if let Some(along) = along
+                        && aside.is_finite()
+                    {
+                        past.add(along, size);
+                    }
                     size = fitting.min(LONGEST_STEP);
                 } else {
                     motion = along;
@@ -218,7 +220,8 @@ fn trace(
                 return Outcome::Minimum(Box::new(found));
             }
             // The way may go on from elsewhere.
-            (motion, before) = (None, None);
+            motion = None;
+            past.forget();
         }
         if size < SHORTEST_STEP {
             // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
@@ -228,31 +231,11 @@ fn trace(
             }
             size = LONGEST_STEP;
             newton_below = TRY_NEWTON;
-            (motion, before) = (None, None);
+            motion = None;
+            past.forget();
         }
     }
     Outcome::Stuck(way.last().expect("a way has a start").q)
-}
-
-/// The heading of a step of `size` (m) that goes on turning as the motion did since the one before,
-/// while the contacts pressed on are the same (Adams and Bashforth's method of second order).
-fn bent(along: &Heading, before: &Option<(Heading, f64)>, size: f64) -> Heading {
-    let mut bent = along.clone();
-    if let Some((earlier, by)) = before
-        && earlier.pressed == along.pressed
-    {
-        bent.direction += (along.direction - earlier.direction) * (size / (2.0 * by));
-    }
-    bent
-}
-
-/// How far (m, mass metric) a step of `size` from a point along `bent` ends beside the motion that has
-/// the directions `from` and `to` at its ends.
-fn strays(problem: &Problem, point: &Point, [from, bent, to]: [&Heading; 3], size: f64) -> f64 {
-    let metric = problem.mass_metric(point.q.theta);
-    let error = (from.direction + to.direction) / 2.0 - bent.direction;
-    let beside = error - to.direction * to.direction.dot(&(metric * error));
-    size * length(&beside, &metric)
 }
 
 /// The minimum at the end of a way, if Newton's method finds one close by and no free

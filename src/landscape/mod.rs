@@ -6,6 +6,7 @@ pub mod certificate;
 pub mod certification;
 pub mod completeness;
 pub mod constrained;
+mod foresight;
 pub mod inventory;
 pub mod map;
 pub mod meeting;
