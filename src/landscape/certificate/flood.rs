@@ -161,7 +161,7 @@ impl<'a> Flood<'a> {
 
     /// A leaf beside this one that is joined to the other end no higher than the flood is.
     fn beyond(&self, id: u32) -> Option<u32> {
-        let around = self.store.leaf(id).neighbours.iter().copied();
+        let around = self.store.neighbours(id).iter().copied();
         around
             .filter(|&n| self.state[n as usize] & (BEYOND | GOAL) != 0)
             .find(
@@ -174,7 +174,7 @@ impl<'a> Flood<'a> {
 
     fn spread(&mut self, id: u32) {
         let store = self.store;
-        for &n in &store.leaf(id).neighbours {
+        for &n in store.neighbours(id) {
             let state = self.state[n as usize];
             if self.before[n as usize] != DRY || state & (DIVIDE | BARRED) != 0 {
                 continue;
@@ -200,7 +200,7 @@ impl<'a> Flood<'a> {
         for &gone in &self.steps[self.summit..] {
             self.state[gone as usize] &= !FLOODED;
             self.state[gone as usize] |= BEYOND;
-            for &n in &store.leaf(gone).neighbours {
+            for &n in store.neighbours(gone) {
                 if self.before[n as usize] == gone {
                     self.before[n as usize] = DRY;
                 }
@@ -254,7 +254,7 @@ mod tests {
             if goal(id).is_some() {
                 return Some(best[id as usize]);
             }
-            for &n in store.leaf(id).neighbours.iter().filter(|n| passable(**n)) {
+            for &n in store.neighbours(id).iter().filter(|n| passable(**n)) {
                 let over = best[id as usize].max(rank(n));
                 if over < best[n as usize] {
                     best[n as usize] = over;
@@ -306,7 +306,7 @@ mod tests {
                 let (end, inner) = (chain[chain.len() - 1], &chain[1..chain.len() - 1]);
                 assert!(chain[0] == 3 && [500, 900].contains(&end));
                 for pair in chain.windows(2) {
-                    assert!(store.leaf(pair[0]).neighbours.contains(&pair[1]));
+                    assert!(store.neighbours(pair[0]).contains(&pair[1]));
                 }
                 let rank = |id: &u32| store.by_energy()[*id as usize];
                 let energy = if end == 900 { 0.1 } else { 0.2 };

@@ -25,7 +25,7 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
         if goal[id as usize] {
             return level;
         }
-        for &n in &store.leaf(id).neighbours {
+        for &n in store.neighbours(id) {
             if !std::mem::replace(&mut seen[n as usize], true) {
                 queue.push(Reverse((ordered(store.lower(n)), n)));
             }

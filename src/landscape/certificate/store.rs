@@ -58,8 +58,6 @@ impl Key {
 pub(super) struct Leaf {
     pub key: Key,
     pub known: Assessment,
-    /// The leaves that touch it.
-    pub neighbours: Vec<u32>,
     /// Whether it still is a leaf.
     pub live: bool,
     /// The leaf that it was cut from; itself, if it is one of the first.
@@ -72,6 +70,7 @@ pub(super) struct Store {
     half_size: [f64; 2],
     leaves: Vec<Leaf>,
     // What the floods look at most, side by side.
+    neighbours: Vec<Vec<u32>>,
     lower: Vec<f64>,
     by_energy: Vec<f64>,
     by_overlap: Vec<f64>,
@@ -82,6 +81,7 @@ impl Store {
         Self {
             half_size: space.half_size,
             leaves: Vec::new(),
+            neighbours: Vec::new(),
             lower: Vec::new(),
             by_energy: Vec::new(),
             by_overlap: Vec::new(),
@@ -132,6 +132,11 @@ impl Store {
         &self.leaves[id as usize]
     }
 
+    /// The leaves that touch a leaf.
+    pub fn neighbours(&self, id: u32) -> &[u32] {
+        &self.neighbours[id as usize]
+    }
+
     /// A leaf's lower bound of the energy (J).
     pub fn lower(&self, id: u32) -> f64 {
         self.lower[id as usize]
@@ -169,11 +174,10 @@ impl Store {
 
     /// Puts the parts of a leaf that are not blocked in its place.
     pub fn replace(&mut self, id: u32, parts: &[(Key, Assessment)]) {
-        let leaf = &mut self.leaves[id as usize];
-        leaf.live = false;
-        let around = std::mem::take(&mut leaf.neighbours);
+        self.leaves[id as usize].live = false;
+        let around = std::mem::take(&mut self.neighbours[id as usize]);
         for &n in &around {
-            let list = &mut self.leaves[n as usize].neighbours;
+            let list = &mut self.neighbours[n as usize];
             if let Some(place) = list.iter().position(|&k| k == id) {
                 list.swap_remove(place);
             }
@@ -192,15 +196,15 @@ impl Store {
                 .filter(|&n| self.leaves[n as usize].key.touches(&key))
                 .collect();
             for &n in &neighbours {
-                self.leaves[n as usize].neighbours.push(id);
+                self.neighbours[n as usize].push(id);
             }
+            self.neighbours.push(neighbours);
             self.lower.push(known.lower);
             self.by_energy.push(known.by_energy());
             self.by_overlap.push(known.overlap);
             self.leaves.push(Leaf {
                 key,
                 known,
-                neighbours,
                 live: true,
                 whole: whole.unwrap_or(id),
             });
@@ -265,7 +269,7 @@ pub(super) mod tests {
         }
         let live: Vec<u32> = store.live().map(|(id, _)| id).collect();
         for &a in live.iter().step_by(7) {
-            let mut listed = store.leaf(a).neighbours.clone();
+            let mut listed = store.neighbours(a).to_vec();
             listed.sort_unstable();
             // Touching, judged from the boxes alone.
             let box_a = store.cell(&store.leaf(a).key);

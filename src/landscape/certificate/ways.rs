@@ -42,7 +42,7 @@ impl Ways {
             while let Some(id) = open.pop() {
                 if !met.contains(&id) && self.note(store, id, stretch as u32) {
                     met.push(id);
-                    open.extend(&store.leaf(id).neighbours);
+                    open.extend(store.neighbours(id));
                 }
             }
             let (end, _) = self.points[stretch + 1];
