@@ -22,16 +22,14 @@ pub(super) struct Watershed {
     pub pass: Option<(f64, Vec<u32>)>,
 }
 
-/// What a flood knows of a leaf: whether it is flooded,
-const FLOODED: u8 = 1;
-/// joined to the other end below the divide,
-const BEYOND: u8 = 2;
+/// What a flood knows of a leaf: whether it is joined to the other end below the divide,
+const BEYOND: u8 = 1;
 /// in the divide,
-const DIVIDE: u8 = 4;
+const DIVIDE: u8 = 2;
 /// holds the other end,
-const GOAL: u8 = 8;
+const GOAL: u8 = 4;
 /// or cannot be passed below the level.
-const BARRED: u8 = 16;
+const BARRED: u8 = 8;
 
 /// In place of the leaf before one in which the flood starts, and before one that it has not touched.
 const NONE: u32 = u32::MAX;
@@ -41,6 +39,14 @@ const DRY: u32 = u32::MAX - 1;
 /// below the level by more than the leaf's lower bound lies below the way, by this factor. In larger
 /// ones there is more than the way, and a flood would leak through.
 const SETTLED: f64 = 16.0;
+
+/// A leaf as a flood sees it. What is asked for together lies together: floods wait for memory.
+struct Ground {
+    rank: f64,
+    /// The leaf from which the flood touched it first.
+    before: u32,
+    state: u8,
+}
 
 /// A leaf to spread to: its rank, its number, and the leaf before it. In this order they decide
 /// which comes first.
@@ -57,12 +63,9 @@ type Entry = Reverse<(u64, u32, u32)>;
 /// the end: states that are left over low passes are many, and their basins small.
 struct Flood<'a> {
     store: &'a Store,
-    ranks: Vec<f64>,
+    ground: Vec<Ground>,
     /// Leaves that hold the other end, and the energy (J) known of it there, by their numbers.
     goals: Vec<(u32, f64)>,
-    state: Vec<u8>,
-    /// The leaf from which the flood touched each first.
-    before: Vec<u32>,
     queue: BinaryHeap<Entry>,
     /// The leaves flooded, one after the other.
     steps: Vec<u32>,
@@ -87,7 +90,7 @@ pub(super) fn watershed(
             break;
         };
         // Of what was taken back nothing is to be done.
-        if flood.before[id as usize] == before {
+        if flood.ground[id as usize].before == before {
             flood.step(rank, id);
         }
     }
@@ -96,25 +99,28 @@ pub(super) fn watershed(
 
 impl<'a> Flood<'a> {
     fn new(store: &'a Store, seeds: &Seeds, level: f64, known: &[(u32, f64)]) -> Self {
-        let mut ranks = if level < f64::INFINITY {
-            store.by_energy().to_vec()
+        let ranks = if level < f64::INFINITY {
+            store.by_energy()
         } else {
-            store.by_overlap().to_vec()
+            store.by_overlap()
         };
+        let ground = |(lower, rank): (&f64, &f64)| Ground {
+            rank: *rank,
+            before: DRY,
+            state: if *lower <= level { 0 } else { BARRED },
+        };
+        let mut ground: Vec<Ground> = store.lowers().iter().zip(ranks).map(ground).collect();
         for &(id, energy) in known {
             let settled = energy + SETTLED * (energy - store.lower(id));
             if settled < level {
-                let rank = &mut ranks[id as usize];
+                let rank = &mut ground[id as usize].rank;
                 *rank = rank.min(settled);
             }
         }
-        let barred = |lower: &f64| if *lower <= level { 0 } else { BARRED };
         let mut flood = Self {
             store,
-            ranks,
+            ground,
             goals: seeds.to.clone(),
-            state: store.lowers().iter().map(barred).collect(),
-            before: vec![DRY; store.len()],
             queue: BinaryHeap::new(),
             steps: Vec::new(),
             top: 0,
@@ -128,11 +134,12 @@ impl<'a> Flood<'a> {
             .goals
             .sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for &(id, _) in &seeds.to {
-            flood.state[id as usize] |= GOAL;
+            flood.ground[id as usize].state |= GOAL;
         }
         for &(id, energy) in &seeds.from {
-            if flood.state[id as usize] & BARRED == 0 && flood.before[id as usize] == DRY {
-                flood.before[id as usize] = NONE;
+            let ground = &mut flood.ground[id as usize];
+            if ground.state & BARRED == 0 && ground.before == DRY {
+                ground.before = NONE;
                 flood.queue.push(Reverse((ordered(energy), id, NONE)));
             }
         }
@@ -144,14 +151,17 @@ impl<'a> Flood<'a> {
             (self.top, self.summit) = (rank, self.steps.len());
         }
         self.steps.push(id);
-        self.state[id as usize] |= FLOODED;
-        if self.state[id as usize] & GOAL != 0 {
+        if self.state(id) & GOAL != 0 {
             self.divide(id, None);
         } else if let Some(beyond) = self.beyond(id) {
             self.divide(id, Some(beyond));
         } else {
             self.spread(id);
         }
+    }
+
+    fn state(&self, id: u32) -> u8 {
+        self.ground[id as usize].state
     }
 
     /// The energy (J) known of the other end in a leaf that holds it.
@@ -163,27 +173,25 @@ impl<'a> Flood<'a> {
     fn beyond(&self, id: u32) -> Option<u32> {
         let around = self.store.neighbours(id).iter().copied();
         around
-            .filter(|&n| self.state[n as usize] & (BEYOND | GOAL) != 0)
-            .find(
-                |&n| match self.state[n as usize] & (BEYOND | DIVIDE | BARRED) {
-                    0 => ordered(self.goal(n)) <= self.top,
-                    joined => joined == BEYOND,
-                },
-            )
+            .filter(|&n| self.state(n) & (BEYOND | GOAL) != 0)
+            .find(|&n| match self.state(n) & (BEYOND | DIVIDE | BARRED) {
+                0 => ordered(self.goal(n)) <= self.top,
+                joined => joined == BEYOND,
+            })
     }
 
     fn spread(&mut self, id: u32) {
         let store = self.store;
         for &n in store.neighbours(id) {
-            let state = self.state[n as usize];
-            if self.before[n as usize] != DRY || state & (DIVIDE | BARRED) != 0 {
+            let ground = &mut self.ground[n as usize];
+            if ground.before != DRY || ground.state & (DIVIDE | BARRED) != 0 {
                 continue;
             }
-            self.before[n as usize] = id;
-            let rank = if state & GOAL != 0 {
+            ground.before = id;
+            let rank = if ground.state & GOAL != 0 {
                 self.goal(n)
             } else {
-                self.ranks[n as usize]
+                ground.rank
             };
             self.queue.push(Reverse((ordered(rank), n, id)));
         }
@@ -198,16 +206,16 @@ impl<'a> Flood<'a> {
         let store = self.store;
         let summit = self.steps[self.summit];
         for &gone in &self.steps[self.summit..] {
-            self.state[gone as usize] &= !FLOODED;
-            self.state[gone as usize] |= BEYOND;
+            self.ground[gone as usize].state |= BEYOND;
             for &n in store.neighbours(gone) {
-                if self.before[n as usize] == gone {
-                    self.before[n as usize] = DRY;
+                let before = &mut self.ground[n as usize].before;
+                if *before == gone {
+                    *before = DRY;
                 }
             }
         }
-        self.state[summit as usize] &= !BEYOND;
-        self.state[summit as usize] |= DIVIDE;
+        let state = &mut self.ground[summit as usize].state;
+        *state = *state & !BEYOND | DIVIDE;
         self.steps.truncate(self.summit);
         self.found.divide.push(summit);
     }
@@ -216,7 +224,7 @@ impl<'a> Flood<'a> {
     /// is beyond does it end where the other end is.
     fn chain(&self, id: u32, beyond: Option<u32>) -> (f64, Vec<u32>) {
         let parents = std::iter::successors(Some(id), |&id| {
-            Some(self.before[id as usize]).filter(|before| *before != NONE)
+            Some(self.ground[id as usize].before).filter(|before| *before != NONE)
         });
         let mut chain: Vec<u32> = parents.collect();
         chain.reverse();
