@@ -12,8 +12,10 @@ use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
-/// Longest step of a descent (m, mass metric).
-const LONGEST_STEP: f64 = 1e-2;
+/// Longest step of a descent (m, mass metric), and of one that is followed more closely: it foresees
+/// how it will turn.
+const LONGEST_STEP: f64 = 5e-3;
+const LONGEST_FORESEEN: f64 = 1e-2;
 /// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
 /// direction at its end tells. With a tenth of it shares of captures are the same; with a tenfold, a
 /// seventh of all far starts goes the wrong way around a tab.
@@ -169,6 +171,11 @@ fn trace(
     let mut newton_below = TRY_NEWTON;
     let mut motion = None;
     let mut past = Past::default();
+    let longest = if aside.is_finite() {
+        LONGEST_FORESEEN
+    } else {
+        LONGEST_STEP
+    };
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
         if is_free(&here.q) {
@@ -187,7 +194,7 @@ fn trace(
             let strays = |after| foretold.strays(problem, &here.q, after, size);
             let strays = after.as_ref().map_or(0.0, strays);
             let fitting = 0.8 * (aside / strays).powf(1.0 / f64::from(foretold.order));
-            Some((next, after, strays, size * fitting.clamp(0.3, 2.0)))
+            Some((next, after, strays, size * fitting.clamp(0.3, 1.5)))
         });
         match next {
             Some((next, after, strays, fitting)) => {
@@ -202,7 +209,7 @@ fn trace(
                     {
                         past.add(along, size);
                     }
-                    size = fitting.min(LONGEST_STEP);
+                    size = fitting.min(longest);
                 } else {
                     motion = along;
                     size = fitting.max(SHORT);
