@@ -10,8 +10,8 @@ use crate::problem::Problem;
 /// Headings that a motion is extrapolated from, the one at the place it has come to included.
 const HEADINGS: usize = 3;
 
-/// The headings of a motion at places that it left, the last one first, with the lengths of the steps
-/// (m, mass metric) from there; as far as the contacts pressed on stayed the same.
+/// The headings of a motion at places that it left while the contacts pressed on were the same, the
+/// last one first, with the lengths of the steps (m, mass metric) from there.
 #[derive(Debug, Default)]
 pub(super) struct Past(ArrayVec<(Heading, f64), { HEADINGS - 1 }>);
 
@@ -20,7 +20,7 @@ pub(super) struct Foretold {
     /// What the step is to follow from its start to its end.
     pub heading: Heading,
     /// The direction that the motion would have at the step's end.
-    pub at_end: Vector3<f64>,
+    at_end: Vector3<f64>,
     /// The step ends so much of its length beside the motion for each unit that the direction at its end
     /// is off.
     share: f64,
@@ -36,10 +36,18 @@ impl Past {
 
     /// Adds a place left by a step of this size (m) with this heading.
     pub fn add(&mut self, heading: Heading, size: f64) {
-        if self.0.is_full() {
+        if !self.goes_on(&heading) {
+            self.forget();
+        } else if self.0.is_full() {
             self.0.pop();
         }
         self.0.insert(0, (heading, size));
+    }
+
+    /// Whether the contacts pressed on still are the same.
+    fn goes_on(&self, heading: &Heading) -> bool {
+        let last = self.0.first();
+        last.is_some_and(|(last, _)| last.pressed == heading.pressed)
     }
 
     /// A step of this size (m) on from a place with this heading: the method of Adams and Bashforth
@@ -50,12 +58,15 @@ impl Past {
     /// the direction found at the end differs by from the polynomial there makes one of a degree more
     /// of it, which tells how far the step strays.
     pub fn foretell(&self, along: &Heading, size: f64) -> Foretold {
-        let same = |(heading, _): &&(Heading, f64)| heading.pressed == along.pressed;
-        let past: ArrayVec<_, { HEADINGS - 1 }> = self.0.iter().take_while(same).collect();
+        let past = if self.goes_on(along) {
+            &self.0[..]
+        } else {
+            &[]
+        };
         let h = size;
         let direction = along.direction;
         let mut heading = along.clone();
-        let (at_end, share) = match past[..] {
+        let (at_end, share) = match past {
             [] => (direction, 0.5),
             [(before, a)] => {
                 let turn = (direction - before.direction) / *a;

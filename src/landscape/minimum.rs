@@ -12,9 +12,9 @@ use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
-/// Longest step of a descent (m, mass metric), and of one that is followed more closely: it foresees
-/// how it will turn.
+/// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
+/// The same where it matters which way it goes: how it will turn is foreseen.
 const LONGEST_FORESEEN: f64 = 1e-2;
 /// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
 /// direction at its end tells. With a tenth of it shares of captures are the same; with a tenfold, a
