@@ -1,7 +1,7 @@
 //! How fast the dipole kernel is, and how close to what the core can do.
 //!
 //! The ceiling is measured in the same run: a loop does as many simple and fused vector operations
-//! and estimates of `1 / sqrt` as the pairs take, but none that waits for another. A kernel's share
+//! and `1 / sqrt` in single precision as the pairs take, but none that waits for another. A kernel's share
 //! of it is that loop's time over its own; so what it does besides the pairs (sines and cosines,
 //! rotations, sums) counts as loss. Times are the least, shares the median of many rounds, in each
 //! of which everything is measured once.
@@ -20,7 +20,7 @@ use operations::Operations;
 use ratio::ratio;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
-use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use tilebind::potential::batch::lanes::{Lanes, Task, WIDTH};
 use tilebind::potential::dipole::{Dipole, ScalarDipoles};
 use tilebind::potential::{DipolePotential, Potential};
 
@@ -37,7 +37,7 @@ fn main() {
     let mut best_level = None;
     for level in Level::available() {
         let potential = DipolePotential::with_level(&tile, &tile, level);
-        let name = format!("{level}, {} lanes", level.width());
+        let name = level.to_string();
         best = report(&name, &mut kernels(&potential, &qs), Some(level));
         best_level = Some(level);
     }
@@ -159,7 +159,7 @@ fn kernels<'a>(potential: &'a dyn Potential, qs: &'a [Configuration]) -> Vec<Wor
 #[derive(Clone, Copy)]
 struct Mix<const CHAINS: usize> {
     a_pair: Operations,
-    /// Plain reciprocals in place of estimates of `1 / sqrt`.
+    /// Reciprocals in place of `1 / sqrt`.
     reciprocals: bool,
 }
 
@@ -181,25 +181,25 @@ impl<const CHAINS: usize> Task for Mix<CHAINS> {
                     *x = l.mul(*x, b);
                 }
             }
-            // Each estimate below comes with a fused operation.
-            for _ in self.a_pair.estimates..self.a_pair.fused {
+            // Each reciprocal below comes with a fused operation.
+            for _ in self.a_pair.singles..self.a_pair.fused {
                 for x in &mut chains {
                     *x = l.mul_add(*x, a, b);
                 }
             }
-            for _ in 0..self.a_pair.estimates {
+            for _ in 0..self.a_pair.singles {
                 for (i, x) in chains.iter().enumerate() {
-                    let estimate = if self.reciprocals {
-                        l.reciprocal_estimate(*x)
+                    let single = if self.reciprocals {
+                        l.reciprocal_single(*x)
                     } else {
-                        l.reciprocal_sqrt_estimate(*x)
+                        l.reciprocal_sqrt_single(*x)
                     };
-                    sums[i % 2] = l.mul_add(estimate, a, sums[i % 2]);
+                    sums[i % 2] = l.mul_add(single, a, sums[i % 2]);
                 }
             }
         }
         for x in chains.into_iter().chain(sums) {
-            let mut values = [0.0; MAX_WIDTH];
+            let mut values = [0.0; WIDTH];
             l.store(x, &mut values);
             black_box(values);
         }
@@ -209,12 +209,13 @@ impl<const CHAINS: usize> Task for Mix<CHAINS> {
 /// The ceilings of energies and of energies with gradients, then the core's rates at a few kinds
 /// of operation.
 fn ceilings(level: Level) -> Vec<Work<'static>> {
-    let exact = level == Level::PORTABLE;
+    // A vector takes one register, or two of sixteen.
+    let wide = level.word() == "avx512";
     let work = |name, gradient, a_pair, reciprocals| Work {
         name,
-        times: 32_000 * level.width(),
+        times: 32_000 * WIDTH,
         gradient,
-        call: if exact {
+        call: if !wide {
             Box::new(move || {
                 level.run(Mix::<4> {
                     a_pair,
@@ -230,22 +231,17 @@ fn ceilings(level: Level) -> Vec<Work<'static>> {
             })
         },
     };
-    let of = |simple, fused, estimates| Operations {
+    let of = |simple, fused, singles| Operations {
         simple,
         fused,
-        estimates,
+        singles,
     };
     vec![
-        work(
-            "a pair",
-            Some(false),
-            Operations::per_pair(false, exact),
-            false,
-        ),
+        work("a pair", Some(false), Operations::per_pair(false), false),
         work(
             "a pair with gradient",
             Some(true),
-            Operations::per_pair(true, exact),
+            Operations::per_pair(true),
             false,
         ),
         work("16 fused operations", None, of(0, 16, 0), false),

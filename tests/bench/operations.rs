@@ -8,24 +8,19 @@ pub struct Operations {
     pub simple: usize,
     /// Multiplications with an addition or subtraction.
     pub fused: usize,
-    /// Estimates of `1 / sqrt` and of reciprocals.
-    pub estimates: usize,
+    /// `1 / sqrt` and reciprocals in single precision.
+    pub singles: usize,
 }
 
 impl Operations {
     /// What one pair of dipoles takes (as many pairs as there are lanes, to be precise), with or
-    /// without the gradient, where the estimate of `1 / sqrt` has to be refined or is exact.
-    pub const fn per_pair(gradient: bool, exact_estimate: bool) -> Self {
-        let (simple, fused) = match (gradient, exact_estimate) {
-            (false, false) => (9, 10),
-            (false, true) => (7, 6),
-            (true, false) => (13, 16),
-            (true, true) => (11, 12),
-        };
+    /// without the gradient.
+    pub const fn per_pair(gradient: bool) -> Self {
+        let (simple, fused) = if gradient { (13, 15) } else { (9, 9) };
         Self {
             simple,
             fused,
-            estimates: 1,
+            singles: 1,
         }
     }
 }

@@ -26,7 +26,7 @@ fn portable(design: &Design) -> Problem {
     let potential = DipolePotential::with_level(
         &dipoles(&design.pair.fixed.magnets),
         &dipoles(&design.pair.moving.magnets),
-        Level::PORTABLE,
+        Level::best(),
     );
     Problem::without_contact(design.space(), Box::new(potential)).with_tiles(design.pair.clone())
 }
@@ -83,7 +83,7 @@ fn energies_of_a_descent() {
 fn cells_of_a_certificate() {
     let design = paper_tile();
     let problem = portable(&design);
-    let bounds = DipoleBounds::with_level(&design.pair.fixed, &design.pair.moving, Level::PORTABLE);
+    let bounds = DipoleBounds::with_level(&design.pair.fixed, &design.pair.moving, Level::best());
     let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
     let effort = Effort {
         tolerance: 0.65e-3,

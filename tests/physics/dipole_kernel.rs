@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
-use tilebind::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use tilebind::potential::batch::lanes::{Lanes, Task, WIDTH};
 use tilebind::potential::dipole::{Dipole, ScalarDipoles};
 use tilebind::potential::{DipolePotential, Potential};
 use tilebind::units::MU0_OVER_4PI;
@@ -219,13 +219,9 @@ impl Task for Functions {
                 .iter_mut()
                 .zip([sin, cos, l.reciprocal_sqrt(l.mul(x, x)), l.reciprocal(x)])
         {
-            let mut values = [0.0; MAX_WIDTH];
+            let mut values = [0.0; WIDTH];
             l.store(lanes, &mut values);
-            assert!(
-                values[..L::WIDTH]
-                    .iter()
-                    .all(|v| v.to_bits() == values[0].to_bits())
-            );
+            assert!(values.iter().all(|v| v.to_bits() == values[0].to_bits()));
             *result = values[0];
         }
         results

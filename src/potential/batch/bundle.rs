@@ -35,7 +35,6 @@ impl<L: Arithmetic, const N: usize, const M: usize> Bundle<L, N, M> {
 
 impl<L: Arithmetic, const N: usize, const M: usize> Arithmetic for Bundle<L, N, M> {
     type F = [[L::F; N]; M];
-    const ESTIMATE_IS_EXACT: bool = L::ESTIMATE_IS_EXACT;
 
     #[inline(always)]
     fn splat(self, value: f64) -> Self::F {
@@ -73,12 +72,12 @@ impl<L: Arithmetic, const N: usize, const M: usize> Arithmetic for Bundle<L, N, 
     }
 
     #[inline(always)]
-    fn reciprocal_sqrt_estimate(self, a: Self::F) -> Self::F {
-        each!(self.reciprocal_sqrt_estimate(a))
+    fn reciprocal_sqrt_single(self, a: Self::F) -> Self::F {
+        each!(self.reciprocal_sqrt_single(a))
     }
 
     #[inline(always)]
-    fn reciprocal_estimate(self, a: Self::F) -> Self::F {
-        each!(self.reciprocal_estimate(a))
+    fn reciprocal_single(self, a: Self::F) -> Self::F {
+        each!(self.reciprocal_single(a))
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::bundle::Bundle;
 use super::field::{Frame, TOGETHER};
-use super::lanes::{Arithmetic, Lanes, MAX_WIDTH, Task};
+use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
 use super::tasks::frame_of_one;
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
@@ -30,12 +30,13 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
         let mut sums = Sums::none(l);
         let end = self.potential.moving.x.len();
         let mut first = 0;
-        while first + 2 * L::WIDTH <= end {
+        while L::AT_ONCE == 2 && first + 2 * WIDTH <= end {
             self.block::<L, 2>(l, &frame, first, &mut sums);
-            first += 2 * L::WIDTH;
+            first += 2 * WIDTH;
         }
-        if first < end {
+        while first < end {
             self.block::<L, 1>(l, &frame, first, &mut sums);
+            first += WIDTH;
         }
         sums.finish(l)
     }
@@ -59,10 +60,8 @@ impl<F: Copy> Sums<F> {
 
     #[inline(always)]
     fn finish<L: Lanes<F = F>>(&self, l: L) -> f64 {
-        let mut nearest = [f64::INFINITY; MAX_WIDTH];
-        l.store(self.nearest, &mut nearest);
         let bound = l.sum(self.bound);
-        if bound.is_finite() && nearest.iter().all(|r| *r > 0.0) {
+        if bound.is_finite() && l.least(self.nearest) > 0.0 {
             bound
         } else {
             f64::INFINITY
@@ -98,7 +97,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
         let moving = &self.potential.moving;
         let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
         for (k, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
-            let i = first + k * L::WIDTH;
+            let i = first + k * WIDTH;
             [*x, *y] = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
         let mut shares = [l.splat(0.0); N];
@@ -121,7 +120,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
             }
         }
         for (k, share) in shares.iter().enumerate() {
-            let magnitude = l.load(&moving.magnitude[first + k * L::WIDTH..]);
+            let magnitude = l.load(&moving.magnitude[first + k * WIDTH..]);
             sums.bound = l.mul_add(*share, magnitude, sums.bound);
         }
     }
@@ -191,7 +190,7 @@ impl<const TERMS: usize> TabulatedBound<'_, TERMS> {
         sums: &mut Sums<L::F>,
     ) -> f64 {
         for near in &spread.near {
-            for first in (0..NEAR).step_by(L::WIDTH) {
+            for first in (0..NEAR).step_by(WIDTH) {
                 let [x, y] = &near.position;
                 let dx = l.sub(l.splat(place[0]), l.load(&x[first..]));
                 let dy = l.sub(l.splat(place[1]), l.load(&y[first..]));

@@ -1,7 +1,10 @@
 //! Vectors of f64 lanes, whatever the instruction set.
 
-/// The most lanes any instruction set has.
-pub const MAX_WIDTH: usize = 8;
+use super::sin_cos::sin_cos;
+
+/// How many f64 lanes a vector has, with every instruction set: so all sum in one order and give the
+/// same bits.
+pub const WIDTH: usize = 8;
 
 /// The largest angle (rad) that [`Lanes::sin_cos`] takes.
 pub const MAX_ANGLE: f64 = 1e5;
@@ -10,7 +13,8 @@ pub const MAX_ANGLE: f64 = 1e5;
 ///
 /// A value of such a type is the proof that the CPU has the instruction set, so that arithmetic
 /// with it is safe. Every operation is lane by lane: a lane's result depends on that lane's
-/// operands alone.
+/// operands alone. Every operation is rounded as IEEE 754 says, so that its bits are the same with
+/// each instruction set and on each maker's processors.
 ///
 /// All functions are `#[inline(always)]`, and so must be all that uses them, for only what is
 /// inlined into [`Task::run`] is compiled for the instruction set. That excludes closures on
@@ -18,8 +22,6 @@ pub const MAX_ANGLE: f64 = 1e5;
 pub trait Arithmetic: Copy {
     /// The lanes.
     type F: Copy;
-    /// Whether the estimates are as good as f64 is.
-    const ESTIMATE_IS_EXACT: bool;
 
     /// The same value in all lanes.
     fn splat(self, value: f64) -> Self::F;
@@ -29,103 +31,79 @@ pub trait Arithmetic: Copy {
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a b`.
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a b + c`; rounded once where the instruction set fuses it.
+    /// `a b + c`, rounded once.
     fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
-    /// `c - a b`; rounded once where the instruction set fuses it.
+    /// `c - a b`, rounded once.
     fn neg_mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// The smaller of two numbers; `b` where either is NaN.
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
-    /// An estimate of `1 / sqrt(a)` for [`Arithmetic::reciprocal_sqrt`] to refine.
-    fn reciprocal_sqrt_estimate(self, a: Self::F) -> Self::F;
-    /// An estimate of `1 / a` for [`Arithmetic::reciprocal`] to refine.
-    fn reciprocal_estimate(self, a: Self::F) -> Self::F;
+    /// `1 / sqrt(a)` in single precision: root and division, each rounded to an f32.
+    fn reciprocal_sqrt_single(self, a: Self::F) -> Self::F;
+    /// `1 / a` in single precision.
+    fn reciprocal_single(self, a: Self::F) -> Self::F;
 
-    /// `1 / sqrt(a)` to a relative error of 1e-13, for `a` from 1e-37 to 1e37; NaN or infinite
+    /// `1 / sqrt(a)` to a relative error of 3e-16, for `a` from 1e-37 to 1e37; NaN or infinite
     /// at 0.
     ///
-    /// From an estimate `y`, with `e = 1 - a y^2`:
-    /// `a^(-1/2) = y (1 - e)^(-1/2) = y (1 + e/2 + 3 e^2/8 + 5 e^3/16 + ...)`.
-    /// The terms up to `e^3` leave a relative error of `35 e^4 / 128`: 8e-14 for an estimate good
-    /// to 1.5 / 2^12 and 6e-17 for one good to 1 / 2^14.
+    /// The processors' own estimates of it differ between makers, so it starts from single
+    /// precision, whose `y` has a relative error of at most 1.5e-7. With `e = 1 - a y^2`, at most
+    /// 3e-7: `a^(-1/2) = y (1 - e)^(-1/2) = y (1 + e/2 + 3 e^2/8 + ...)`, and the next term is at
+    /// most 1e-20.
     #[inline(always)]
     fn reciprocal_sqrt(self, a: Self::F) -> Self::F {
-        let y = self.reciprocal_sqrt_estimate(a);
-        if Self::ESTIMATE_IS_EXACT {
-            return y;
-        }
+        let y = self.reciprocal_sqrt_single(a);
         let e = self.neg_mul_add(self.mul(a, y), y, self.splat(1.0));
-        let p = self.mul_add(e, self.splat(5.0 / 16.0), self.splat(3.0 / 8.0));
-        let p = self.mul_add(e, p, self.splat(0.5));
+        let p = self.mul_add(e, self.splat(3.0 / 8.0), self.splat(0.5));
         self.mul_add(self.mul(y, e), p, y)
     }
 
-    /// `1 / a` to a relative error of 1e-13, for `a` from 1e-37 to 1e37 in magnitude; NaN or
+    /// `1 / a` to a relative error of 3e-16, for `a` from 1e-37 to 1e37 in magnitude; NaN or
     /// infinite at 0.
     ///
-    /// From an estimate `y`, with `e = 1 - a y`: `1 / a = y / (1 - e) = y (1 + e + e^2 + e^3 + ...)`,
-    /// whose next term is at most 2e-14 for an estimate good to 1.5 / 2^12.
+    /// From single precision, whose `y` has a relative error of at most 1.2e-7. With `e = 1 - a y`:
+    /// `1 / a = y / (1 - e) = y (1 + e + e^2 + ...)`, and the next term is at most 2e-21.
     #[inline(always)]
     fn reciprocal(self, a: Self::F) -> Self::F {
-        let y = self.reciprocal_estimate(a);
-        if Self::ESTIMATE_IS_EXACT {
-            return y;
-        }
+        let y = self.reciprocal_single(a);
         let e = self.neg_mul_add(a, y, self.splat(1.0));
-        let p = self.mul_add(e, e, e);
-        self.mul_add(y, self.mul_add(e, p, e), y)
+        self.mul_add(y, self.mul_add(e, e, e), y)
     }
 }
 
-/// A vector of an instruction set: arithmetic on its `WIDTH` lanes, and their way in and out.
+/// A vector of an instruction set: arithmetic on its [`WIDTH`] lanes, and their way in and out.
 pub trait Lanes: Arithmetic {
-    /// How many numbers a vector holds.
-    const WIDTH: usize;
+    /// How many vectors' operations the registers have room to interleave: 1 or 2. Results do not
+    /// depend on it.
+    const AT_ONCE: usize;
 
-    /// The first `WIDTH` values of a slice, which must have that many.
+    /// The first [`WIDTH`] values of a slice, which must have that many.
     fn load(self, values: &[f64]) -> Self::F;
-    /// Into the first `WIDTH` places of a slice, which must have that many.
+    /// Into the first [`WIDTH`] places of a slice, which must have that many.
     fn store(self, lanes: Self::F, values: &mut [f64]);
-    /// The sine and the cosine of angles up to [`MAX_ANGLE`] in magnitude, each to 2e-16.
-    fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F);
-
-    /// `a / b`, correctly rounded.
+    /// `a / b`.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
-    /// The square root, correctly rounded.
+    /// The square root.
     fn sqrt(self, a: Self::F) -> Self::F;
     /// `a` where the sign bit of `condition` is clear, else `b`.
     fn select(self, condition: Self::F, a: Self::F, b: Self::F) -> Self::F;
     /// For a positive normal number `m 2^e` with m in [1, 2): m and e.
     fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F);
-
-    /// The least of the lanes.
-    #[inline(always)]
-    fn least(self, lanes: Self::F) -> f64 {
-        let mut values = [f64::INFINITY; MAX_WIDTH];
-        self.store(lanes, &mut values);
-        values.into_iter().fold(f64::INFINITY, f64::min)
-    }
-
-    /// The first lane.
-    #[inline(always)]
-    fn first(self, lanes: Self::F) -> f64 {
-        let mut values = [0.0; MAX_WIDTH];
-        self.store(lanes, &mut values);
-        values[0]
-    }
-
+    /// The sine and cosine of an angle, given those of the angle less a number of quarter turns.
+    /// That number, an integer, is `quarters` less 1.5 * 2^52, so that it can be read from the low
+    /// bits.
+    fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F);
+    /// The least of the lanes, each of the upper half against its fellow in the lower half until
+    /// one is left; none may be NaN.
+    fn least(self, lanes: Self::F) -> f64;
     /// The sum of the lanes: the upper half is added to the lower half until one is left.
+    fn sum(self, lanes: Self::F) -> f64;
+    /// The first lane.
+    fn first(self, lanes: Self::F) -> f64;
+
+    /// The sine and the cosine of angles up to [`MAX_ANGLE`] in magnitude, each to 2e-16.
     #[inline(always)]
-    fn sum(self, lanes: Self::F) -> f64 {
-        let mut values = [0.0; MAX_WIDTH];
-        self.store(lanes, &mut values);
-        let mut width = Self::WIDTH / 2;
-        while width > 0 {
-            for i in 0..width {
-                values[i] += values[i + width];
-            }
-            width /= 2;
-        }
-        values[0]
+    fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F) {
+        sin_cos(self, angle)
     }
 }
 

@@ -1,32 +1,36 @@
 //! The instruction sets, and the choice between them.
 
 use std::fmt;
+use std::sync::LazyLock;
 
-use super::lanes::{Lanes, Task};
+use super::lanes::Task;
 use super::portable::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 
-/// An instruction set this machine has.
+/// An instruction set this machine has. Results are the same bits with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Kind);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    Portable,
+    Portable(Portable),
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
 }
 
-impl Level {
-    /// Plain Rust, four lanes, on every machine.
-    pub const PORTABLE: Self = Self(Kind::Portable);
+/// The environment variable that names the level to use.
+const VARIABLE: &str = "TILEBIND_KERNEL";
 
-    /// What this machine has, slowest first.
+/// The words for the levels there, fastest first.
+const WORDS: [&str; 3] = ["avx512", "avx2", "portable"];
+
+impl Level {
+    /// What this machine has, slowest first; plain Rust is everywhere.
     pub fn available() -> Vec<Self> {
-        let mut levels = vec![Self::PORTABLE];
+        let mut levels = vec![Self(Kind::Portable(Portable))];
         #[cfg(target_arch = "x86_64")]
         {
             levels.extend(Avx2::detect().map(|lanes| Self(Kind::Avx2(lanes))));
@@ -35,19 +39,55 @@ impl Level {
         levels
     }
 
-    /// The fastest this machine has.
-    pub fn best() -> Self {
-        Self::available().pop().unwrap_or(Self::PORTABLE)
+    /// What the environment variable `TILEBIND_KERNEL` asks for (`avx512`, `avx2` or `portable`),
+    /// or the fastest this machine has.
+    ///
+    /// # Errors
+    /// What is wrong with the variable, and how to fix it: another word, or a level that this
+    /// processor lacks.
+    pub fn chosen() -> Result<Self, String> {
+        let mut levels = Self::available().into_iter().rev();
+        let Some(word) = std::env::var_os(VARIABLE) else {
+            return Ok(levels.next().expect("plain Rust is everywhere"));
+        };
+        let here = levels
+            .clone()
+            .map(Self::word)
+            .collect::<Vec<_>>()
+            .join(", ");
+        let fix = format!("leave {VARIABLE} unset, or set it to one of: {here}");
+        match levels.find(|level| word == level.word()) {
+            Some(level) => Ok(level),
+            None if WORDS.iter().any(|known| word == *known) => Err(format!(
+                "{VARIABLE} asks for {}, which this processor lacks; {fix}",
+                word.display()
+            )),
+            None => Err(format!(
+                "{VARIABLE} is '{}', which is no instruction set of tilebind; {fix}",
+                word.display()
+            )),
+        }
     }
 
-    /// How many f64 lanes a vector has.
-    pub fn width(self) -> usize {
+    /// The [chosen](Self::chosen) level, asked for once a process. Where that is an error (which
+    /// the program and the Python package report before they compute anything) the fastest: the
+    /// results are the same.
+    pub fn best() -> Self {
+        static BEST: LazyLock<Level> = LazyLock::new(|| {
+            let fastest = || Level::available().pop().expect("plain Rust is everywhere");
+            Level::chosen().unwrap_or_else(|_| fastest())
+        });
+        *BEST
+    }
+
+    /// The word for it in the environment variable.
+    pub fn word(self) -> &'static str {
         match self.0 {
-            Kind::Portable => Portable::WIDTH,
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(_) => Avx2::WIDTH,
+            Kind::Avx512(_) => WORDS[0],
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx512(_) => Avx512::WIDTH,
+            Kind::Avx2(_) => WORDS[1],
+            Kind::Portable(_) => WORDS[2],
         }
     }
 
@@ -55,7 +95,7 @@ impl Level {
     #[inline]
     pub fn run<T: Task>(self, task: T) -> T::Output {
         match self.0 {
-            Kind::Portable => task.run(Portable),
+            Kind::Portable(lanes) => lanes.run(task),
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2(lanes) => lanes.run(task),
             #[cfg(target_arch = "x86_64")]
@@ -66,12 +106,6 @@ impl Level {
 
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self.0 {
-            Kind::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(_) => "AVX2",
-            #[cfg(target_arch = "x86_64")]
-            Kind::Avx512(_) => "AVX-512",
-        })
+        f.write_str(self.word())
     }
 }

@@ -4,10 +4,10 @@
 //! One configuration has its moving dipoles in the lanes, many configurations have one
 //! configuration in each lane; either way each configuration's numbers come out of the same
 //! operations in the same order. So energies and gradients are the same bits whichever function
-//! gives them, whatever else is in a batch and wherever in it a configuration stands. They are not
-//! the same on all machines: instruction sets sum in different orders, and makes of CPU have
-//! different estimates of `1 / sqrt`. All differ by at most some 1e-13 of the sum of the pairs'
-//! magnitudes from one another and from the scalar formula of [`super::dipole`].
+//! gives them, whatever else is in a batch and wherever in it a configuration stands; and as all
+//! instruction sets have eight lanes, and operations that IEEE 754 rounds, on every machine. They
+//! differ by at most some 1e-13 of the sum of the pairs' magnitudes from the scalar formula of
+//! [`super::dipole`].
 //!
 //! Edges: where dipoles coincide (or are within 1e-19 m) the energy is plus infinity and the
 //! gradient zero. Poses beyond 1e18 m are not supported.
@@ -20,7 +20,6 @@ mod level;
 mod patched;
 pub(super) use patched::Sampled;
 mod portable;
-#[cfg(target_arch = "x86_64")]
 mod sin_cos;
 mod tasks;
 #[cfg(target_arch = "x86_64")]
@@ -30,6 +29,7 @@ use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 
+use lanes::WIDTH;
 pub use level::Level;
 
 use super::Potential;
@@ -104,7 +104,7 @@ impl DipolePotential {
     /// Of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         if are_many(fixed.len(), moving.len()) {
-            let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, level.width())];
+            let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, WIDTH)];
             if trees.iter().any(Tree::has_stands) {
                 let patches = Patches::new(&scaled_and_filled(fixed, 1), level);
                 return Self::of_trees(trees, patches, level);
@@ -127,7 +127,7 @@ impl DipolePotential {
     /// Every pair by itself, however many there are.
     fn one_by_one(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         let sources = scaled_and_filled(fixed, TOGETHER);
-        let lanes = scaled_and_filled(moving, level.width());
+        let lanes = scaled_and_filled(moving, WIDTH);
         let column = |value: fn(&Dipole) -> f64| lanes.iter().map(value).collect();
         Self {
             level,

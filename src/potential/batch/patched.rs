@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use nalgebra::{Vector2, Vector3};
 
 use super::field::{Field, Shares, field_of_each};
-use super::lanes::{Lanes, Task};
+use super::lanes::{Lanes, Task, WIDTH};
 use super::tasks::{frame_of_one, summed};
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
@@ -15,8 +15,8 @@ use crate::potential::dipole::Dipole;
 use crate::potential::patches::polynomial::{ORDER, Polynomial};
 use crate::potential::patches::square::{NEAR, Near, Patch};
 
-/// The most vectors a row of coefficients takes: of four lanes.
-const MOST: usize = ORDER / 4;
+/// How many vectors a row of coefficients takes.
+const VECTORS: usize = ORDER / WIDTH;
 
 /// So many dipoles are asked together.
 const TOGETHER: usize = 16;
@@ -89,7 +89,7 @@ fn of_near<L: Lanes, const SLOPE: bool>(
 ) -> Field<L::F> {
     let [x, y] = &near.position;
     let [along, across] = &near.moment;
-    for first in (0..NEAR).step_by(L::WIDTH) {
+    for first in (0..NEAR).step_by(WIDTH) {
         let position = [l.load(&x[first..]), l.load(&y[first..])];
         let moment = [l.load(&along[first..]), l.load(&across[first..])];
         let more = field_of_each::<L, SLOPE>(l, position, moment, place);
@@ -109,14 +109,14 @@ fn far<L: Lanes, const SLOPE: bool>(l: L, polynomial: &Polynomial, place: [f64; 
     let powers = powers((place[0] - polynomial.centre[0]) * scale);
     let v = l.splat((place[1] - polynomial.centre[1]) * scale);
     let zero = l.splat(0.0);
-    let (mut value, mut slope, mut bend) = ([zero; MOST], [zero; MOST], [zero; MOST]);
+    let (mut value, mut slope, mut bend) = ([zero; VECTORS], [zero; VECTORS], [zero; VECTORS]);
     for row in polynomial.rows.iter().rev() {
-        for k in 0..ORDER / L::WIDTH {
+        for k in 0..VECTORS {
             if SLOPE {
                 bend[k] = l.mul_add(bend[k], v, slope[k]);
             }
             slope[k] = l.mul_add(slope[k], v, value[k]);
-            value[k] = l.mul_add(value[k], v, l.load(&row[k * L::WIDTH..]));
+            value[k] = l.mul_add(value[k], v, l.load(&row[k * WIDTH..]));
         }
     }
     let once = l.splat(scale);
@@ -167,12 +167,12 @@ static WEIGHTS: [[f64; ORDER]; 3] = {
 #[inline(always)]
 fn along<L: Lanes, const TIMES: usize>(
     l: L,
-    columns: &[L::F; MOST],
+    columns: &[L::F; VECTORS],
     powers: &[f64; ORDER + 2],
 ) -> L::F {
     let mut sum = l.splat(0.0);
-    for (k, column) in columns.iter().enumerate().take(ORDER / L::WIDTH) {
-        let i = k * L::WIDTH;
+    for (k, column) in columns.iter().enumerate() {
+        let i = k * WIDTH;
         let mut power = l.load(&powers[i + 2 - TIMES..]);
         if TIMES > 0 {
             power = l.mul(power, l.load(&WEIGHTS[TIMES][i..]));
@@ -196,7 +196,7 @@ impl Task for Sampled<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        for first in (0..ORDER).step_by(L::WIDTH) {
+        for first in (0..ORDER).step_by(WIDTH) {
             let x = l.load(&self.xs[first..]);
             let mut sum = l.splat(0.0);
             for source in self.far {

@@ -1,113 +1,125 @@
 //! Plain Rust, for every machine.
 
-use super::lanes::{Arithmetic, Lanes};
+use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
 
-/// Four lanes in plain Rust, without fused operations (which are slow where the CPU lacks them).
-#[derive(Clone, Copy, Debug)]
+/// Eight lanes in plain Rust.
+///
+/// On x86-64 it serves only processors without AVX2 (made before 2013), so that its operations are
+/// calls there: inlined, with a call for each lane of a fused operation, all tasks would be as much
+/// code again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Portable;
 
 impl Portable {
-    #[inline(always)]
-    fn zip(a: [f64; 4], b: [f64; 4], f: impl Fn(f64, f64) -> f64) -> [f64; 4] {
-        [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])]
+    #[inline(never)]
+    pub fn run<T: Task>(self, task: T) -> T::Output {
+        task.run(self)
     }
 }
 
+type F = [f64; WIDTH];
+
+/// Operations, lane by lane.
+macro_rules! lane_by_lane {
+    ($($name:ident($($x:ident),*) = $lane:expr;)*) => {$(
+        #[cfg_attr(target_arch = "x86_64", inline(never))]
+        #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+        fn $name(self, $($x: F),*) -> F {
+            std::array::from_fn(|i| {
+                $(let $x = $x[i];)*
+                $lane
+            })
+        }
+    )*};
+}
+
 impl Arithmetic for Portable {
-    type F = [f64; 4];
-    const ESTIMATE_IS_EXACT: bool = true;
+    type F = F;
 
     #[inline(always)]
-    fn splat(self, value: f64) -> [f64; 4] {
-        [value; 4]
+    fn splat(self, value: f64) -> F {
+        [value; WIDTH]
     }
 
-    #[inline(always)]
-    fn add(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        Self::zip(a, b, |a, b| a + b)
-    }
-
-    #[inline(always)]
-    fn sub(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        Self::zip(a, b, |a, b| a - b)
-    }
-
-    #[inline(always)]
-    fn mul(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        Self::zip(a, b, |a, b| a * b)
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: [f64; 4], b: [f64; 4], c: [f64; 4]) -> [f64; 4] {
-        self.add(self.mul(a, b), c)
-    }
-
-    #[inline(always)]
-    fn neg_mul_add(self, a: [f64; 4], b: [f64; 4], c: [f64; 4]) -> [f64; 4] {
-        self.sub(c, self.mul(a, b))
-    }
-
-    #[inline(always)]
-    fn min(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        Self::zip(a, b, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn reciprocal_sqrt_estimate(self, a: [f64; 4]) -> [f64; 4] {
-        a.map(|a| 1.0 / a.sqrt())
-    }
-
-    #[inline(always)]
-    fn reciprocal_estimate(self, a: [f64; 4]) -> [f64; 4] {
-        a.map(|a| 1.0 / a)
+    lane_by_lane! {
+        add(a, b) = a + b;
+        sub(a, b) = a - b;
+        mul(a, b) = a * b;
+        mul_add(a, b, c) = a.mul_add(b, c);
+        neg_mul_add(a, b, c) = (-a).mul_add(b, c);
+        min(a, b) = smaller(a, b);
+        reciprocal_sqrt_single(a) = f64::from(1.0 / (a as f32).sqrt());
+        reciprocal_single(a) = f64::from(1.0 / a as f32);
     }
 }
 
 impl Lanes for Portable {
-    const WIDTH: usize = 4;
+    const AT_ONCE: usize = 1;
 
     #[inline(always)]
-    fn load(self, values: &[f64]) -> [f64; 4] {
-        [values[0], values[1], values[2], values[3]]
+    fn load(self, values: &[f64]) -> F {
+        std::array::from_fn(|i| values[i])
     }
 
     #[inline(always)]
-    fn store(self, lanes: [f64; 4], values: &mut [f64]) {
-        values[..4].copy_from_slice(&lanes);
+    fn store(self, lanes: F, values: &mut [f64]) {
+        values[..WIDTH].copy_from_slice(&lanes);
     }
 
-    #[inline(always)]
-    fn sin_cos(self, angle: [f64; 4]) -> ([f64; 4], [f64; 4]) {
-        (angle.map(f64::sin), angle.map(f64::cos))
+    lane_by_lane! {
+        div(a, b) = a / b;
+        sqrt(a) = a.sqrt();
+        select(condition, a, b) = if condition.is_sign_positive() { a } else { b };
     }
 
-    #[inline(always)]
-    fn div(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        Self::zip(a, b, |a, b| a / b)
-    }
-
-    #[inline(always)]
-    fn sqrt(self, a: [f64; 4]) -> [f64; 4] {
-        a.map(f64::sqrt)
-    }
-
-    #[inline(always)]
-    fn select(self, condition: [f64; 4], a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        std::array::from_fn(|i| {
-            if condition[i].is_sign_positive() {
-                a[i]
-            } else {
-                b[i]
-            }
-        })
-    }
-
-    #[inline(always)]
-    fn mantissa_and_exponent(self, a: [f64; 4]) -> ([f64; 4], [f64; 4]) {
-        const MANTISSA: u64 = (1 << 52) - 1;
+    fn mantissa_and_exponent(self, a: F) -> (F, F) {
+        const FRACTION: u64 = (1 << 52) - 1;
         (
-            a.map(|a| f64::from_bits(a.to_bits() & MANTISSA | 1.0f64.to_bits())),
+            a.map(|a| f64::from_bits(a.to_bits() & FRACTION | 1.0f64.to_bits())),
             a.map(|a| (a.to_bits() >> 52) as f64 - 1023.0),
         )
     }
+
+    fn turn(self, quarters: F, sin: F, cos: F) -> (F, F) {
+        let turned = |i: usize| match quarters[i].to_bits() & 3 {
+            0 => (sin[i], cos[i]),
+            1 => (cos[i], -sin[i]),
+            2 => (-sin[i], -cos[i]),
+            _ => (-cos[i], sin[i]),
+        };
+        (
+            std::array::from_fn(|i| turned(i).0),
+            std::array::from_fn(|i| turned(i).1),
+        )
+    }
+
+    fn least(self, lanes: F) -> f64 {
+        halved(lanes, smaller)
+    }
+
+    fn sum(self, lanes: F) -> f64 {
+        halved(lanes, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    fn first(self, lanes: F) -> f64 {
+        lanes[0]
+    }
+}
+
+/// `b` where either is NaN, or where they are equal.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The lower half of the lanes with the upper half, until one is left.
+fn halved(mut lanes: F, both: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut width = WIDTH / 2;
+    while width > 0 {
+        for i in 0..width {
+            lanes[i] = both(lanes[i], lanes[i + width]);
+        }
+        width /= 2;
+    }
+    lanes[0]
 }

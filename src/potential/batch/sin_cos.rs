@@ -1,20 +1,12 @@
-//! Sine and cosine, for instruction sets with fused multiply-add.
+//! Sine and cosine on vectors.
 
 use super::lanes::{Arithmetic, Lanes};
-
-/// What they need beyond arithmetic.
-pub trait QuarterTurns: Lanes {
-    /// The sine and cosine of an angle, given those of the angle less a number of quarter turns.
-    /// That number, an integer, is `quarters` less 1.5 * 2^52, so that it can be read from the low
-    /// bits.
-    fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F);
-}
 
 /// Sine and cosine: the angle is brought within an eighth turn of 0 by subtracting quarter turns
 /// (in two parts, the first of which is exact), then come the Taylor series, cut where the next
 /// term is below 2^-56.
 #[inline(always)]
-pub fn sin_cos<L: QuarterTurns>(lanes: L, angle: L::F) -> (L::F, L::F) {
+pub fn sin_cos<L: Lanes>(lanes: L, angle: L::F) -> (L::F, L::F) {
     // 1.5 * 2^52: adding it rounds to an integer and leaves that integer in the low bits.
     const SHIFT: f64 = 6755399441055744.0;
     // pi/2 to twice the precision of f64.

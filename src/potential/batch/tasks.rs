@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::DipolePotential;
 use super::field::{Frame, Shares, Source, field, pair_of};
-use super::lanes::{Lanes, MAX_ANGLE, MAX_WIDTH, Task};
+use super::lanes::{Lanes, MAX_ANGLE, Task, WIDTH};
 use crate::configuration::Configuration;
 use crate::potential::finite;
 use crate::potential::groups::walk::{Leeway, Walk};
@@ -37,11 +37,11 @@ pub fn frame_of_one<L: Lanes>(l: L, q: &Configuration) -> Frame<L::F> {
     }
 }
 
-/// Up to `L::WIDTH` configurations, one in each lane; the last one fills the rest.
+/// Up to [`WIDTH`] configurations, one in each lane; the last one fills the rest.
 #[inline(always)]
 fn frame_of_many<L: Lanes>(l: L, qs: &[Configuration]) -> Frame<L::F> {
-    let mut columns = [[0.0; MAX_WIDTH]; 3];
-    for lane in 0..L::WIDTH {
+    let mut columns = [[0.0; WIDTH]; 3];
+    for lane in 0..WIDTH {
         let q = &qs[lane.min(qs.len() - 1)];
         columns[0][lane] = q.x;
         columns[1][lane] = q.y;
@@ -74,12 +74,13 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         shares: &mut Shares<L::F>,
     ) {
         let mut first = moving.start;
-        while first + 2 * L::WIDTH <= moving.end {
+        while L::AT_ONCE == 2 && first + 2 * WIDTH <= moving.end {
             self.block::<L, 2>(l, frame, sources, first, shares);
-            first += 2 * L::WIDTH;
+            first += 2 * WIDTH;
         }
-        if first < moving.end {
+        while first < moving.end {
             self.block::<L, 1>(l, frame, sources, first, shares);
+            first += WIDTH;
         }
     }
 
@@ -97,12 +98,12 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         let moving = &self.potential.moving;
         let mut places = [[l.splat(0.0); 2]; N];
         for (k, place) in places.iter_mut().enumerate() {
-            let i = first + k * L::WIDTH;
+            let i = first + k * WIDTH;
             *place = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
         let fields = field::<L, N, SLOPE>(l, sources, &places);
         for k in 0..N {
-            let i = first + k * L::WIDTH;
+            let i = first + k * WIDTH;
             let moment = [l.load(&moving.moment_x[i..]), l.load(&moving.moment_y[i..])];
             shares.gather::<L, SLOPE>(l, frame, moment, places[k], &fields[k]);
         }
@@ -152,23 +153,23 @@ pub struct InLanes<'a, P, const SLOPE: bool> {
 }
 
 impl<P, const SLOPE: bool> InLanes<'_, P, SLOPE> {
-    /// The shares of the moving dipoles `first` and `first + 1`.
+    /// The shares of `N` moving dipoles from `first` on.
     #[inline(always)]
-    fn two<L: Lanes>(
+    fn some<L: Lanes, const N: usize>(
         &self,
         l: L,
         frame: &Frame<L::F>,
         first: usize,
-        shares: &mut [Shares<L::F>; 2],
+        shares: &mut [Shares<L::F>],
     ) {
         let moving = &self.potential.moving;
-        let mut places = [[l.splat(0.0); 2]; 2];
+        let mut places = [[l.splat(0.0); 2]; N];
         for (k, place) in places.iter_mut().enumerate() {
             let i = first + k;
             *place = frame.place(l, pair_of(l, [moving.x[i], moving.y[i]]));
         }
-        let fields = field::<L, 2, SLOPE>(l, &self.potential.sources, &places);
-        for (k, shares) in shares.iter_mut().enumerate() {
+        let fields = field::<L, N, SLOPE>(l, &self.potential.sources, &places);
+        for (k, shares) in shares.iter_mut().enumerate().take(N) {
             let i = first + k;
             let moment = pair_of(l, [moving.moment_x[i], moving.moment_y[i]]);
             shares.gather::<L, SLOPE>(l, frame, moment, places[k], &fields[k]);
@@ -180,16 +181,17 @@ impl<P, const SLOPE: bool> InLanes<'_, P, SLOPE> {
     #[inline(always)]
     fn all<L: Lanes>(&self, l: L, frame: &Frame<L::F>) -> Shares<L::F> {
         let count = self.potential.moving.count;
-        let mut shares = [Shares::zero(l); MAX_WIDTH];
-        for lane in (0..L::WIDTH.min(count)).step_by(2) {
-            let mut two = [Shares::zero(l); 2];
-            for first in (lane..count).step_by(L::WIDTH) {
-                self.two(l, frame, first, &mut two);
+        let mut shares = [Shares::zero(l); WIDTH];
+        for lane in (0..WIDTH.min(count)).step_by(L::AT_ONCE) {
+            for first in (lane..count).step_by(WIDTH) {
+                let shares = &mut shares[lane..];
+                match L::AT_ONCE {
+                    1 => self.some::<L, 1>(l, frame, first, shares),
+                    _ => self.some::<L, 2>(l, frame, first, shares),
+                }
             }
-            shares[lane] = two[0];
-            shares[lane + 1] = two[1];
         }
-        let mut width = L::WIDTH / 2;
+        let mut width = WIDTH / 2;
         while width > 0 {
             for i in 0..width {
                 shares[i] = shares[i].add(l, shares[i + width]);
@@ -208,10 +210,10 @@ where
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, l: L) {
-        for (block, qs) in self.qs.chunks(L::WIDTH).enumerate() {
+        for (block, qs) in self.qs.chunks(WIDTH).enumerate() {
             let frame = frame_of_many(l, qs);
             let (energy, slope) = self.all(l, &frame).finish(l, &frame);
-            let mut columns = [[0.0; MAX_WIDTH]; 4];
+            let mut columns = [[0.0; WIDTH]; 4];
             l.store(energy, &mut columns[0]);
             if SLOPE {
                 l.store(slope[0], &mut columns[1]);
@@ -222,7 +224,7 @@ where
             for lane in 0..qs.len() {
                 let slope = Vector3::new(x[lane], y[lane], turn[lane]);
                 let (energy, slope) = finite(energy[lane], slope);
-                (self.put)(block * L::WIDTH + lane, energy, slope);
+                (self.put)(block * WIDTH + lane, energy, slope);
             }
         }
     }

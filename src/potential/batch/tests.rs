@@ -13,26 +13,21 @@ use known::Operations;
 /// A change of the known numbers is a change of the kernel's speed; the bench measures how much.
 #[test]
 fn operations_a_pair() {
-    check::<false, false>();
-    check::<false, true>();
-    check::<true, false>();
-    check::<true, true>();
+    check::<false>();
+    check::<true>();
 }
 
-fn check<const SLOPE: bool, const EXACT: bool>() {
-    let (none, some) = (
-        of_field::<SLOPE, EXACT>(0),
-        of_field::<SLOPE, EXACT>(TOGETHER),
-    );
+fn check<const SLOPE: bool>() {
+    let (none, some) = (of_field::<SLOPE>(0), of_field::<SLOPE>(TOGETHER));
     let a_pair = Operations {
         simple: (some.simple - none.simple) / TOGETHER,
         fused: (some.fused - none.fused) / TOGETHER,
-        estimates: (some.estimates - none.estimates) / TOGETHER,
+        singles: (some.singles - none.singles) / TOGETHER,
     };
-    assert_eq!(a_pair, Operations::per_pair(SLOPE, EXACT));
+    assert_eq!(a_pair, Operations::per_pair(SLOPE));
 }
 
-fn of_field<const SLOPE: bool, const EXACT: bool>(sources: usize) -> Operations {
+fn of_field<const SLOPE: bool>(sources: usize) -> Operations {
     let counted = Cell::default();
     let source = Source {
         position: [0.0; 2],
@@ -40,19 +35,15 @@ fn of_field<const SLOPE: bool, const EXACT: bool>(sources: usize) -> Operations 
         thrice: [0.0; 2],
         magnitude: 0.0,
     };
-    field::<_, 1, SLOPE>(
-        Counter::<EXACT>(&counted),
-        &vec![source; sources],
-        &[[(); 2]],
-    );
+    field::<_, 1, SLOPE>(Counter(&counted), &vec![source; sources], &[[(); 2]]);
     counted.get()
 }
 
 /// Arithmetic that computes nothing, but counts.
 #[derive(Clone, Copy)]
-struct Counter<'a, const EXACT: bool>(&'a Cell<Operations>);
+struct Counter<'a>(&'a Cell<Operations>);
 
-impl<const EXACT: bool> Counter<'_, EXACT> {
+impl Counter<'_> {
     fn simple(self) {
         let mut counted = self.0.get();
         counted.simple += 1;
@@ -65,16 +56,15 @@ impl<const EXACT: bool> Counter<'_, EXACT> {
         self.0.set(counted);
     }
 
-    fn estimate(self) {
+    fn single(self) {
         let mut counted = self.0.get();
-        counted.estimates += 1;
+        counted.singles += 1;
         self.0.set(counted);
     }
 }
 
-impl<const EXACT: bool> Arithmetic for Counter<'_, EXACT> {
+impl Arithmetic for Counter<'_> {
     type F = ();
-    const ESTIMATE_IS_EXACT: bool = EXACT;
 
     fn splat(self, _: f64) {}
 
@@ -102,11 +92,11 @@ impl<const EXACT: bool> Arithmetic for Counter<'_, EXACT> {
         self.simple();
     }
 
-    fn reciprocal_sqrt_estimate(self, _: ()) {
-        self.estimate();
+    fn reciprocal_sqrt_single(self, _: ()) {
+        self.single();
     }
 
-    fn reciprocal_estimate(self, _: ()) {
-        self.estimate();
+    fn reciprocal_single(self, _: ()) {
+        self.single();
     }
 }

@@ -4,10 +4,10 @@
 
 use std::arch::x86_64::*;
 
-use super::lanes::{Arithmetic, Lanes, Task};
-use super::sin_cos::{QuarterTurns, sin_cos};
+use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
 
-/// Four lanes. Only [`Avx2::detect`] makes one, so whoever holds one runs on a CPU that has it.
+/// Eight lanes as two halves. Only [`Avx2::detect`] makes one, so whoever holds one runs on a CPU
+/// that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx2(());
 
@@ -27,6 +27,32 @@ macro_rules! with {
     }};
 }
 
+/// Operations that are one intrinsic each.
+macro_rules! intrinsics {
+    ($($name:ident($($x:ident),*) = $call:expr;)*) => {$(
+        #[inline(always)]
+        fn $name(self, $($x: Self::F),*) -> Self::F {
+            with!(self: $call($($x),*))
+        }
+    )*};
+}
+
+/// The same, on either half.
+macro_rules! intrinsics_on_halves {
+    ($($name:ident($($x:ident),*) = $call:expr;)*) => {$(
+        #[inline(always)]
+        fn $name(self, $($x: Self::F),*) -> Self::F {
+            with!(self: [$call($($x[0]),*), $call($($x[1]),*)])
+        }
+    )*};
+}
+
+/// The bits of a number below its exponent.
+const FRACTION: i64 = (1 << 52) - 1;
+
+/// An integer up to 2^52 with the bits of 2^52 above it is, as a number, 2^52 plus it.
+const SHIFT: f64 = 4503599627370496.0;
+
 impl Avx2 {
     pub fn detect() -> Option<Self> {
         (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Self(()))
@@ -44,12 +70,15 @@ impl Avx2 {
 
 impl Avx512 {
     pub fn detect() -> Option<Self> {
-        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma")).then_some(Self(()))
+        let has = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma");
+        has.then_some(Self(()))
     }
 
     #[inline]
     pub fn run<T: Task>(self, task: T) -> T::Output {
-        #[target_feature(enable = "avx512f,fma")]
+        #[target_feature(enable = "avx512f,avx2,fma")]
         fn compiled<T: Task>(lanes: Avx512, task: T) -> T::Output {
             task.run(lanes)
         }
@@ -58,221 +87,172 @@ impl Avx512 {
 }
 
 impl Arithmetic for Avx2 {
-    type F = __m256d;
-    const ESTIMATE_IS_EXACT: bool = false;
+    type F = [__m256d; 2];
 
     #[inline(always)]
-    fn splat(self, value: f64) -> __m256d {
-        with!(self: _mm256_set1_pd(value))
+    fn splat(self, value: f64) -> Self::F {
+        with!(self: [_mm256_set1_pd(value); 2])
+    }
+
+    intrinsics_on_halves! {
+        add(a, b) = _mm256_add_pd;
+        sub(a, b) = _mm256_sub_pd;
+        mul(a, b) = _mm256_mul_pd;
+        mul_add(a, b, c) = _mm256_fmadd_pd;
+        neg_mul_add(a, b, c) = _mm256_fnmadd_pd;
+        min(a, b) = _mm256_min_pd;
     }
 
     #[inline(always)]
-    fn add(self, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_add_pd(a, b))
+    fn reciprocal_sqrt_single(self, a: Self::F) -> Self::F {
+        with!(self: {
+            let singles = _mm256_set_m128(_mm256_cvtpd_ps(a[1]), _mm256_cvtpd_ps(a[0]));
+            let y = _mm256_div_ps(_mm256_set1_ps(1.0), _mm256_sqrt_ps(singles));
+            let upper = _mm256_extractf128_ps(y, 1);
+            [_mm256_cvtps_pd(_mm256_castps256_ps128(y)), _mm256_cvtps_pd(upper)]
+        })
     }
 
     #[inline(always)]
-    fn sub(self, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_sub_pd(a, b))
-    }
-
-    #[inline(always)]
-    fn mul(self, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_mul_pd(a, b))
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: __m256d, b: __m256d, c: __m256d) -> __m256d {
-        with!(self: _mm256_fmadd_pd(a, b, c))
-    }
-
-    #[inline(always)]
-    fn neg_mul_add(self, a: __m256d, b: __m256d, c: __m256d) -> __m256d {
-        with!(self: _mm256_fnmadd_pd(a, b, c))
-    }
-
-    #[inline(always)]
-    fn min(self, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_min_pd(a, b))
-    }
-
-    /// In single precision, with a relative error of at most 1.5 / 2^12.
-    #[inline(always)]
-    fn reciprocal_sqrt_estimate(self, a: __m256d) -> __m256d {
-        with!(self: _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(a))))
-    }
-
-    /// In single precision, with a relative error of at most 1.5 / 2^12.
-    #[inline(always)]
-    fn reciprocal_estimate(self, a: __m256d) -> __m256d {
-        with!(self: _mm256_cvtps_pd(_mm_rcp_ps(_mm256_cvtpd_ps(a))))
+    fn reciprocal_single(self, a: Self::F) -> Self::F {
+        with!(self: {
+            let singles = _mm256_set_m128(_mm256_cvtpd_ps(a[1]), _mm256_cvtpd_ps(a[0]));
+            let y = _mm256_div_ps(_mm256_set1_ps(1.0), singles);
+            let upper = _mm256_extractf128_ps(y, 1);
+            [_mm256_cvtps_pd(_mm256_castps256_ps128(y)), _mm256_cvtps_pd(upper)]
+        })
     }
 }
 
 impl Lanes for Avx2 {
-    const WIDTH: usize = 4;
+    // Of sixteen registers a vector takes two.
+    const AT_ONCE: usize = 1;
 
     #[inline(always)]
-    fn load(self, values: &[f64]) -> __m256d {
-        let values = &values[..Self::WIDTH];
-        with!(self: _mm256_loadu_pd(values.as_ptr()))
+    fn load(self, values: &[f64]) -> Self::F {
+        let values = &values[..WIDTH];
+        with!(self: [
+            _mm256_loadu_pd(values.as_ptr()),
+            _mm256_loadu_pd(values[WIDTH / 2..].as_ptr()),
+        ])
     }
 
     #[inline(always)]
-    fn store(self, lanes: __m256d, values: &mut [f64]) {
-        let values = &mut values[..Self::WIDTH];
-        with!(self: _mm256_storeu_pd(values.as_mut_ptr(), lanes))
-    }
-
-    #[inline(always)]
-    fn sin_cos(self, angle: __m256d) -> (__m256d, __m256d) {
-        sin_cos(self, angle)
-    }
-
-    #[inline(always)]
-    fn least(self, lanes: __m256d) -> f64 {
+    fn store(self, lanes: Self::F, values: &mut [f64]) {
+        let values = &mut values[..WIDTH];
         with!(self: {
-            let pair = _mm_min_pd(_mm256_castpd256_pd128(lanes), _mm256_extractf128_pd(lanes, 1));
-            _mm_cvtsd_f64(_mm_min_sd(pair, _mm_unpackhi_pd(pair, pair)))
+            _mm256_storeu_pd(values.as_mut_ptr(), lanes[0]);
+            _mm256_storeu_pd(values[WIDTH / 2..].as_mut_ptr(), lanes[1]);
+        })
+    }
+
+    intrinsics_on_halves! {
+        div(a, b) = _mm256_div_pd;
+        sqrt(a) = _mm256_sqrt_pd;
+        select(condition, a, b) = |condition, a, b| _mm256_blendv_pd(a, b, condition);
+    }
+
+    #[inline(always)]
+    fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F) {
+        with!(self: {
+            let fraction = _mm256_castsi256_pd(_mm256_set1_epi64x(FRACTION));
+            let mantissa = |a| _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0));
+            let exponent = |a| {
+                let bits = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
+                let number = _mm256_or_pd(bits, _mm256_set1_pd(SHIFT));
+                _mm256_sub_pd(number, _mm256_set1_pd(SHIFT + 1023.0))
+            };
+            ([mantissa(a[0]), mantissa(a[1])], [exponent(a[0]), exponent(a[1])])
         })
     }
 
     #[inline(always)]
-    fn div(self, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_div_pd(a, b))
-    }
-
-    #[inline(always)]
-    fn sqrt(self, a: __m256d) -> __m256d {
-        with!(self: _mm256_sqrt_pd(a))
-    }
-
-    #[inline(always)]
-    fn select(self, condition: __m256d, a: __m256d, b: __m256d) -> __m256d {
-        with!(self: _mm256_blendv_pd(a, b, condition))
-    }
-
-    #[inline(always)]
-    fn mantissa_and_exponent(self, a: __m256d) -> (__m256d, __m256d) {
-        // An integer up to 2^52 with the bits of 2^52 above it is, as a number, 2^52 plus it.
-        const SHIFT: f64 = 4503599627370496.0;
+    fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F) {
         with!(self: {
-            let exponent = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
-            let exponent = _mm256_or_pd(exponent, _mm256_set1_pd(SHIFT));
-            let fraction = _mm256_set1_pd(f64::from_bits((1 << 52) - 1));
-            (
-                _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0)),
-                _mm256_sub_pd(exponent, _mm256_set1_pd(SHIFT + 1023.0)),
-            )
-        })
-    }
-}
-
-impl QuarterTurns for Avx2 {
-    #[inline(always)]
-    fn turn(self, quarters: __m256d, sin: __m256d, cos: __m256d) -> (__m256d, __m256d) {
-        with!(self: {
-            let quarters = _mm256_castpd_si256(quarters);
             let sign = _mm256_set1_epi64x(i64::MIN);
-            let odd = _mm256_castsi256_pd(_mm256_slli_epi64(quarters, 63));
-            let half = _mm256_slli_epi64(quarters, 62);
-            let other = _mm256_xor_si256(half, _mm256_castpd_si256(odd));
             let flip = |x, bits| {
                 _mm256_xor_pd(x, _mm256_castsi256_pd(_mm256_and_si256(bits, sign)))
             };
-            (
-                flip(_mm256_blendv_pd(sin, cos, odd), half),
-                flip(_mm256_blendv_pd(cos, sin, odd), other),
-            )
+            let turn = |i: usize| {
+                let quarters = _mm256_castpd_si256(quarters[i]);
+                let odd = _mm256_castsi256_pd(_mm256_slli_epi64(quarters, 63));
+                let half = _mm256_slli_epi64(quarters, 62);
+                let other = _mm256_xor_si256(half, _mm256_castpd_si256(odd));
+                (
+                    flip(_mm256_blendv_pd(sin[i], cos[i], odd), half),
+                    flip(_mm256_blendv_pd(cos[i], sin[i], odd), other),
+                )
+            };
+            let (lower, upper) = (turn(0), turn(1));
+            ([lower.0, upper.0], [lower.1, upper.1])
         })
+    }
+
+    #[inline(always)]
+    fn least(self, lanes: Self::F) -> f64 {
+        with!(self: least_of_four(_mm256_min_pd(lanes[0], lanes[1])))
+    }
+
+    #[inline(always)]
+    fn sum(self, lanes: Self::F) -> f64 {
+        with!(self: sum_of_four(_mm256_add_pd(lanes[0], lanes[1])))
+    }
+
+    #[inline(always)]
+    fn first(self, lanes: Self::F) -> f64 {
+        with!(self: _mm256_cvtsd_f64(lanes[0]))
     }
 }
 
 impl Arithmetic for Avx512 {
     type F = __m512d;
-    const ESTIMATE_IS_EXACT: bool = false;
 
     #[inline(always)]
     fn splat(self, value: f64) -> __m512d {
         with!(self: _mm512_set1_pd(value))
     }
 
-    #[inline(always)]
-    fn add(self, a: __m512d, b: __m512d) -> __m512d {
-        with!(self: _mm512_add_pd(a, b))
+    intrinsics! {
+        add(a, b) = _mm512_add_pd;
+        sub(a, b) = _mm512_sub_pd;
+        mul(a, b) = _mm512_mul_pd;
+        mul_add(a, b, c) = _mm512_fmadd_pd;
+        neg_mul_add(a, b, c) = _mm512_fnmadd_pd;
+        min(a, b) = _mm512_min_pd;
     }
 
     #[inline(always)]
-    fn sub(self, a: __m512d, b: __m512d) -> __m512d {
-        with!(self: _mm512_sub_pd(a, b))
+    fn reciprocal_sqrt_single(self, a: __m512d) -> __m512d {
+        with!(self: {
+            let root = _mm256_sqrt_ps(_mm512_cvtpd_ps(a));
+            _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), root))
+        })
     }
 
     #[inline(always)]
-    fn mul(self, a: __m512d, b: __m512d) -> __m512d {
-        with!(self: _mm512_mul_pd(a, b))
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: __m512d, b: __m512d, c: __m512d) -> __m512d {
-        with!(self: _mm512_fmadd_pd(a, b, c))
-    }
-
-    #[inline(always)]
-    fn neg_mul_add(self, a: __m512d, b: __m512d, c: __m512d) -> __m512d {
-        with!(self: _mm512_fnmadd_pd(a, b, c))
-    }
-
-    #[inline(always)]
-    fn min(self, a: __m512d, b: __m512d) -> __m512d {
-        with!(self: _mm512_min_pd(a, b))
-    }
-
-    /// With a relative error of at most 1 / 2^14.
-    #[inline(always)]
-    fn reciprocal_sqrt_estimate(self, a: __m512d) -> __m512d {
-        with!(self: _mm512_rsqrt14_pd(a))
-    }
-
-    /// With a relative error of at most 1 / 2^14.
-    #[inline(always)]
-    fn reciprocal_estimate(self, a: __m512d) -> __m512d {
-        with!(self: _mm512_rcp14_pd(a))
+    fn reciprocal_single(self, a: __m512d) -> __m512d {
+        with!(self: _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), _mm512_cvtpd_ps(a))))
     }
 }
 
 impl Lanes for Avx512 {
-    const WIDTH: usize = 8;
+    const AT_ONCE: usize = 2;
 
     #[inline(always)]
     fn load(self, values: &[f64]) -> __m512d {
-        let values = &values[..Self::WIDTH];
+        let values = &values[..WIDTH];
         with!(self: _mm512_loadu_pd(values.as_ptr()))
     }
 
     #[inline(always)]
     fn store(self, lanes: __m512d, values: &mut [f64]) {
-        let values = &mut values[..Self::WIDTH];
+        let values = &mut values[..WIDTH];
         with!(self: _mm512_storeu_pd(values.as_mut_ptr(), lanes))
     }
 
-    #[inline(always)]
-    fn sin_cos(self, angle: __m512d) -> (__m512d, __m512d) {
-        sin_cos(self, angle)
-    }
-
-    #[inline(always)]
-    fn least(self, lanes: __m512d) -> f64 {
-        with!(self: _mm512_reduce_min_pd(lanes))
-    }
-
-    #[inline(always)]
-    fn div(self, a: __m512d, b: __m512d) -> __m512d {
-        with!(self: _mm512_div_pd(a, b))
-    }
-
-    #[inline(always)]
-    fn sqrt(self, a: __m512d) -> __m512d {
-        with!(self: _mm512_sqrt_pd(a))
+    intrinsics! {
+        div(a, b) = _mm512_div_pd;
+        sqrt(a) = _mm512_sqrt_pd;
     }
 
     #[inline(always)]
@@ -286,14 +266,19 @@ impl Lanes for Avx512 {
 
     #[inline(always)]
     fn mantissa_and_exponent(self, a: __m512d) -> (__m512d, __m512d) {
-        with!(self: (
-            _mm512_getmant_pd::<_MM_MANT_NORM_1_2, _MM_MANT_SIGN_ZERO>(a),
-            _mm512_getexp_pd(a),
-        ))
+        with!(self: {
+            let bits = _mm512_castpd_si512(a);
+            let fraction = _mm512_and_si512(bits, _mm512_set1_epi64(FRACTION));
+            let one = _mm512_castpd_si512(_mm512_set1_pd(1.0));
+            let shift = _mm512_castpd_si512(_mm512_set1_pd(SHIFT));
+            let exponent = _mm512_or_si512(_mm512_srli_epi64(bits, 52), shift);
+            (
+                _mm512_castsi512_pd(_mm512_or_si512(fraction, one)),
+                _mm512_sub_pd(_mm512_castsi512_pd(exponent), _mm512_set1_pd(SHIFT + 1023.0)),
+            )
+        })
     }
-}
 
-impl QuarterTurns for Avx512 {
     #[inline(always)]
     fn turn(self, quarters: __m512d, sin: __m512d, cos: __m512d) -> (__m512d, __m512d) {
         with!(self: {
@@ -312,4 +297,47 @@ impl QuarterTurns for Avx512 {
             )
         })
     }
+
+    #[inline(always)]
+    fn least(self, lanes: __m512d) -> f64 {
+        with!(self: {
+            let upper = _mm512_extractf64x4_pd(lanes, 1);
+            least_of_four(_mm256_min_pd(_mm512_castpd512_pd256(lanes), upper))
+        })
+    }
+
+    #[inline(always)]
+    fn sum(self, lanes: __m512d) -> f64 {
+        with!(self: {
+            let upper = _mm512_extractf64x4_pd(lanes, 1);
+            sum_of_four(_mm256_add_pd(_mm512_castpd512_pd256(lanes), upper))
+        })
+    }
+
+    #[inline(always)]
+    fn first(self, lanes: __m512d) -> f64 {
+        with!(self: _mm512_cvtsd_f64(lanes))
+    }
+}
+
+/// The least of four lanes, by halves.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn least_of_four(lanes: __m256d) -> f64 {
+    let pair = _mm_min_pd(
+        _mm256_castpd256_pd128(lanes),
+        _mm256_extractf128_pd(lanes, 1),
+    );
+    _mm_cvtsd_f64(_mm_min_sd(pair, _mm_unpackhi_pd(pair, pair)))
+}
+
+/// The sum of four lanes, by halves.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn sum_of_four(lanes: __m256d) -> f64 {
+    let pair = _mm_add_pd(
+        _mm256_castpd256_pd128(lanes),
+        _mm256_extractf128_pd(lanes, 1),
+    );
+    _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)))
 }

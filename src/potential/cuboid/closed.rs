@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 
 use super::block::{BlockPair, Faces};
 use super::sheet::{angle_moments, first_moment, potential};
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
+use crate::potential::batch::lanes::{Lanes, WIDTH};
 
 /// Distances from a sheet below this share of its width count as touching.
 const TOUCHING: f64 = 1e-10;
@@ -18,17 +18,17 @@ const TOUCHING: f64 = 1e-10;
 struct Points {
     /// The middle of the second face as seen from the first one's edge (m), along that face and
     /// off it; or the second face's end as seen from the first one's middle.
-    x: [f64; MAX_WIDTH],
-    h: [f64; MAX_WIDTH],
+    x: [f64; WIDTH],
+    h: [f64; WIDTH],
     /// Twice the product of the charge densities (J/m^3), with the sign of the pair of poles, and
     /// for edges of where the edge is.
-    weight: [f64; MAX_WIDTH],
+    weight: [f64; WIDTH],
     /// The levers about the turning point of forces along x and h at the second face's middle (m).
-    levers: [[f64; MAX_WIDTH]; 2],
+    levers: [[f64; WIDTH]; 2],
     /// On which side of the first face's line the second face's ends lie.
-    sides: [[f64; MAX_WIDTH]; 2],
+    sides: [[f64; WIDTH]; 2],
     /// What is added to the angle's moments where the second face passes through that line.
-    crossings: [[f64; MAX_WIDTH]; 2],
+    crossings: [[f64; WIDTH]; 2],
 }
 
 impl BlockPair {
@@ -44,16 +44,14 @@ impl BlockPair {
     ) {
         let edges = self.edges(faces);
         let steep = l.splat(self.by_energy());
-        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-            let [zeroth, first] = self.moments_along(l, &edges, from);
-            let h = if self.is_steep() {
-                // Phi_h is what is missing from the derivative along the second face.
-                [l.mul(steep, zeroth), l.mul(steep, first)]
-            } else {
-                self.singular_moments(l, &edges, from)
-            };
-            self.add_forces(l, &edges, from, [zeroth, first], h, gradient);
-        }
+        let [zeroth, first] = self.moments_along(l, &edges);
+        let h = if self.is_steep() {
+            // Phi_h is what is missing from the derivative along the second face.
+            [l.mul(steep, zeroth), l.mul(steep, first)]
+        } else {
+            self.singular_moments(l, &edges)
+        };
+        self.add_forces(l, &edges, [zeroth, first], h, gradient);
         if self.is_steep() {
             self.add_ends(l, faces, gradient);
         }
@@ -85,9 +83,9 @@ impl BlockPair {
     /// Half the moments 0 and 1 of Phi_x: the second face's potential at the first one's edges and,
     /// less the moment 0 times the foot, the first moment of g.
     #[inline(always)]
-    fn moments_along<L: Lanes>(&self, l: L, edges: &Points, from: usize) -> [L::F; 2] {
+    fn moments_along<L: Lanes>(&self, l: L, edges: &Points) -> [L::F; 2] {
         let half = l.splat(self.widths[1] / 2.0);
-        let (x, h) = (l.load(&edges.x[from..]), l.load(&edges.h[from..]));
+        let (x, h) = (l.load(&edges.x), l.load(&edges.h));
         let [foot, d] = self.foot(l, [x, h]);
         let s = [l.sub(foot, half), l.add(foot, half)];
         let (zeroth, _) = potential(l, s, d, self.heights);
@@ -99,17 +97,17 @@ impl BlockPair {
 
     /// Half the moments of the singular part of Phi_h: the angle in which the first face is seen.
     #[inline(always)]
-    fn singular_moments<L: Lanes>(&self, l: L, edges: &Points, from: usize) -> [L::F; 2] {
+    fn singular_moments<L: Lanes>(&self, l: L, edges: &Points) -> [L::F; 2] {
         let half = self.widths[1] / 2.0;
-        let (x, h) = (l.load(&edges.x[from..]), l.load(&edges.h[from..]));
+        let (x, h) = (l.load(&edges.x), l.load(&edges.h));
         let [foot, d] = self.foot(l, [x, h]);
-        let mut zeroth = l.load(&edges.crossings[0][from..]);
-        let mut first = l.load(&edges.crossings[1][from..]);
+        let mut zeroth = l.load(&edges.crossings[0]);
+        let mut first = l.load(&edges.crossings[1]);
         for (t, sign, side) in [(-half, -1.0, &edges.sides[0]), (half, 1.0, &edges.sides[1])] {
             let u = l.sub(l.splat(t), foot);
             let s = l.add(x, l.splat(t * self.cos));
             let h = l.add(h, l.splat(t * self.sin));
-            let [at0, at1] = angle_moments(l, [u, d], [s, h], l.load(&side[from..]));
+            let [at0, at1] = angle_moments(l, [u, d], [s, h], l.load(side));
             zeroth = l.mul_add(at0, l.splat(sign), zeroth);
             first = l.mul_add(at1, l.splat(sign), first);
         }
@@ -181,17 +179,15 @@ impl BlockPair {
         }
         let zero = l.splat(0.0);
         let width = l.splat(self.widths[0] / 2.0);
-        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-            let (x, h) = (l.load(&ends.x[from..]), l.load(&ends.h[from..]));
-            let s = [l.sub(x, width), l.add(x, width)];
-            let (phi, _) = potential(l, s, h, self.heights);
-            let phi = l.mul(phi, l.splat(self.inverse_sin));
-            let moments = [
-                l.mul(phi, l.load(&ends.sides[0][from..])),
-                l.mul(phi, l.splat(half)),
-            ];
-            self.add_forces(l, &ends, from, [zero, zero], moments, gradient);
-        }
+        let (x, h) = (l.load(&ends.x), l.load(&ends.h));
+        let s = [l.sub(x, width), l.add(x, width)];
+        let (phi, _) = potential(l, s, h, self.heights);
+        let phi = l.mul(phi, l.splat(self.inverse_sin));
+        let moments = [
+            l.mul(phi, l.load(&ends.sides[0])),
+            l.mul(phi, l.splat(half)),
+        ];
+        self.add_forces(l, &ends, [zero, zero], moments, gradient);
     }
 
     /// Adds the gradient that forces add up to, given the moments 0 and 1 along the second face of
@@ -201,35 +197,34 @@ impl BlockPair {
         &self,
         l: L,
         points: &Points,
-        from: usize,
         x: [L::F; 2],
         h: [L::F; 2],
         gradient: &mut [L::F; 3],
     ) {
-        let weight = l.load(&points.weight[from..]);
+        let weight = l.load(&points.weight);
         let force = [l.mul(weight, x[0]), l.mul(weight, h[0])];
         let spread = l.neg_mul_add(l.splat(self.sin), x[1], l.mul(l.splat(self.cos), h[1]));
         let [gx, gy, turn] = *gradient;
         let (ax, ay) = (l.splat(self.axis.x), l.splat(self.axis.y));
         // x runs along (-ay, ax) and h along (-ax, -ay).
         let turn = l.mul_add(weight, spread, turn);
-        let turn = l.mul_add(l.load(&points.levers[0][from..]), force[0], turn);
+        let turn = l.mul_add(l.load(&points.levers[0]), force[0], turn);
         *gradient = [
             l.neg_mul_add(ay, force[0], l.neg_mul_add(ax, force[1], gx)),
             l.mul_add(ax, force[0], l.neg_mul_add(ay, force[1], gy)),
-            l.mul_add(l.load(&points.levers[1][from..]), force[1], turn),
+            l.mul_add(l.load(&points.levers[1]), force[1], turn),
         ];
     }
 }
 
 impl Points {
     const NONE: Self = Self {
-        x: [0.0; MAX_WIDTH],
-        h: [0.0; MAX_WIDTH],
-        weight: [0.0; MAX_WIDTH],
-        levers: [[0.0; MAX_WIDTH]; 2],
-        sides: [[0.0; MAX_WIDTH]; 2],
-        crossings: [[0.0; MAX_WIDTH]; 2],
+        x: [0.0; WIDTH],
+        h: [0.0; WIDTH],
+        weight: [0.0; WIDTH],
+        levers: [[0.0; WIDTH]; 2],
+        sides: [[0.0; WIDTH]; 2],
+        crossings: [[0.0; WIDTH]; 2],
     };
 
     /// Weight and levers of a point of a pair of faces.

@@ -6,7 +6,7 @@ use super::CuboidPotential;
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS, index};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The multipole series without its first term, the point dipole, and its gradient (J), over the
@@ -47,7 +47,7 @@ impl Task for Correction<'_> {
                 for (j, &second) in moving.members.iter().enumerate() {
                     let arm = turn * Complex::new(moving.x[j], moving.y[j]);
                     let place = centre + arm;
-                    for from in (0..fixed.x.len()).step_by(L::WIDTH) {
+                    for from in (0..fixed.x.len()).step_by(WIDTH) {
                         let mask = self.mask(fixed, from, second);
                         let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         pairs.arm = arm;
@@ -73,8 +73,8 @@ impl Task for Correction<'_> {
 impl Correction<'_> {
     /// The weights of a vector of fixed blocks with the moving block `second`.
     #[inline(always)]
-    fn mask(&self, fixed: &Group, from: usize, second: usize) -> [f64; MAX_WIDTH] {
-        let mut mask = [0.0; MAX_WIDTH];
+    fn mask(&self, fixed: &Group, from: usize, second: usize) -> [f64; WIDTH] {
+        let mut mask = [0.0; WIDTH];
         for (weight, &first) in mask.iter_mut().zip(&fixed.members[from..]) {
             *weight = self.weights[first * self.stride + second];
         }

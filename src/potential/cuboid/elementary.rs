@@ -89,22 +89,20 @@ pub fn angle<L: Lanes>(l: L, x: L::F, y: L::F) -> L::F {
 mod tests {
     use super::*;
     use crate::potential::batch::Level;
-    use crate::potential::batch::lanes::{MAX_WIDTH, Task};
+    use crate::potential::batch::lanes::{Task, WIDTH};
 
-    struct Both([f64; MAX_WIDTH], [f64; MAX_WIDTH]);
+    struct Both([f64; WIDTH], [f64; WIDTH]);
 
     impl Task for Both {
-        type Output = [[f64; MAX_WIDTH]; 2];
+        type Output = [[f64; WIDTH]; 2];
 
         #[inline(always)]
         fn run<L: Lanes>(self, l: L) -> Self::Output {
-            let mut out = [[f64::NAN; MAX_WIDTH]; 2];
-            for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-                let (a, b) = (l.load(&self.0[from..]), l.load(&self.1[from..]));
-                let x = l.sub(a, l.splat(1.0));
-                l.store(ln_ratio(l, a, b), &mut out[0][from..]);
-                l.store(angle(l, x, b), &mut out[1][from..]);
-            }
+            let mut out = [[f64::NAN; WIDTH]; 2];
+            let (a, b) = (l.load(&self.0), l.load(&self.1));
+            let x = l.sub(a, l.splat(1.0));
+            l.store(ln_ratio(l, a, b), &mut out[0]);
+            l.store(angle(l, x, b), &mut out[1]);
             out
         }
     }
@@ -117,7 +115,7 @@ mod tests {
                 let a = std::array::from_fn(|k| (6.0 * at(k, 0.731)).exp());
                 let b = std::array::from_fn(|k| (9.0 * at(k, 1.377)).exp());
                 let [ln, angle] = level.run(Both(a, b));
-                for k in 0..MAX_WIDTH {
+                for k in 0..WIDTH {
                     let exact = (a[k] / b[k]).ln();
                     assert!(
                         (ln[k] - exact).abs() < 3e-16 * exact.abs().max(1.0),
@@ -131,7 +129,7 @@ mod tests {
                     );
                 }
             }
-            let zero = level.run(Both([1.0; MAX_WIDTH], [1e-300; MAX_WIDTH]));
+            let zero = level.run(Both([1.0; WIDTH], [1e-300; WIDTH]));
             assert!(zero[1].iter().all(|a| (0.0..1.58).contains(a)), "{level}");
         }
     }

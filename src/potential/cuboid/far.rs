@@ -5,7 +5,7 @@ use nalgebra::{Complex, Vector2};
 use super::SizedBlock;
 use super::block::Block;
 use super::multipole::{Coefficients, TERMS, index};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::batch::lanes::{Lanes, WIDTH};
 
 /// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
 #[derive(Clone, Copy)]
@@ -242,9 +242,9 @@ impl Group {
         }
     }
 
-    /// Fills up to a multiple of `width`.
-    pub fn fill(&mut self, width: usize) {
-        let length = self.members.len().next_multiple_of(width);
+    /// Fills up to whole vectors.
+    pub fn fill(&mut self) {
+        let length = self.members.len().next_multiple_of(WIDTH);
         // Far from everything, so that the filling is never taken for near.
         self.x.resize(length, 1e6);
         self.y.resize(length, 0.0);
@@ -276,7 +276,7 @@ mod tests {
             let axis = complex(first.axis);
             let mut group = Group::new(0, first.axis);
             group.push(0, first.position, first.moment);
-            group.fill(L::WIDTH);
+            group.fill();
             let mut coefficients = Coefficients::NONE;
             let turn = complex(second.axis) * axis.conj();
             series.evaluate::<L, true>(l, turn, 0..N, &mut coefficients);

@@ -169,7 +169,7 @@ impl CuboidPotential {
         let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
         let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
         for group in &mut fixed_groups {
-            group.fill(level.width());
+            group.fill();
         }
         let far = fixed_sizes
             .iter()

@@ -33,7 +33,7 @@ use std::ops::Range;
 
 use nalgebra::Complex;
 
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH};
+use crate::potential::batch::lanes::{Lanes, WIDTH};
 
 /// Terms of the series that are summed, the dipole included.
 pub const TERMS: usize = 8;
@@ -99,7 +99,7 @@ pub const fn index(k: usize, half: usize) -> usize {
 }
 
 /// Room for all C_kl, in whole vectors.
-pub const ROOM: usize = index(TERMS, 0).next_multiple_of(MAX_WIDTH);
+pub const ROOM: usize = index(TERMS, 0).next_multiple_of(WIDTH);
 
 /// C_kl at one angle beta.
 #[derive(Clone, Copy, Debug)]
@@ -195,11 +195,11 @@ impl Multipole {
         for j in 1..TERMS {
             phases[j] = phases[j - 1] * step;
         }
-        let mut i = index(terms.start, 0) / L::WIDTH * L::WIDTH;
+        let mut i = index(terms.start, 0) / WIDTH * WIDTH;
         // Term k has the orders up to k.
         let mut orders = 1;
         while i < index(terms.end, 0) {
-            while orders < TERMS && index(orders, 0) < i + L::WIDTH {
+            while orders < TERMS && index(orders, 0) < i + WIDTH {
                 orders += 1;
             }
             let zero = l.splat(0.0);
@@ -223,7 +223,7 @@ impl Multipole {
                 l.store(turn_re, &mut known.turn_re[i..]);
                 l.store(turn_im, &mut known.turn_im[i..]);
             }
-            i += L::WIDTH;
+            i += WIDTH;
         }
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::block::{BlockPair, Faces};
 use super::quadrature::{Fineness, MOST, Panel, Rules, panels};
 use super::sheet::{potential, subtended};
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// The energy (J) of pairs of blocks that have the same sizes and stand at the same angle to each
 /// other, and its gradient where asked for: the one place that brings the quadrature into machine
@@ -42,7 +42,7 @@ impl<const SLOPE: bool> Task for Near<'_, SLOPE> {
 const BATCH: usize = 64;
 
 /// Room for a batch, for the rule that completes it, and for filling the last vector.
-const ROOM: usize = BATCH + MOST + MAX_WIDTH;
+const ROOM: usize = BATCH + MOST + WIDTH;
 
 /// The quadrature over pairs of blocks that have the same sizes and stand at the same angle to
 /// each other, in the coordinates of a pole face of the first block (see [`super::sheet`]).
@@ -123,22 +123,20 @@ impl<F: Copy> Quadrature<F> {
     /// The long axes of the four pole faces as panels (see [`panels`]).
     #[inline(always)]
     fn axes<L: Lanes<F = F>>(&self, l: L, pair: &BlockPair, faces: &[Faces; 4]) -> [f64; 4] {
-        let (mut x, mut h) = ([0.0; MAX_WIDTH], [0.0; MAX_WIDTH]);
+        let (mut x, mut h) = ([0.0; WIDTH], [0.0; WIDTH]);
         for (i, face) in faces.iter().enumerate() {
             x[2 * i] = face.x + self.half_width;
             x[2 * i + 1] = face.x - self.half_width;
             (h[2 * i], h[2 * i + 1]) = (face.h, face.h);
         }
         let half = l.splat(pair.widths[1] / 2.0);
-        let mut sums = [0.0; MAX_WIDTH];
-        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-            let [foot, height] = pair.foot(l, [l.load(&x[from..]), l.load(&h[from..])]);
-            let square = l.mul(height, height);
-            let (a, b) = (l.sub(foot, half), l.add(foot, half));
-            let start = l.sqrt(l.mul_add(a, a, square));
-            let end = l.sqrt(l.mul_add(b, b, square));
-            l.store(l.add(start, end), &mut sums[from..]);
-        }
+        let [foot, height] = pair.foot(l, [l.load(&x), l.load(&h)]);
+        let square = l.mul(height, height);
+        let (a, b) = (l.sub(foot, half), l.add(foot, half));
+        let start = l.sqrt(l.mul_add(a, a, square));
+        let end = l.sqrt(l.mul_add(b, b, square));
+        let mut sums = [0.0; WIDTH];
+        l.store(l.add(start, end), &mut sums);
         let width = 1.0 / pair.widths[1];
         let mut axes = [0.0; 4];
         for (i, face) in faces.iter().enumerate() {
@@ -168,7 +166,7 @@ impl<F: Copy> Quadrature<F> {
         let lever = (pair.arm + face.offset).perp(&self.normal);
         let turn = pair.direction.perp(&self.normal);
         let rule = &self.rules.numbered[panel.rule];
-        for from in (0..rule.count).step_by(L::WIDTH) {
+        for from in (0..rule.count).step_by(WIDTH) {
             let at = self.count + from;
             let t = l.mul_add(l.load(&rule.nodes[from..]), l.splat(half), l.splat(middle));
             let x = l.mul_add(t, l.splat(pair.cos), l.splat(face.x));
@@ -193,7 +191,7 @@ impl<F: Copy> Quadrature<F> {
     /// Adds up the nodes that wait, but for those that do not fill a vector.
     #[inline(always)]
     fn evaluate<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L) {
-        let whole = self.count / L::WIDTH * L::WIDTH;
+        let whole = self.count / WIDTH * WIDTH;
         if SLOPE && self.is_steep {
             self.evaluate_vectors::<L, true, false>(l, whole);
         } else {
@@ -213,7 +211,7 @@ impl<F: Copy> Quadrature<F> {
         count: usize,
     ) {
         let half = l.splat(self.half_width);
-        for from in (0..count).step_by(L::WIDTH) {
+        for from in (0..count).step_by(WIDTH) {
             let (x, h) = (l.load(&self.x[from..]), l.load(&self.h[from..]));
             let weight = l.load(&self.weight[from..]);
             let s = [l.sub(x, half), l.add(x, half)];
@@ -247,7 +245,7 @@ impl<F: Copy> Quadrature<F> {
         l.store(l.splat(0.0), &mut self.weight[self.count..]);
         l.store(l.splat(0.0), &mut self.x[self.count..]);
         l.store(l.splat(self.half_width), &mut self.h[self.count..]);
-        self.count = self.count.next_multiple_of(L::WIDTH);
+        self.count = self.count.next_multiple_of(WIDTH);
         self.evaluate::<L, SLOPE>(l);
         let [x, y, turn] = self.gradient;
         let gradient = if SLOPE {

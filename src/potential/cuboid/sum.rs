@@ -8,7 +8,7 @@ use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::Near;
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The energy at a configuration, and its gradient where asked for (else it is zero).
@@ -75,7 +75,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         for j in 0..moving.members.len() {
             let arm = turn * Complex::new(moving.x[j], moving.y[j]);
             let place = centre + arm;
-            for from in (0..fixed.x.len()).step_by(L::WIDTH) {
+            for from in (0..fixed.x.len()).step_by(WIDTH) {
                 let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                 pairs.arm = arm;
                 let least = l.least(pairs.rr);
@@ -87,9 +87,9 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                 }
                 if least < far.near() {
                     let near = l.splat(far.near());
-                    let mut squares = [0.0; MAX_WIDTH];
+                    let mut squares = [0.0; WIDTH];
                     l.store(pairs.rr, &mut squares);
-                    for (lane, square) in squares[..L::WIDTH].iter().enumerate() {
+                    for (lane, square) in squares.iter().enumerate() {
                         if *square < far.near() {
                             near_pairs.push([from + lane, j]);
                         }
@@ -147,12 +147,12 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
                     .evaluate::<L, SLOPE>(l, turn, 0..TERMS, &mut coefficients);
                 for (j, &second) in moving.members.iter().enumerate() {
                     let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-                    for from in (0..fixed.x.len()).step_by(L::WIDTH) {
+                    for from in (0..fixed.x.len()).step_by(WIDTH) {
                         let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         let mut sums = Sums::zero(l);
                         let terms = far.terms(l.least(pairs.rr));
                         far::add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
-                        let lanes = fixed.members.len().min(from + L::WIDTH) - from;
+                        let lanes = fixed.members.len().min(from + WIDTH) - from;
                         let out = Lane::split(l, &sums, pairs.rr, fixed.axis);
                         for (&first, lane) in fixed.members[from..].iter().zip(&out[..lanes]) {
                             let at = second * self.potential.fixed.len() + first;
@@ -186,8 +186,8 @@ impl Lane {
         sums: &Sums<L::F>,
         squares: L::F,
         axis: Complex<f64>,
-    ) -> [Self; MAX_WIDTH] {
-        let mut columns = [[0.0; MAX_WIDTH]; 5];
+    ) -> [Self; WIDTH] {
+        let mut columns = [[0.0; WIDTH]; 5];
         let [x, y, turn] = sums.gradient;
         for (column, values) in columns.iter_mut().zip([sums.energy, x, y, turn, squares]) {
             l.store(values, column);

@@ -57,7 +57,7 @@ impl ShieldedBounds {
             level,
             fixed_depths: depths(fixed),
             moving_depths: depths(moving),
-            columns: Columns::new(&first, level.width()),
+            columns: Columns::new(&first),
             extent: first.iter().map(|m| m.position.norm()).fold(0.0, f64::max),
             fixed: first,
             levers: ends(second.iter().map(kernel::Magnet::lever)),

@@ -118,7 +118,7 @@ impl ShieldedPotential {
             level,
             blocks,
             rule: ShieldRule::Smooth,
-            columns: Columns::new(&first, level.width()),
+            columns: Columns::new(&first),
             fixed: first,
             moving: shielded(moving, &[]),
             fixed_middles: middles(fixed),
@@ -143,7 +143,7 @@ impl ShieldedPotential {
                 magnet.front.0 = shield.filter(|_| smooth);
             }
         }
-        changed.columns = Columns::new(&changed.fixed, self.level.width());
+        changed.columns = Columns::new(&changed.fixed);
         changed
     }
 

@@ -53,7 +53,7 @@ fn enclosures_are_as_wide_as_they_were() {
         moving: vec![Some(shield), None, Some(shield), Some(shield)],
         ..Shields::default()
     };
-    let level = Level::PORTABLE;
+    let level = Level::best();
     let dipoles = DipoleBounds::with_level(&a, &b, level);
     let blocks = CuboidBounds::with_level(&a, &b, level);
     let shielded = ShieldedBounds::with_level(&small.fixed, &small.moving, &shields, level);

@@ -208,7 +208,7 @@ fn faces(
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     nodes.clear();
     let left = Pair::new(first, second, strength, motion).append(nodes);
-    nodes.fill(level.width());
+    nodes.fill();
     let totals = level.run(Sum {
         nodes,
         half: first.size[1] / 2.0,

@@ -1,6 +1,6 @@
 //! Potentials of one pole face at many nodes of another block's, in vectors.
 
-use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::sheet::{Expansion, expansion};
 
 /// A node of a quadrature over a pole face of the second block: an upright line of charge, in the
@@ -73,12 +73,12 @@ impl Nodes {
     }
 
     /// Fills up to whole vectors with nodes of no weight.
-    pub fn fill(&mut self, width: usize) {
+    pub fn fill(&mut self) {
         let none = Node {
             h: 1.0,
             ..Node::default()
         };
-        while !self.0[0].len().is_multiple_of(width) {
+        while !self.0[0].len().is_multiple_of(WIDTH) {
             self.push(&none);
         }
     }
@@ -114,7 +114,7 @@ impl Task for Sum<'_> {
         let mut from = 0;
         while from < self.nodes.0[0].len() {
             self.add(l, from, &mut sums);
-            from += L::WIDTH;
+            from += WIDTH;
         }
         let mut totals = [0.0; SUMS];
         for (total, sum) in totals.iter_mut().zip(sums) {

@@ -23,6 +23,7 @@ use super::near::{Interval, NearPair, depths, least_distance};
 use super::{CellBounds, Enclosure, ends};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::Level;
+use crate::potential::batch::lanes::WIDTH;
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::are_many;
 use crate::potential::groups::tree::Group;
@@ -89,7 +90,7 @@ impl DipoleBounds {
         }
         let pairs = fixed.magnets.len() * moving.magnets.len();
         let (fixed, first) = in_groups(fixed, 1);
-        let (moving, second) = in_groups(moving, level.width());
+        let (moving, second) = in_groups(moving, WIDTH);
         Self {
             groups: Some([first, second]),
             // Groups are sums of fewer terms than pairs.
@@ -109,7 +110,7 @@ impl DipoleBounds {
 
     fn of_dipoles(fixed: &[(Dipole, f64)], moving: &[(Dipole, f64)], level: Level) -> Self {
         let fixed: Vec<_> = fixed.iter().map(Fixed::new).collect();
-        let moving = Moving::new(moving, level.width());
+        let moving = Moving::new(moving);
         let norm = |dipole: &Fixed| dipole.position[0].hypot(dipole.position[1]);
         Self {
             level,
@@ -189,10 +190,10 @@ impl Fixed {
 }
 
 impl Moving {
-    fn new(dipoles: &[(Dipole, f64)], width: usize) -> Self {
+    fn new(dipoles: &[(Dipole, f64)]) -> Self {
         let column = |entry: &dyn Fn(&(Dipole, f64)) -> f64| {
             let mut column: Vec<f64> = dipoles.iter().map(entry).collect();
-            column.resize(dipoles.len().next_multiple_of(width), 0.0);
+            column.resize(dipoles.len().next_multiple_of(WIDTH), 0.0);
             column
         };
         Self {

@@ -50,7 +50,7 @@ use std::ops::Range;
 
 use super::{DipoleBounds, NEAR};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// Larger than any reciprocal of a difference of squared distances that is not zero.
 const HUGE: f64 = 1e60;
@@ -175,7 +175,7 @@ impl<const BLOCKS: bool> Task for Taylor<'_, BLOCKS> {
                 *total += l.sum(share);
             }
             totals[10] += l.sum(l.mul(magnitude, sums.remainder));
-            first += L::WIDTH;
+            first += WIDTH;
         }
         let [value, x, y, turn, xx, yy, tt, xy, xt, yt, remainder] = totals;
         let form = Quadratic {

@@ -6,7 +6,7 @@ use super::curvature::{Around, dipole_limits, factor_limits, product, size};
 use super::jet::{Place, dipoles, factors};
 use super::{Columns, Magnet, Vectors, Way};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::batch::lanes::{Lanes, MAX_WIDTH, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// Pairs closer than this many times the magnet's reach have no form.
 const NEAR: f64 = 2.0;
@@ -80,7 +80,7 @@ impl Task for Forms<'_> {
             let moved = magnet.moved(q, &rotation);
             let second = Vectors::splat(l, &moved);
             let mut sums = [zero; 10];
-            for from in (0..self.fixed.len()).step_by(L::WIDTH) {
+            for from in (0..self.fixed.len()).step_by(WIDTH) {
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
                 let room = l.sub(way.distance, l.splat(NEAR * speed + TINY));
@@ -154,9 +154,9 @@ impl Forms<'_> {
         if l.least(mask) > 0.0 {
             return;
         }
-        let mut lanes = [0.0; MAX_WIDTH];
+        let mut lanes = [0.0; WIDTH];
         l.store(mask, &mut lanes);
-        let end = self.count.min(from + L::WIDTH);
+        let end = self.count.min(from + WIDTH);
         let near = (from..end).filter(|i| lanes[i - from] == 0.0);
         self.rest.extend(near.map(|i| (i, j)));
     }

@@ -3,7 +3,7 @@
 use super::jet::factors;
 use super::{COINCIDING, Columns, Magnet, Vectors, Way, dot};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The sums over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) and of the same of the
@@ -31,7 +31,7 @@ impl Task for Curvature<'_> {
         let turn = l.splat(self.turn);
         for (j, magnet) in self.moving.iter().enumerate() {
             let second = Vectors::splat(l, &magnet.moved(self.q, &rotation));
-            for from in (0..self.fixed.len()).step_by(L::WIDTH) {
+            for from in (0..self.fixed.len()).step_by(WIDTH) {
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
                 let r = l.sub(way.distance, l.splat(self.reach));

@@ -11,7 +11,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::Front;
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task};
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::block::PairEnergy;
 use crate::units::MU0_OVER_4PI;
 pub(super) use cell::Forms;
@@ -63,10 +63,10 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub fn new(magnets: &[Magnet], width: usize) -> Self {
+    pub fn new(magnets: &[Magnet]) -> Self {
         let rows: Vec<_> = magnets.iter().map(Magnet::entries).collect();
         let far = [1e6, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-        let length = rows.len().next_multiple_of(width);
+        let length = rows.len().next_multiple_of(WIDTH);
         Self {
             entries: std::array::from_fn(|k| {
                 let column = rows.iter().chain(std::iter::repeat(&far));
@@ -178,8 +178,8 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
             let moved = magnet.moved(self.q, &rotation);
             let second = Vectors::splat(l, &moved);
             let arm = moved.position - self.q.position();
-            for from in (0..self.fixed.len()).step_by(L::WIDTH) {
-                if mask[from..from + L::WIDTH].iter().all(|act| *act == 0.0) {
+            for from in (0..self.fixed.len()).step_by(WIDTH) {
+                if mask[from..from + WIDTH].iter().all(|act| *act == 0.0) {
                     continue;
                 }
                 let first = Vectors::load(l, self.fixed, from);

@@ -7,7 +7,7 @@ use super::jet::factors;
 use super::*;
 use crate::cell::Cell;
 use crate::potential::batch::Level;
-use crate::potential::batch::lanes::MAX_WIDTH;
+use crate::potential::batch::lanes::WIDTH;
 use crate::potential::dipole;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -57,7 +57,7 @@ fn the_sum_is_that_of_the_plain_formulas() {
                     size += u.abs() + place.norm() + turn.abs();
                 }
             }
-            let columns = Columns::new(&fixed, level.width());
+            let columns = Columns::new(&fixed);
             let (got, slope) = level.run(Sum::<true> {
                 fixed: &columns,
                 moving: &moving,
@@ -83,19 +83,17 @@ fn the_sum_is_that_of_the_plain_formulas() {
 }
 
 /// S and its derivative at several arguments.
-struct Logistics([f64; MAX_WIDTH]);
+struct Logistics([f64; WIDTH]);
 
 impl Task for Logistics {
-    type Output = [[f64; MAX_WIDTH]; 2];
+    type Output = [[f64; WIDTH]; 2];
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
-        let mut out = [[0.0; MAX_WIDTH]; 2];
-        for from in (0..MAX_WIDTH).step_by(L::WIDTH) {
-            let [value, slope] = logistic(l, l.load(&self.0[from..]));
-            l.store(value, &mut out[0][from..]);
-            l.store(slope, &mut out[1][from..]);
-        }
+        let mut out = [[0.0; WIDTH]; 2];
+        let [value, slope] = logistic(l, l.load(&self.0));
+        l.store(value, &mut out[0]);
+        l.store(slope, &mut out[1]);
         out
     }
 }
@@ -106,7 +104,7 @@ fn the_logistic_function_is_that_of_the_standard_library() {
         for k in 0..4000 {
             let t = std::array::from_fn(|i| 0.004 * f64::from(8 * k + i as i32) - 64.0);
             let [values, slopes] = level.run(Logistics(t));
-            for i in 0..MAX_WIDTH {
+            for i in 0..WIDTH {
                 let exact = scalar_logistic(t[i]);
                 assert!((values[i] - exact).abs() < 3e-14, "{level} {}", t[i]);
                 assert!((slopes[i] - exact * (1.0 - exact)).abs() < 3e-14, "{level}");
@@ -233,7 +231,7 @@ fn forms_have_the_energy_s_derivatives() {
             }
             let place = turned(rng.random_range(-3.1..3.1)) * rng.random_range(0.15..0.3);
             let q = Configuration::new(place.x, place.y, rng.random_range(-3.1..3.1));
-            let columns = Columns::new(&fixed, level.width());
+            let columns = Columns::new(&fixed);
             let mut rest = Vec::new();
             let (form, left_out) = level.run(Forms {
                 fixed: &columns,
