@@ -116,6 +116,7 @@ pub mod inspection;
 pub mod interruption;
 pub mod kinetics;
 pub mod landscape;
+mod matrix;
 pub mod observer;
 pub mod pipeline;
 pub mod potential;

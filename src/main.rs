@@ -9,6 +9,7 @@ mod cli;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use tilebind::potential::batch::Level;
 
 /// How two magnetic tiles bind: states, traps, energy barriers and pathways over (x, y, theta).
 #[derive(Parser)]
@@ -20,6 +21,9 @@ use clap::{Parser, Subcommand};
     after_help = "\
 Exit status: 0 done; 1 the run failed; 2 the command line or a design file is wrong (nothing
 written); 75 interrupted.
+
+TILEBIND_KERNEL=avx512, avx2 or portable in the environment chooses the instruction set (default: the
+fastest that the processor has); the results are the same bytes with each.
 
 Start here:
   tilebind init my.toml
@@ -59,6 +63,9 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(answer) => return cli::answer(&answer),
     };
+    if let Err(message) = Level::chosen() {
+        return cli::Failure::Usage(message).report();
+    }
     let outcome = match arguments.command {
         Command::Analyse(command) => command.run(),
         Command::Energy(command) => command.run(),

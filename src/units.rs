@@ -103,6 +103,12 @@ pub fn prefix_and_decimals(size: f64, digits: usize) -> (f64, &'static str, usiz
     (scale, prefix, decimals as usize)
 }
 
+/// A finite number rounded to so many significant digits (one at least).
+pub fn to_digits(value: f64, digits: usize) -> f64 {
+    let rounded = format!("{value:.*e}", digits.max(1) - 1);
+    rounded.parse().unwrap_or(value)
+}
+
 /// The power of ten of a number rounded to so many significant digits.
 fn exponent(value: f64, digits: usize) -> i32 {
     let rounded = format!("{value:.*e}", digits.max(1) - 1);

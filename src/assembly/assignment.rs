@@ -120,7 +120,7 @@ impl Weights<'_> {
         let meeting = |i: usize, j: usize| {
             let energy = all.energies[faces[i]][mate(faces[j], all.words.len())];
             let unit = all.bond(faces[i] % all.words.len()) / bonds[i].strength;
-            (-DEPTH * energy / unit).exp()
+            libm::exp(-DEPTH * energy / unit)
         };
         let with = |i: &usize| -> f64 {
             let others = (0..bonds.len()).filter(|j| j != i && bonds[*j].axis == bonds[*i].axis);

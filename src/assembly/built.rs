@@ -111,14 +111,14 @@ impl Built {
         let volume = corner::volume(&problem, &bound, shaking.kt)
             .ok_or(BuiltError::Loose(chosen[weakest]))?;
         let area = words.stage.pair.moving.outline.area();
-        let docking_cost = -(shaking.coverage / area * volume / std::f64::consts::TAU).ln();
+        let docking_cost = -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU);
         let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
         Ok(Self {
             set: set.clone(),
             unit: depth(&weakest),
             volume,
             docking_cost,
-            gmc: docking_cost + shares.max(f64::MIN_POSITIVE).ln(),
+            gmc: docking_cost + libm::log(shares.max(f64::MIN_POSITIVE)),
             grown,
             rests,
             wiring,
@@ -239,10 +239,11 @@ impl Built {
             let near = neighbours(*place).any(|(_, near)| there.contains_key(&near));
             if near {
                 let held = |tile: usize| gse * engine.at(&there, *place, tile);
-                let right = held(tile) + self.set.tiles[tile].stoic.max(f64::MIN_POSITIVE).ln();
+                let right =
+                    held(tile) + libm::log(self.set.tiles[tile].stoic.max(f64::MIN_POSITIVE));
                 let others = (0..self.set.tiles.len()).filter(|other| *other != tile);
                 let weight =
-                    |other: usize| self.set.tiles[other].stoic * (held(other) - right).exp();
+                    |other: usize| self.set.tiles[other].stoic * libm::exp(held(other) - right);
                 let wrong: f64 = others.map(weight).sum();
                 sum += wrong / (1.0 + wrong);
             }

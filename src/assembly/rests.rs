@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector, Rotation2};
 
 use super::wiring::Axis;
 use crate::design::WordSet;
+use crate::matrix::product;
 use crate::tile::{Magnet, Tile};
 use crate::words::Word;
 
@@ -57,7 +58,7 @@ impl Rests {
         let places = faces.first().map_or(0, |face| face.places());
         let poles = DMatrix::from_fn(faces.len(), places, |i, k| f64::from(faces[i].at(k)));
         let across = poles.transpose();
-        let of = |magnets: &DMatrix<f64>| &poles * magnets * &across;
+        let of = |magnets: &DMatrix<f64>| product(&product(&poles, magnets), &across);
         self.magnets.each_ref().map(|row| row.each_ref().map(of))
     }
 }

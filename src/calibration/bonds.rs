@@ -15,6 +15,7 @@ use csv::{ReaderBuilder, Trim};
 use statrs::distribution::{Beta, ContinuousCDF};
 
 use crate::dynamics::docking::exponential_statistic;
+use crate::units::to_digits;
 
 /// The columns of a file of intervals: how long a pair was bound, and how long apart (s). Each entry
 /// is one interval, with `>` before it where watching ended first; entries may be left empty.
@@ -153,13 +154,13 @@ impl PairTimes {
 
     /// ln of the time bound over the time apart, and its 95 % interval.
     pub fn log_odds(&self) -> (f64, [f64; 2]) {
-        let value = (self.bound.mean() / self.apart.mean()).ln();
+        let value = libm::log(self.bound.mean() / self.apart.mean());
         let [n, m] = [&self.bound, &self.apart].map(|times| times.whole.len() as f64);
         let share = Beta::new(n, m);
         let end = |p: f64| {
             // Of unit means: part of all time, then ratio of the two.
-            let share = share.map_or(f64::NAN, |share| share.inverse_cdf(p));
-            value - (share / (1.0 - share) * m / n).ln()
+            let share = share.map_or(f64::NAN, |share| to_digits(share.inverse_cdf(p), 6));
+            value - libm::log(share / (1.0 - share) * m / n)
         };
         (value, [end(1.0 - TAIL), end(TAIL)])
     }
@@ -220,7 +221,7 @@ mod tests {
             };
             let (value, [low, high]) = pair.log_odds();
             assert!(value.abs() < 1e-12);
-            let found = [-low, high].map(f64::exp);
+            let found = [-low, high].map(libm::exp);
             for (found, table) in found.into_iter().zip([of_low, of_high]) {
                 assert!(
                     (found / table - 1.0).abs() < 5e-5,
@@ -243,7 +244,7 @@ mod tests {
     #[test]
     fn what_is_cut_off_counts() {
         let mut rng = stream(3, 0);
-        let mut draw = |mean: f64| -mean * (1.0 - rng.random::<f64>()).ln();
+        let mut draw = |mean: f64| -mean * libm::log(1.0 - rng.random::<f64>());
         let (trials, mut held) = (2000, [0; 2]);
         for _ in 0..trials {
             let mut pair = PairTimes::default();
@@ -264,7 +265,7 @@ mod tests {
             };
             for (held, pair) in held.iter_mut().zip([pair, without]) {
                 let [low, high] = pair.log_odds().1;
-                *held += usize::from(low < 10f64.ln() && 10f64.ln() < high);
+                *held += usize::from(low < libm::log(10f64) && libm::log(10f64) < high);
             }
         }
         let [all, whole] = held.map(|held| held as f64 / f64::from(trials));

@@ -132,10 +132,10 @@ impl PairDistances {
         within: f64,
     ) -> Result<DistanceFit, DistancesError> {
         let depth = -problem.energy(bond);
-        let kt = |at: f64| depth * (-at).exp();
+        let kt = |at: f64| depth * libm::exp(-at);
         let law = |node: i32| Distances::new(problem, bond, kt(f64::from(node) * STEP), within);
         // Where all is free, so that a part without probability is one that contact closes.
-        let nodes = DEPTHS.map(|depth| (depth.ln() / STEP).round() as i32);
+        let nodes = DEPTHS.map(|depth| (libm::log(depth) / STEP).round() as i32);
         let first = law(nodes[0]);
         let (mut counts, mut beyond) = (vec![0_usize; first.shares.len()], 0);
         for &(line, distance) in &self.rows {
@@ -155,7 +155,7 @@ impl PairDistances {
             let shares = &known.entry(node).or_insert_with(|| law(node)).shares;
             shares
                 .iter()
-                .map(|p| p.max(f64::MIN_POSITIVE).ln())
+                .map(|p| libm::log(p.max(f64::MIN_POSITIVE)))
                 .collect()
         };
         let search = Search {
@@ -225,7 +225,7 @@ impl Search<'_> {
     }
 
     fn shares(&self, fine: i32) -> Vec<f64> {
-        self.at(fine).into_iter().map(f64::exp).collect()
+        self.at(fine).into_iter().map(libm::exp).collect()
     }
 
     /// The logarithms of the shares: by Lagrange's cubic through four nodes.

@@ -231,7 +231,7 @@ pub fn calibrate(
     }
     let fits = STARTING_LENGTHS.map(|factor| {
         let mut start = start;
-        start[1] += factor.ln();
+        start[1] += libm::log(factor);
         least_squares(start, settings.steps, residuals)
     });
     let [first, others @ ..] = fits;
@@ -268,20 +268,20 @@ fn hold_out(rows: &[Row], every: usize) -> (Vec<&Row>, Vec<&Row>) {
 /// exponentials of the others, so that every set of numbers is a shield.
 fn shield_of(constants: &[f64; 4]) -> Shield {
     Shield {
-        attenuation: 1.0 / (1.0 + (-constants[0]).exp()),
-        length: constants[1].exp(),
-        width: constants[2].exp(),
-        front_gain: constants[3].exp(),
+        attenuation: 1.0 / (1.0 + libm::exp(-constants[0])),
+        length: libm::exp(constants[1]),
+        width: libm::exp(constants[2]),
+        front_gain: libm::exp(constants[3]),
     }
 }
 
 fn constants_of(shield: &Shield) -> [f64; 4] {
     let a = shield.attenuation.clamp(1e-6, 1.0 - 1e-6);
     [
-        (a / (1.0 - a)).ln(),
-        shield.length.ln(),
-        shield.width.ln(),
-        shield.front_gain.ln(),
+        libm::log(a / (1.0 - a)),
+        libm::log(shield.length),
+        libm::log(shield.width),
+        libm::log(shield.front_gain),
     ]
 }
 

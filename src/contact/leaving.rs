@@ -69,7 +69,7 @@ mod tests {
             [wide * a, wide * b]
         });
         let is_left = |[phi, theta]: [f64; 2]| {
-            let out = Vector2::new(phi.cos(), phi.sin());
+            let out = Vector2::new(libm::cos(phi), libm::sin(phi));
             let place = |r: f64| Configuration::new(r * out.x, r * out.y, theta);
             let end = contact.landing(&place(0.0), out).unwrap();
             let inwards = (1..120).map(|k| end - 5e-4 * f64::from(k) - 1e-6);

@@ -124,7 +124,7 @@ mod tests {
                 let mut random = |most: f64| rng.random_range(-most..most);
                 let q = Configuration::new(random(reach), random(reach), random(3.2));
                 let towards = random(3.2);
-                let direction = Vector2::new(towards.cos(), towards.sin());
+                let direction = Vector2::new(libm::cos(towards), libm::sin(towards));
                 let length = 0.5 * reach;
                 let at = |t: f64| {
                     Configuration::new(q.x + t * direction.x, q.y + t * direction.y, q.theta)

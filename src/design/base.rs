@@ -77,10 +77,10 @@ fn regular(section: &Section) -> Result<Base> {
         return Ok(base(&corners, names));
     }
     let turn = TAU / f64::from(sides);
-    let radius = side / (2.0 * (turn / 2.0).sin());
+    let radius = side / (2.0 * libm::sin(turn / 2.0));
     let corners: Vec<_> = (0..sides)
         .map(|k| {
-            let (sin, cos) = (turn * (f64::from(k) - 0.5)).sin_cos();
+            let (sin, cos) = libm::sincos(turn * (f64::from(k) - 0.5));
             Vector2::new(cos, sin) * radius
         })
         .collect();

@@ -50,7 +50,7 @@ impl Strength {
 /// Edges: a long bar has 1/2, a thin plate tends to 0 as `(2/pi) l sqrt(1/a^2 + 1/b^2)`.
 pub fn surface_field_share([l, a, b]: [f64; 3]) -> f64 {
     // atan(1 / x) = pi/2 - atan(x): no difference of nearly equal numbers for a thin plate.
-    (2.0 * l * (4.0 * l * l + a * a + b * b).sqrt() / (a * b)).atan() / PI
+    libm::atan(2.0 * l * (4.0 * l * l + a * a + b * b).sqrt() / (a * b)) / PI
 }
 
 /// The magnet keys of one place in the file; what is not given there is `None`.

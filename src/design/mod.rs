@@ -285,7 +285,7 @@ impl Design {
                 "make the table larger",
             ));
         }
-        if x.hypot(y) <= space.free_distance {
+        if libm::hypot(x, y) <= space.free_distance {
             let needed = quantity::four_digits(3.0 * space.free_distance);
             return Err(entry.error(
                 "the table is too small for the tiles to come apart",

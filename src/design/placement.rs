@@ -93,7 +93,7 @@ pub(super) fn magnet(
     };
     let axis = listed.keys.axis.unwrap_or(0.0);
     // How far the block reaches from its centre towards the surface.
-    let reach = (size[0] * axis.cos().abs() + size[1] * axis.sin().abs()) / 2.0;
+    let reach = (size[0] * libm::cos(axis).abs() + size[1] * libm::sin(axis).abs()) / 2.0;
     let height = surface - listed.keys.inset.unwrap_or(0.0) - reach;
     let outward = match listed.pole {
         Pole::North => face.normal(),
@@ -111,5 +111,5 @@ pub(super) fn magnet(
 /// The angle (rad) of a vector turned by `turn`.
 fn direction(vector: Vector2<f64>, turn: f64) -> f64 {
     // Adding zero turns -0 into 0, so that west is pi and never -pi.
-    wrap_angle((vector.y + 0.0).atan2(vector.x + 0.0) + turn)
+    wrap_angle(libm::atan2(vector.y + 0.0, vector.x + 0.0) + turn)
 }

@@ -170,7 +170,7 @@ fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignErro
             };
             let less_deep = match profile {
                 Profile::Tab { width, draft, .. } if *draft > 0.0 => {
-                    let largest = quantity::rounded_down(width / 2.0 / draft.tan());
+                    let largest = quantity::rounded_down(width / 2.0 / libm::tan(*draft));
                     format!("less deep than {largest} m")
                 }
                 _ => "less deep".to_owned(),
@@ -249,7 +249,7 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
             ..
         } if draft < 0.0 && width / 2.0 + offset.abs() < half => {
             let room = half - offset.abs() - width / 2.0;
-            at_most("depth", room / draft.abs().tan())
+            at_most("depth", room / libm::tan(draft.abs()))
         }
         Profile::Arc { width, offset, .. } if width / 2.0 + offset.abs() < half => {
             // The circle's radius (w^2/4 + d^2) / 2d must not exceed the room beside its middle.

@@ -253,7 +253,7 @@ impl Quantity {
 
 /// A positive limit to three significant digits, never above it.
 pub(super) fn rounded_down(limit: f64) -> f64 {
-    let scale = 10_f64.powi(2 - limit.abs().log10().floor() as i32);
+    let scale = 10_f64.powi(2 - libm::log10(limit.abs()).floor() as i32);
     four_digits((limit * scale * (1.0 - 1e-12)).floor() / scale)
 }
 

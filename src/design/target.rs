@@ -74,7 +74,7 @@ impl Target<'_> {
 /// Where the moving tile is when its face lies on the fixed tile's, the other way round.
 fn face_to_face(fixed: &Face, moving: &Face) -> Configuration {
     let (to, from) = (-fixed.normal(), moving.normal());
-    let theta = clean(cross(from, to)).atan2(clean(from.dot(&to)));
+    let theta = libm::atan2(clean(cross(from, to)), clean(from.dot(&to)));
     let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
     let position: Vector2<f64> = fixed.middle() - turned;
     Configuration::new(clean(position.x), clean(position.y), theta)

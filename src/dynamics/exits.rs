@@ -68,7 +68,7 @@ pub fn exits(
             end = if now.potential < asked.basin_energy {
                 Some(0)
             } else {
-                (q.x.hypot(q.y) >= asked.free_at).then_some(1)
+                (libm::hypot(q.x, q.y) >= asked.free_at).then_some(1)
             };
             end.is_some()
         });

@@ -94,5 +94,5 @@ pub(super) fn attempt(
 
 /// The factor by which the step should change, given its error over the tolerance.
 pub(super) fn step_factor(error_ratio: f64) -> f64 {
-    (0.9 * error_ratio.powf(-0.2)).clamp(0.2, 4.0)
+    (0.9 * libm::pow(error_ratio, -0.2)).clamp(0.2, 4.0)
 }

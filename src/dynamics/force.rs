@@ -40,8 +40,8 @@ impl Fan {
     pub fn energy_and_force(&self, r: Vector2<f64>, t: f64) -> (f64, Vector2<f64>) {
         let away = r - Vector2::from(self.place);
         let variance = self.width * self.width;
-        let now = 1.0 + self.amplitude * (TAU * self.frequency * t).sin();
-        let energy = self.energy * now * (-away.norm_squared() / (2.0 * variance)).exp();
+        let now = 1.0 + self.amplitude * libm::sin(TAU * self.frequency * t);
+        let energy = self.energy * now * libm::exp(-away.norm_squared() / (2.0 * variance));
         (energy, away * (energy / variance))
     }
 }

@@ -225,7 +225,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             }
             before = h;
             if self.forces.drag > 0.0 {
-                self.phase.velocity *= (-self.forces.drag * h).exp();
+                self.phase.velocity *= libm::exp(-self.forces.drag * h);
             }
             self.time = if h == left { until } else { self.time + h };
             self.contact_steps += 1;
@@ -253,7 +253,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     /// `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit variance, for each
     /// degree of freedom with its mass or moment of inertia.
     fn kick(&mut self, energy: f64, h: f64, rng: &mut ChaCha8Rng) {
-        let decay = (-self.simulation.settings.drag * h).exp();
+        let decay = libm::exp(-self.simulation.settings.drag * h);
         let masses = self.simulation.body.masses();
         for i in 0..3 {
             let spread = (energy / masses[i] * (1.0 - decay * decay)).sqrt();
@@ -269,6 +269,6 @@ pub(super) fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Ve
 
 /// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).
 pub(super) fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    radius * (TAU * rng.random::<f64>()).cos()
+    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
+    radius * libm::cos(TAU * rng.random::<f64>())
 }

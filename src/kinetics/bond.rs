@@ -152,7 +152,7 @@ impl<'a> Hold<'a> {
     /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi`, all n copies
     /// counted.
     pub fn association(&self, docking: &Docking) -> f64 {
-        self.copies as f64 * docking.volume.value * docking.depth.exp() / std::f64::consts::TAU
+        self.copies as f64 * docking.volume.value * libm::exp(docking.depth) / std::f64::consts::TAU
     }
 
     fn with(&self, shaking: &Shaking, volume: Estimate) -> Docking {
@@ -161,7 +161,7 @@ impl<'a> Hold<'a> {
         Docking {
             depth: -self.energy / shaking.kt,
             volume,
-            cost: -share.ln(),
+            cost: -libm::log(share),
         }
     }
 }
@@ -199,7 +199,7 @@ impl<'a> Bond<'a> {
     /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
         let cost = |docking: &Docking, depth: f64| {
-            depth + log_odds - (self.0.association(docking) / area).ln()
+            depth + log_odds - libm::log(self.0.association(docking) / area)
         };
         self.threshold(1.0, 1.0, &cost, &RefCell::default())
     }
@@ -218,7 +218,7 @@ impl<'a> Bond<'a> {
             let found = known.borrow().iter().find(|it| it[0] == log_depth).copied();
             found.map_or_else(
                 || {
-                    let depth = log_depth.exp();
+                    let depth = libm::exp(log_depth);
                     let kt = -hold.energy / depth;
                     let docking = hold.docking(&Shaking { kt, coverage }, ROUGH);
                     let cost = cost(&docking, depth);
@@ -228,10 +228,10 @@ impl<'a> Bond<'a> {
                 |known| known[1],
             )
         };
-        let ends = DEPTHS.map(f64::ln);
+        let ends = DEPTHS.map(libm::log);
         let found = straight_root(bonds, &of, ends);
-        let found = found.or_else(|| root(|log| bonds * log.exp() - of(log), ends));
-        found.map(|log_depth| -hold.energy / log_depth.exp())
+        let found = found.or_else(|| root(|log| bonds * libm::exp(log) - of(log), ends));
+        found.map(|log_depth| -hold.energy / libm::exp(log_depth))
     }
 }
 

@@ -7,6 +7,8 @@
 
 use nalgebra::DMatrix;
 
+use crate::matrix::product;
+
 /// Over the short time every state is left with at most this probability.
 const SHORT: f64 = 1.0 / 16.0;
 /// Terms of the series over the short time: the rest is below 1e-17.
@@ -55,8 +57,8 @@ impl Chain {
         if fastest * time <= 0.0 {
             return identity;
         }
-        let squarings = (fastest * time / SHORT).log2().ceil().max(0.0);
-        let short = fastest * time / squarings.exp2();
+        let squarings = libm::log2(fastest * time / SHORT).ceil().max(0.0);
+        let short = fastest * time / libm::exp2(squarings);
         // One step of the uniformised chain: stay, or go where the rates lead.
         let mut step = &self.rates / fastest;
         for (k, sum) in leaving.enumerate() {
@@ -64,11 +66,11 @@ impl Chain {
         }
         let mut sum = identity.clone();
         for k in (1..TERMS).rev() {
-            sum = &identity + &step * sum * (short / k as f64);
+            sum = &identity + product(&step, &sum) * (short / k as f64);
         }
         let mut all = with_unit_rows(sum);
         for _ in 0..squarings as usize {
-            all = with_unit_rows(&all * &all);
+            all = with_unit_rows(product(&all, &all));
         }
         all
     }
@@ -76,7 +78,10 @@ impl Chain {
     /// The probabilities of the states at `time` (s), from those at the start.
     pub fn occupation(&self, start: &[f64], time: f64) -> Vec<f64> {
         let start = DMatrix::from_row_slice(1, start.len(), start);
-        (start * self.transitions(time)).iter().copied().collect()
+        product(&start, &self.transitions(time))
+            .iter()
+            .copied()
+            .collect()
     }
 
     /// The stationary distribution, of the states that can be reached from all others if there are
@@ -190,7 +195,7 @@ mod tests {
         let (a, b) = (3.0, 0.5);
         let chain = Chain::new(DMatrix::from_row_slice(2, 2, &[0.0, a, b, 0.0]));
         for time in [0.0, 1e-6, 0.1, 1.0, 20.0] {
-            let exact = a / (a + b) * -(-(a + b) * time).exp_m1();
+            let exact = a / (a + b) * -libm::expm1(-(a + b) * time);
             let found = chain.occupation(&[1.0, 0.0], time)[1];
             assert!(
                 (found - exact).abs() <= 1e-12 * exact,

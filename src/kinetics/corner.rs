@@ -129,7 +129,7 @@ fn solid_cone(walls: &[Vector3<f64>], slope: &Vector3<f64>) -> Option<f64> {
     let first = (rays[0] - axis * axis.dot(&rays[0])).try_normalize(0.0)?;
     let second = axis.cross(&first);
     rays.sort_by(|a, b| {
-        let angle = |ray: &Vector3<f64>| second.dot(ray).atan2(first.dot(ray));
+        let angle = |ray: &Vector3<f64>| libm::atan2(second.dot(ray), first.dot(ray));
         angle(a).total_cmp(&angle(b))
     });
     let cone = |pair: &[Vector3<f64>]| {

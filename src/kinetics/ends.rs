@@ -165,7 +165,7 @@ impl Ends {
         };
         let loads = loads(&field.mesh, nodes, &self.bound);
         let exit = |time: f64, bound: f64| MeshExit {
-            time: time * ((field.level() - field.ground()) / field.kt).exp(),
+            time: time * libm::exp((field.level() - field.ground()) / field.kt),
             bound: bound.clamp(0.0, 1.0),
             unknowns: system.len(),
             error: f64::INFINITY,
@@ -205,7 +205,7 @@ impl Ends {
         let held: f64 = own
             .map(|(.., element)| element.load.iter().sum::<f64>())
             .sum();
-        let scale = ((field.level() - field.ground()) / field.kt).exp();
+        let scale = libm::exp((field.level() - field.ground()) / field.kt);
         Ok(Some(scale * held / field.energy(nodes, &trial)))
     }
 
@@ -233,7 +233,7 @@ impl Ends {
             left_out: &self.bound,
         };
         let bracket = Bracket::new(&asked, 1)?;
-        let scale = ((field.level() - field.ground()) / field.kt).exp();
+        let scale = libm::exp((field.level() - field.ground()) / field.kt);
         Ok(Some(Step {
             bounds: vec![bracket.ratio(0, 0.0).map(|time| scale * time)],
             deciding: vec![0],

@@ -264,7 +264,7 @@ fn bounds(
 
 fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Result<(), ExitError> {
     for (q, name) in [(&asked.start, "the start"), (bond, "the bond")] {
-        let distance = q.x.hypot(q.y);
+        let distance = libm::hypot(q.x, q.y);
         if distance >= asked.free_at {
             return Err(ExitError::Free(distance, name, asked.free_at));
         }

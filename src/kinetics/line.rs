@@ -44,7 +44,7 @@ pub struct Weight {
 impl Weight {
     /// The weight of an energy (J), below the level or not.
     fn at(&self, energy: f64) -> f64 {
-        (-(energy - self.lowest) / self.kt).exp()
+        libm::exp(-(energy - self.lowest) / self.kt)
     }
 }
 

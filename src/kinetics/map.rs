@@ -51,7 +51,7 @@ impl Map {
                 let value: f64 = shapes(part).iter().zip(own).map(|(s, v)| s * v).sum();
                 let weight = element.weight / (POINTS * POINTS) as f64;
                 for copy in 0..turns {
-                    let (sin, cos) = (phi + turn * copy as f64).sin_cos();
+                    let (sin, cos) = libm::sincos(phi + turn * copy as f64);
                     let at = [r * cos, r * sin].map(|x| (x / radius + 1.0) / 2.0 * side as f64);
                     let [i, j] = at.map(|x| (x as usize).min(side - 1));
                     let flux = [slope.x * cos - slope.y * sin, slope.x * sin + slope.y * cos];

@@ -156,7 +156,7 @@ impl Places {
             (false, true) => flows[i][j],
             (false, false) => 0.5 * (flows[i][j] + flows[j][i]),
         };
-        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
         let rate = |from: usize, to: usize| (scale * flow(from, to) / occupations[from]).max(0.0);
         let all: f64 = occupations.iter().sum();
         let found = MeshRates {
@@ -213,7 +213,7 @@ impl Places {
         committors: &[Vec<f64>],
     ) -> RateBounds {
         let copies = field.mesh.chart.copies() as f64;
-        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
         let last = self.count - 1;
         let capacity = |place: usize| match committors.get(place) {
             Some(committor) => field.energy(nodes, committor),
@@ -233,7 +233,7 @@ impl Places {
             if place == last {
                 return beyond;
             }
-            let rim = ((field.ground() - self.limits[place]) / field.kt).exp();
+            let rim = libm::exp((field.ground() - self.limits[place]) / field.kt);
             let below = |&id: &usize| {
                 let element = field.mesh.leaves[id].element.as_ref();
                 element.map_or(0.0, |it| it.load.iter().sum::<f64>() - rim * it.free)
@@ -271,7 +271,7 @@ impl Places {
         };
         let bracket = Bracket::new(&asked, self.count)?;
         let copies = field.mesh.chart.copies() as f64;
-        let scale = copies * ((field.ground() - field.level()) / field.kt).exp();
+        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
         let places = 0..self.count;
         let held: Vec<Bounded> = places
             .clone()

@@ -269,7 +269,7 @@ impl PairRates {
                 }
             }
             let all: f64 = rates.iter().sum();
-            now += -(1.0 - rng.random::<f64>()).ln() / all;
+            now += -libm::log(1.0 - rng.random::<f64>()) / all;
             // Never, where nothing can happen.
             if now.is_nan() || now >= time {
                 return Some(numbers);

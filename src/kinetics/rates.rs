@@ -198,7 +198,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     let RateSettings { kt, free_at, .. } = *settings;
     let area = problem.space.half_size.map(|half| 2.0 * half);
     let outside = area[0] * area[1] - PI * free_at * free_at;
-    let is_beyond = |basin: &Basin| basin.at.x.hypot(basin.at.y) >= free_at;
+    let is_beyond = |basin: &Basin| libm::hypot(basin.at.x, basin.at.y) >= free_at;
     if outside <= 0.0 || settings.basins.iter().any(is_beyond) {
         return Err(RatesError::NoFree(free_at));
     }
@@ -211,7 +211,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     let mut field = Field::new(problem, kt, free_at, ground, &seeds);
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
-    let beyond = outside * TAU * (ground / kt).exp();
+    let beyond = outside * TAU * libm::exp(ground / kt);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
     let mut grows = true;

@@ -20,8 +20,8 @@ pub(super) fn straight_root(
         // Newton's method from above: the function is convex.
         let mut x = most;
         for _ in 0..60 {
-            let by = bonds * x.exp() - slope;
-            let step = (bonds * x.exp() - second - slope * (x - b)) / by;
+            let by = bonds * libm::exp(x) - slope;
+            let step = (bonds * libm::exp(x) - second - slope * (x - b)) / by;
             if !(by > 0.0 && step.is_finite()) {
                 return None;
             }
@@ -31,7 +31,7 @@ pub(super) fn straight_root(
             return None;
         }
         let found = [x, cost(x)];
-        if (bonds * x.exp() - found[1]).abs() < CLOSE[0] || (x - b).abs() < CLOSE[1] {
+        if (bonds * libm::exp(x) - found[1]).abs() < CLOSE[0] || (x - b).abs() < CLOSE[1] {
             return Some(x);
         }
         points = [points[1], found];

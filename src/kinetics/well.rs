@@ -122,8 +122,8 @@ struct Spread {
 impl Spread {
     /// The place at u from 0 to 1, and by how much it moves with u.
     fn place(&self, u: f64) -> [f64; 2] {
-        let unit = self.end / self.range.sinh();
-        let (sinh, cosh) = ((u * self.range).sinh(), (u * self.range).cosh());
+        let unit = self.end / libm::sinh(self.range);
+        let (sinh, cosh) = (libm::sinh(u * self.range), libm::cosh(u * self.range));
         [unit * sinh, (unit * self.range * cosh).abs()]
     }
 }
@@ -184,7 +184,7 @@ impl Integral<'_> {
             {
                 scale /= 2.0;
             }
-            let range = (end / scale).asinh().max(1e-3);
+            let range = libm::asinh(end / scale).max(1e-3);
             (Spread { end, range }, scale.abs() > NO_PLAY)
         };
         let ends = self.basin.extent();

@@ -34,7 +34,7 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
     rng.set_stream((1 << 40) + number as u64);
     let area = rng.random_range(inner * inner..=outer * outer);
     let direction = rng.random_range(-PI..=PI);
-    let (y, x) = direction.sin_cos();
+    let (y, x) = libm::sincos(direction);
     let radius = area.sqrt();
     let theta = rng.random_range(-PI..=PI);
     Configuration::new(radius * x, radius * y, theta)

@@ -193,7 +193,7 @@ fn trace(
             let after = downhill(problem, &next);
             let strays = |after| foretold.strays(problem, &here.q, after, size);
             let strays = after.as_ref().map_or(0.0, strays);
-            let fitting = 0.8 * (aside / strays).powf(1.0 / f64::from(foretold.order));
+            let fitting = 0.8 * libm::pow(aside / strays, 1.0 / f64::from(foretold.order));
             Some((next, after, strays, size * fitting.clamp(0.3, 1.5)))
         });
         match next {
@@ -269,7 +269,7 @@ fn lower_neighbour(problem: &Problem, point: &Point) -> Option<Point> {
     let clearly = problem.potential().noise().max(CLEARLY);
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     for k in 0..PROBES {
-        let distance = 10f64.powf(-6.0 + 3.0 * k as f64 / PROBES as f64);
+        let distance = libm::pow(10f64, -6.0 + 3.0 * k as f64 / PROBES as f64);
         let mut draw = || rng.random_range(-1.0..1.0);
         let direction = Vector3::new(draw(), draw(), draw() / problem.space.rho);
         let aim = point.q.moved(direction * distance);

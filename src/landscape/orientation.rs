@@ -267,7 +267,7 @@ fn at(place: Vector2<f64>, theta: f64) -> Configuration {
 /// Evenly spread orientations together with those that lay two faces flush, in [0, period).
 fn orientations_within(period: f64, count: usize, [fixed, moving]: [&[Face]; 2]) -> Vec<f64> {
     let spread = (0..count).map(|k| k as f64 * period / count as f64);
-    let direction = |face: &Face| face.normal().y.atan2(face.normal().x);
+    let direction = |face: &Face| libm::atan2(face.normal().y, face.normal().x);
     let flush = fixed.iter().flat_map(|to| {
         moving
             .iter()

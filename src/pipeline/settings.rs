@@ -106,7 +106,7 @@ impl Settings {
         if many <= 1.0 {
             return default;
         }
-        let thinned = many.powf(THINNED);
+        let thinned = libm::pow(many, THINNED);
         let fewer = |count: usize| count as f64 / thinned;
         let seconds = |usual: f64| if pairs < HOPELESS_PAIRS { usual } else { 0.0 };
         Self {

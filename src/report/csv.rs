@@ -163,7 +163,7 @@ pub(super) fn rounded(value: f64, count: u8) -> String {
         };
     }
     // The digits as an integer, and the power of ten of the first of them.
-    let mut power = size.log10().floor() as i32;
+    let mut power = libm::log10(size).floor() as i32;
     let (count, least) = (i32::from(count), 10u64.pow(u32::from(count) - 1));
     let mut digits = scaled(size, count - 1 - power);
     // The logarithm is rounded, and so are the digits.

@@ -252,15 +252,15 @@ impl Softplus {
             self.sum += x;
             return;
         }
-        self.product *= 1.0 + x.exp();
+        self.product *= 1.0 + libm::exp(x);
         if self.product > 1e250 {
-            self.sum += self.product.ln();
+            self.sum += libm::log(self.product);
             self.product = 1.0;
         }
     }
 
     fn total(&self) -> f64 {
-        self.sum + self.product.ln()
+        self.sum + libm::log(self.product)
     }
 }
 

@@ -53,7 +53,7 @@ impl Acceptance {
             Self::Linear { lowest, highest } => {
                 ((highest - u) / (highest - lowest)).clamp(0.0, 1.0)
             }
-            Self::Boltzmann { energy } => (-u / energy).exp().min(1.0),
+            Self::Boltzmann { energy } => libm::exp(-u / energy).min(1.0),
         }
     }
 }
@@ -147,5 +147,5 @@ fn shifted(q: &Configuration, by: Vector2<f64>) -> Configuration {
 }
 
 fn log_uniform(low: f64, high: f64, rng: &mut impl Rng) -> f64 {
-    (rng.random_range(low.ln()..high.ln())).exp()
+    libm::exp(rng.random_range(libm::log(low)..libm::log(high)))
 }

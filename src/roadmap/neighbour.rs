@@ -15,7 +15,7 @@ use crate::interruption;
 /// ones: `e (1 + 1/d) ln n` in d = 3 dimensions, rounded up (PRM* of Karaman and Frazzoli,
 /// *Sampling-based algorithms for optimal motion planning*, IJRR 2011, section 3.3).
 pub fn neighbours_per_milestone(n: usize) -> usize {
-    (E * (1.0 + 1.0 / 3.0) * (n.max(2) as f64).ln()).ceil() as usize
+    (E * (1.0 + 1.0 / 3.0) * libm::log(n.max(2) as f64)).ceil() as usize
 }
 
 /// Finds the milestones closest to a configuration.

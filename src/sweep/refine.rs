@@ -89,7 +89,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
             };
             let value = quantity.of(assessment)?.value;
             let value = match quantity.measure {
-                Measure::Ratio => value.log10(),
+                Measure::Ratio => libm::log10(value),
                 _ => value,
             };
             value.is_finite().then_some(value)

@@ -67,7 +67,7 @@ fn is_convex(vertices: &[Vector2<f64>]) -> bool {
     let angle = |k: usize| {
         let at = |k: usize| vertices[k % n];
         let (u, v) = (at(k + 1) - at(k), at(k + 2) - at(k + 1));
-        cross(u, v).atan2(u.dot(&v))
+        libm::atan2(cross(u, v), u.dot(&v))
     };
     let angles = (0..n).map(angle);
     n > 2
@@ -242,7 +242,7 @@ mod tests {
         let n = teeth * steps;
         for k in 0..=n {
             let s = k as f64 / n as f64;
-            let height = 0.05 * (1.0 - f64::cos(std::f64::consts::TAU * teeth as f64 * s)) / 2.0;
+            let height = 0.05 * (1.0 - libm::cos(std::f64::consts::TAU * teeth as f64 * s)) / 2.0;
             vertices.push(Vector2::new(1.0 + height, s));
         }
         vertices
@@ -346,7 +346,7 @@ mod tests {
     fn a_convex_outline_is_its_own_part_and_one_that_goes_round_twice_is_not() {
         let ring = |turns: f64, n: usize| -> Vec<_> {
             let angle = |k: usize| 2.0 * PI * turns * k as f64 / n as f64;
-            let point = |k| Vector2::new(angle(k).cos(), angle(k).sin());
+            let point = |k| Vector2::new(libm::cos(angle(k)), libm::sin(angle(k)));
             (0..n).map(point).collect()
         };
         let many = 5_000;

@@ -23,7 +23,7 @@ pub struct Magnet {
 impl Magnet {
     /// The moment as a vector (A m^2).
     pub fn moment_vector(&self) -> Vector2<f64> {
-        Vector2::new(self.angle.cos(), self.angle.sin()) * self.moment
+        Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * self.moment
     }
 
     /// Remanence (T) of the uniformly magnetised block with this moment: `Br = mu0 m / V`.
@@ -33,8 +33,10 @@ impl Magnet {
 
     /// The block's four corners in the tile's plane (m), counter-clockwise.
     pub fn corners(&self) -> [Vector2<f64>; 4] {
-        let axis = Vector2::new(self.angle.cos(), self.angle.sin()) * (self.size[0] / 2.0);
-        let across = Vector2::new(-self.angle.sin(), self.angle.cos()) * (self.size[1] / 2.0);
+        let axis =
+            Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * (self.size[0] / 2.0);
+        let across =
+            Vector2::new(-libm::sin(self.angle), libm::cos(self.angle)) * (self.size[1] / 2.0);
         let c = self.position;
         [
             c + axis - across,

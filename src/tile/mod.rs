@@ -89,7 +89,7 @@ impl Tile {
     /// with the tile's mass matrix as mobility: `M^-1 F`, where `rotation` turns the tile's frame
     /// into the world's. Accelerations of a body at rest come out of the same product.
     pub fn inverse_mass_times(&self, force: Vector3<f64>, theta: f64) -> Vector3<f64> {
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos) = libm::sincos(theta);
         let local = self.outline.centroid();
         let c = Vector2::new(cos * local.x - sin * local.y, sin * local.x + cos * local.y);
         let torque = force.z - (c.x * force.y - c.y * force.x);

@@ -36,7 +36,7 @@ impl Pair {
 /// The configuration in which the base lines of two faces lie against each other, the moving one
 /// `slide` (m) along the fixed one and turned by `tilt` (rad) about its middle.
 pub fn face_to_face(fixed: &Face, moving: &Face, slide: f64, tilt: f64) -> Configuration {
-    let direction = |v: Vector2<f64>| v.y.atan2(v.x);
+    let direction = |v: Vector2<f64>| libm::atan2(v.y, v.x);
     let theta = wrap_angle(direction(fixed.normal()) + PI - direction(moving.normal()) + tilt);
     let turned = Configuration::new(0.0, 0.0, theta).transform(moving.middle());
     let position = fixed.point(slide, 0.0) - turned;

@@ -143,9 +143,9 @@ pub fn complement(line: &[[f64; 2]]) -> Polyline {
 
 fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, ProfileError> {
     let base = width / 2.0;
-    let top = base - depth.abs() * draft.tan();
+    let top = base - depth.abs() * libm::tan(draft);
     if top <= 0.0 {
-        let largest_draft = (base / depth.abs()).atan();
+        let largest_draft = libm::atan(base / depth.abs());
         return Err(ProfileError::SidesMeet { largest_draft });
     }
     Ok(vec![
@@ -171,7 +171,7 @@ fn teeth(form: Waveform, count: u32, depth: f64, span: f64) -> Polyline {
                 .map(|k| {
                     let phase = ((k - half) % (4 * quarter)) as f64 / quarter as f64;
                     let on_base_line = (k - half) % (2 * quarter) == 0;
-                    let wave = (PI / 2.0 * phase).sin();
+                    let wave = libm::sin(PI / 2.0 * phase);
                     let h = if on_base_line { 0.0 } else { amplitude * wave };
                     [s(k, pieces), h]
                 })
@@ -217,10 +217,10 @@ fn chords_per_quarter_wave(amplitude: f64) -> i64 {
 fn arc(width: f64, depth: f64, offset: f64) -> Polyline {
     let sagitta = depth.abs();
     // Half the angle that the segment spans, and the circle's radius.
-    let half_angle = 2.0 * (2.0 * sagitta / width).atan();
+    let half_angle = 2.0 * libm::atan(2.0 * sagitta / width);
     let radius = (width * width / 4.0 + sagitta * sagitta) / (2.0 * sagitta);
     // A chord over the angle 2 a leaves its circle by radius (1 - cos a).
-    let largest = (1.0 - (CHORD_ERROR / radius).min(1.0)).acos();
+    let largest = libm::acos(1.0 - (CHORD_ERROR / radius).min(1.0));
     let half = (half_angle / (2.0 * largest)).ceil().max(1.0) as i64;
     (-half..=half)
         .map(|k| {
@@ -228,8 +228,8 @@ fn arc(width: f64, depth: f64, offset: f64) -> Polyline {
                 return [offset + width / 2.0 * k.signum() as f64, 0.0];
             }
             let angle = half_angle * k as f64 / half as f64;
-            let h = radius * (angle.cos() - half_angle.cos());
-            [offset + radius * angle.sin(), h.copysign(depth)]
+            let h = radius * (libm::cos(angle) - libm::cos(half_angle));
+            [offset + radius * libm::sin(angle), h.copysign(depth)]
         })
         .collect()
 }

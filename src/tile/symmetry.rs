@@ -31,7 +31,7 @@ fn turn_of_outline(vertices: &[Vector2<f64>], shift: usize, scale: f64) -> Optio
     let n = vertices.len();
     let farthest = (0..n).max_by_key(|&i| OrderedFloat(vertices[i].norm()))?;
     let (from, to) = (vertices[farthest], vertices[(farthest + shift) % n]);
-    let angle = (to.y.atan2(to.x) - from.y.atan2(from.x)).rem_euclid(TAU);
+    let angle = (libm::atan2(to.y, to.x) - libm::atan2(from.y, from.x)).rem_euclid(TAU);
     let rotation = Rotation2::new(angle);
     (0..n)
         .all(|i| (rotation * vertices[i] - vertices[(i + shift) % n]).norm() <= TOLERANCE * scale)

@@ -199,7 +199,7 @@ impl Bar {
         let normal = tile.faces[face].normal();
         let mut magnets = tile.magnets.iter().filter(|magnet| magnet.face == face);
         let bar = |magnet: &Magnet| {
-            let direction = Vector2::new(magnet.angle.cos(), magnet.angle.sin());
+            let direction = Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle));
             if direction.dot(&normal).abs() < 1.0 - 1e-9 {
                 return Err(BarError::Turned);
             }

@@ -91,7 +91,7 @@ fn vertical_force(one: &Magnet, other: &Magnet, z: f64) -> f64 {
     let d = one.position - other.position;
     let square = d.norm_squared() + z * z;
     let along = a.dot(&d) * b.dot(&d);
-    MU0_OVER_4PI * 3.0 * z * (a.dot(&b) - 5.0 * along / square) / square.powf(2.5)
+    MU0_OVER_4PI * 3.0 * z * (a.dot(&b) - 5.0 * along / square) / libm::pow(square, 2.5)
 }
 
 #[cfg(test)]
@@ -133,7 +133,7 @@ mod tests {
         let magnets = row("NN");
         let energy = |z: f64| {
             let square: f64 = 0.02 * 0.02 + z * z;
-            MU0_OVER_4PI * 0.09 / square.powf(1.5)
+            MU0_OVER_4PI * 0.09 / libm::pow(square, 1.5)
         };
         let z = 0.007;
         let expected = -(energy(z + 1e-6) - energy(z - 1e-6)) / 2e-6;

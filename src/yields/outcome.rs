@@ -124,7 +124,7 @@ pub(super) fn outcome(
     let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
     let course = (0..TIMES).map(|k| {
         let power = DECADES * (k as f64 / (TIMES - 1) as f64 - 1.0);
-        let now = time * 10f64.powf(power);
+        let now = time * libm::pow(10f64, power);
         let [bound, trapped] = share(now);
         [now, bound, trapped]
     });

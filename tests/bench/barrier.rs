@@ -5,6 +5,8 @@
 //!
 //! `cargo bench --bench barrier`
 
+#![allow(clippy::disallowed_methods)]
+
 mod ratio;
 
 use std::path::Path;

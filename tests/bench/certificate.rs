@@ -5,6 +5,8 @@
 //!
 //! `cargo bench --bench certificate`
 
+#![allow(clippy::disallowed_methods)]
+
 #[path = "../shared/designs.rs"]
 mod designs;
 mod ratio;

@@ -5,6 +5,8 @@
 //!
 //! `cargo bench --bench cuboid`
 
+#![allow(clippy::disallowed_methods)]
+
 mod ratio;
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -8,6 +8,8 @@
 //!
 //! `cargo bench --bench kernel`
 
+#![allow(clippy::disallowed_methods)]
+
 mod operations;
 mod ratio;
 

@@ -1,6 +1,8 @@
 //! Tiles, their contact, magnets and shields and the way they move, by principle and against
 //! independent numbers; tiles as design files say.
 
+#![allow(clippy::disallowed_methods)]
+
 mod basins;
 mod block_limits;
 mod blocks;
@@ -18,6 +20,7 @@ mod dipoles;
 mod dynamics;
 mod fixtures;
 mod kinetics;
+mod levels;
 mod narrow;
 mod shield_factor;
 mod shielding;

@@ -1,5 +1,7 @@
 //! The program as its users see it: what it prints, writes, draws and answers.
 
+#![allow(clippy::disallowed_methods)]
+
 mod cli;
 mod compare;
 #[path = "../shared/designs.rs"]
@@ -7,6 +9,7 @@ mod designs;
 mod faults;
 #[path = "../shared/folder.rs"]
 mod folder;
+mod levels;
 mod pictures;
 #[path = "../shared/program.rs"]
 mod program;

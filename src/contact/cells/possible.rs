@@ -70,7 +70,7 @@ impl PossibleContact {
         let lever = cross(arm, n).abs() * versine + n.dot(&arm).abs() * sin;
         let lost = if self.edge_moves {
             let across = cross(n, way).abs() * sin + n.dot(&way).abs() * versine;
-            across + turned * (lever + half[0].hypot(half[1]))
+            across + turned * (lever + libm::hypot(half[0], half[1]))
         } else {
             turned * lever
         };
@@ -82,11 +82,11 @@ impl PossibleContact {
 /// Largest sine of angles up to `angle`, and of 1 minus the cosine.
 fn turn(angle: f64) -> (f64, f64) {
     let sin = if angle < std::f64::consts::FRAC_PI_2 {
-        angle.sin()
+        libm::sin(angle)
     } else {
         1.0
     };
-    let half = (angle / 2.0).min(std::f64::consts::FRAC_PI_2).sin();
+    let half = libm::sin((angle / 2.0).min(std::f64::consts::FRAC_PI_2));
     (sin, 2.0 * half * half)
 }
 
@@ -238,10 +238,10 @@ mod tests {
         for k in 0..400 {
             let mut draw = |scale: f64| scale * rng.random_range(-1.0..=1.0f64);
             let direction = draw(3.1);
-            let normal = Vector2::new(direction.cos(), direction.sin());
+            let normal = Vector2::new(libm::cos(direction), libm::sin(direction));
             let arm = Vector2::new(draw(0.3), draw(0.3));
             let contact = PossibleContact::new(normal, arm, draw(0.01), k % 2 == 0);
-            let size = 10f64.powf(-3.0 + draw(1.5));
+            let size = libm::pow(10f64, -3.0 + draw(1.5));
             let half = [size, 0.7 * size, size].map(|h: f64| h * (0.1 + draw(1.0).abs()));
             let step = Vector3::new(draw(size), draw(size), draw(size));
             let (mut least, mut slowest) = (f64::INFINITY, f64::INFINITY);
@@ -266,7 +266,7 @@ mod tests {
                 "{contact:?} {half:?}"
             );
             assert!(
-                bound > slowest - room - 2.0 * step.norm() * half[0].hypot(half[1]),
+                bound > slowest - room - 2.0 * step.norm() * libm::hypot(half[0], half[1]),
                 "{contact:?}"
             );
             let gradient = contact.gradient.dot(&step);

@@ -163,7 +163,7 @@ fn parallel_within(length: f64) -> f64 {
 /// The turn (rad) that lays a moving edge on a fixed one, face to face.
 fn turn_of([start, end]: [Vector2<f64>; 2], [from, to]: [Vector2<f64>; 2]) -> f64 {
     let (u, v) = (end - start, from - to);
-    let theta = wrap_angle(u.y.atan2(u.x) - v.y.atan2(v.x));
+    let theta = wrap_angle(libm::atan2(u.y, u.x) - libm::atan2(v.y, v.x));
     // Half a turn is told one way, whatever rounding makes of it.
     if theta < PARALLEL - PI { PI } else { theta }
 }

@@ -111,7 +111,7 @@ impl Start {
 
     /// Magnets with their spacings (m), the best first.
     fn rows(&self) -> Vec<([f64; 3], f64)> {
-        let inner = self.radius() * (PI / f64::from(self.sides)).cos();
+        let inner = self.radius() * libm::cos(PI / f64::from(self.sides));
         let smallest = BLOCKS[BLOCKS.len() - 1];
         let gaps = self.magnets.max(2) - 1;
         let wanted = (COMPACT * self.side / gaps.max(GAPS) as f64).min(WIDEST);
@@ -161,7 +161,7 @@ impl Start {
 
     /// Of the circle through the corners (m).
     fn radius(&self) -> f64 {
-        self.side / (2.0 * (PI / f64::from(self.sides)).sin())
+        self.side / (2.0 * libm::sin(PI / f64::from(self.sides)))
     }
 
     fn no_room(&self, fault: Option<DesignError>) -> StartError {
@@ -192,7 +192,7 @@ impl Start {
             magnets,
             shape,
         } = *self;
-        let area = f64::from(sides) * side * side / (4.0 * (PI / f64::from(sides)).tan());
+        let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
         let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
         let mass = four_digits(DENSITY * area * thickness);
         let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;

@@ -42,7 +42,7 @@ fn is_closed(line: &Line) -> bool {
 }
 
 pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 /// The points of a closed line without its lowest edge, from one end of this edge to the other.

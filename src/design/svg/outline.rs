@@ -207,7 +207,7 @@ fn joined(segments: &Segments, corners: &Entry) -> Result<Segments> {
 
 /// The number of the segment that begins nearest to a point, and where it begins.
 fn nearest(segments: &Segments, [x, y]: [f64; 2]) -> (usize, [f64; 2]) {
-    let distance = |start: &Vector2<f64>| (start.x - x).hypot(start.y - y);
+    let distance = |start: &Vector2<f64>| libm::hypot(start.x - x, start.y - y);
     let starts = segments.iter().map(|segment| segment[0]).enumerate();
     let nearest = starts.min_by_key(|(_, start)| OrderedFloat(distance(start)));
     nearest.map_or((0, [f64::NAN; 2]), |(k, start)| (k, [start.x, start.y]))

@@ -101,7 +101,7 @@ fn distance(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
     } else {
         0.0
     };
-    (v[0] - share * u[0]).hypot(v[1] - share * u[1])
+    libm::hypot(v[0] - share * u[0], v[1] - share * u[1])
 }
 
 #[cfg(test)]
@@ -113,7 +113,7 @@ mod tests {
         // Half a circle of 0.1 m, a spike and a step, traced in steps of a tenth of a millimetre.
         let mut line: Vec<[f64; 2]> = (0..3000)
             .map(|k| std::f64::consts::PI * f64::from(k) / 3000.0)
-            .map(|angle| [0.1 * angle.cos(), 0.1 * angle.sin()])
+            .map(|angle| [0.1 * libm::cos(angle), 0.1 * libm::sin(angle)])
             .collect();
         line.extend((0..100).map(|k| [-0.1, -1e-4 * f64::from(k)]));
         line.push([-0.05, -0.01]);

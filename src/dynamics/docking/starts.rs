@@ -64,8 +64,8 @@ impl Starts {
         let mut uniform = |low: f64, high: f64| low + (high - low) * rng.random::<f64>();
         let distance = uniform(self.distance[0], self.distance[1]);
         let normal = pair.target_face().normal();
-        let bearing = normal.y.atan2(normal.x) + uniform(-self.direction, self.direction);
-        let place = Vector2::new(bearing.cos(), bearing.sin()) * distance;
+        let bearing = libm::atan2(normal.y, normal.x) + uniform(-self.direction, self.direction);
+        let place = Vector2::new(libm::cos(bearing), libm::sin(bearing)) * distance;
         let orientation = uniform(-self.orientation, self.orientation);
         let speed = uniform(self.speed[0], self.speed[1]);
         let course = bearing + std::f64::consts::PI + uniform(-self.aim, self.aim);
@@ -75,7 +75,7 @@ impl Starts {
         Start {
             motion: Motion {
                 configuration,
-                velocity: Vector3::new(speed * course.cos(), speed * course.sin(), spin),
+                velocity: Vector3::new(speed * libm::cos(course), speed * libm::sin(course), spin),
             },
             orientation,
             speed,

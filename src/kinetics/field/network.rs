@@ -35,7 +35,7 @@ impl Field<'_> {
                 .problem
                 .potential()
                 .energy_and_gradient(&ray.configuration(0.0));
-            let rate = (slope.x * phi.cos() + slope.y * phi.sin()) * ray.length / self.kt;
+            let rate = (slope.x * libm::cos(phi) + slope.y * libm::sin(phi)) * ray.length / self.kt;
             if rate.is_finite() {
                 sum += energy * rate.max(0.0);
                 all += energy;

@@ -59,7 +59,7 @@ impl Chart {
         let bound = problem.pair.as_ref().map(|pair| pair.bound);
         let bound = bound.unwrap_or(Configuration::new(radius / 2.0, 0.0, 0.0));
         let periods = [fixed, moving].map(|n| TAU / n as f64);
-        let lever = bound.x.hypot(bound.y).clamp(0.2 * radius, radius);
+        let lever = libm::hypot(bound.x, bound.y).clamp(0.2 * radius, radius);
         let count = |length: f64| (length / size).round().max(2.0) as i64;
         let outside = (radius - lever).max(radius / 8.0);
         let along_r = outside / count(outside) as f64;
@@ -77,7 +77,7 @@ impl Chart {
         let along_phi = count(periods[0] * lever / across);
         let cells = [along_s as i64, along_phi, along_theta];
         Self {
-            origin: [0.0, bound.y.atan2(bound.x), bound.theta],
+            origin: [0.0, libm::atan2(bound.y, bound.x), bound.theta],
             wall,
             radius,
             cells,
@@ -123,7 +123,7 @@ impl Chart {
 
     /// Size of a cell of this level (m) along the ray that a configuration lies on.
     pub(in crate::kinetics) fn depth(&self, level: u8, q: &Configuration) -> f64 {
-        self.ray([q.y.atan2(q.x), q.theta]).length * self.size(level)[0]
+        self.ray([libm::atan2(q.y, q.x), q.theta]).length * self.size(level)[0]
     }
 
     /// (s, phi, theta) of a place (1, rad, rad).
@@ -143,8 +143,8 @@ impl Chart {
 
     /// The place of a configuration, folded, in smallest units.
     pub(in crate::kinetics) fn place(&self, q: &Configuration) -> [f64; 3] {
-        let phi = q.y.atan2(q.x);
-        let s = self.ray([phi, q.theta]).part(q.x.hypot(q.y));
+        let phi = libm::atan2(q.y, q.x);
+        let s = self.ray([phi, q.theta]).part(libm::hypot(q.x, q.y));
         let raw = [s, phi, q.theta];
         let at = |i: usize| (raw[i] - self.origin[i]) / self.step[i] * UNITS as f64;
         let mut place: [f64; 3] = std::array::from_fn(at);
@@ -190,7 +190,7 @@ impl Chart {
             phi + size[1] / 2.0,
             theta + size[2] / 2.0,
         ];
-        let (sin, cos) = middle[1].sin_cos();
+        let (sin, cos) = libm::sincos(middle[1]);
         let arc = (r + size[0]) * size[1] / 2.0;
         let sagitta = arc * size[1] / 4.0;
         let half = |radial: f64, across: f64| {

@@ -51,13 +51,13 @@ impl Profile {
         let even = self.even * along;
         match self.rate == 0.0 {
             true => along + even,
-            false => -(-self.rate * along).exp_m1() / self.rate + even,
+            false => -libm::expm1(-self.rate * along) / self.rate + even,
         }
     }
 
     /// The density at s.
     pub(in crate::kinetics) fn density(&self, s: f64) -> f64 {
-        (-self.rate * (s - self.start)).exp() + self.even
+        libm::exp(-self.rate * (s - self.start)) + self.even
     }
 
     /// The integral of the density between two s.

@@ -263,8 +263,8 @@ impl<'a> Integrator<'a> {
         for (u, energy) in us.into_iter().zip(energies) {
             let above = |level: f64| (level - energy) / self.kt;
             let weights = [
-                above(self.level).clamp(LEAST, GREATEST).exp(),
-                above(self.ground).min(FARTHEST).exp(),
+                libm::exp(above(self.level).clamp(LEAST, GREATEST)),
+                libm::exp(above(self.ground).min(FARTHEST)),
             ];
             for (sum, weight) in line.sums.iter_mut().zip(weights) {
                 *sum += weight * width / 2.0;
@@ -290,7 +290,7 @@ fn uneven(lines: &[Line; 4], cut: bool, level: u8, halved: usize) -> Option<usiz
             for k in (0..4).filter(|k| k >> axis & 1 == 0) {
                 let [a, b] = [sum(k), sum(k | 1 << axis)];
                 let change = match a.min(b) > 0.0 {
-                    true => (a / b).ln().abs(),
+                    true => libm::log(a / b).abs(),
                     false if a.max(b) > 0.0 && halved < MOST_CUT => f64::MAX,
                     false => 0.0,
                 };

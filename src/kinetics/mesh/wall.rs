@@ -52,7 +52,7 @@ impl Wall {
         match self {
             Self::Circle(radius) | Self::Open(radius) => *radius,
             Self::Contact(contact) => {
-                let (sin, cos) = phi.sin_cos();
+                let (sin, cos) = libm::sincos(phi);
                 let centred = Configuration::new(0.0, 0.0, theta);
                 contact
                     .landing(&centred, Vector2::new(cos, sin))
@@ -64,7 +64,7 @@ impl Wall {
     /// The configurations at two s on a ray out to a radius (m).
     pub fn places(&self, at: [f64; 2], radius: f64, s: [f64; 2]) -> [Configuration; 2] {
         let wall = self.begins(at);
-        let (sin, cos) = at[0].sin_cos();
+        let (sin, cos) = libm::sincos(at[0]);
         s.map(|s| {
             let r = wall + s * (radius - wall);
             Configuration::new(r * cos, r * sin, at[1])
@@ -108,12 +108,12 @@ impl Ray {
     /// The configuration at s.
     pub fn configuration(&self, s: f64) -> Configuration {
         let (r, [phi, theta]) = (self.radius(s), self.at);
-        Configuration::new(r * phi.cos(), r * phi.sin(), theta)
+        Configuration::new(r * libm::cos(phi), r * libm::sin(phi), theta)
     }
 
     /// From the directions of x, y and theta to those along the ray, across it and of theta.
     pub fn upright(&self) -> Matrix3<f64> {
-        let (sin, cos) = self.at[0].sin_cos();
+        let (sin, cos) = libm::sincos(self.at[0]);
         Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
     }
 
@@ -125,7 +125,7 @@ impl Ray {
     /// Gradients by (x, y, theta) of s, phi and theta, as columns.
     pub fn gradients(&self, s: f64) -> Matrix3<f64> {
         let r = self.radius(s);
-        let (sin, cos) = self.at[0].sin_cos();
+        let (sin, cos) = libm::sincos(self.at[0]);
         let outwards = Vector3::new(cos, sin, 0.0);
         let around = Vector3::new(-sin, cos, 0.0) / r;
         let turning = Vector3::z();

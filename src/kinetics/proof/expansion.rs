@@ -80,13 +80,13 @@ impl Expansion {
 
     /// Its cosine.
     pub fn cos(self) -> Self {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = libm::sincos(self.value);
         self.through(cos, -sin, 1.0)
     }
 
     /// Its sine.
     pub fn sin(self) -> Self {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = libm::sincos(self.value);
         self.through(sin, cos, 1.0)
     }
 
@@ -110,8 +110,8 @@ impl Expansion {
 
     /// The exponential of -rate times it, rate >= 0.
     pub fn decay(self, rate: f64) -> Self {
-        let here = (-rate * self.value).exp();
-        let most = (-rate * self.range()[0]).exp();
+        let here = libm::exp(-rate * self.value);
+        let most = libm::exp(-rate * self.range()[0]);
         self.through(here, -rate * here, rate * rate * most)
     }
 }

@@ -225,7 +225,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     };
     let held = load(&|id| cells[0].inner[id]);
     let around = load(&|id| !is_others(id));
-    let scale = ((field.ground() - level) / kt).exp();
+    let scale = libm::exp((field.ground() - level) / kt);
     // Where the set holds little of what is around, that is of little use, and so is its closeness.
     let of_use = (held / around).min(1.0);
     let sizes = [

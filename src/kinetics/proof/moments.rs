@@ -70,9 +70,9 @@ fn line(a: f64) -> [f64; 3] {
             }
             term *= a / (k + 1) as f64;
         }
-        return means.map(|mean| mean * (-size).exp());
+        return means.map(|mean| mean * libm::exp(-size));
     }
-    let far = (-2.0 * size).exp();
+    let far = libm::exp(-2.0 * size);
     let (sinh, cosh) = (0.5 * (1.0 - far), 0.5 * (1.0 + far));
     let zeroth = sinh / size;
     let first = (cosh - zeroth) / size;
@@ -88,7 +88,7 @@ mod tests {
     fn summed(a: f64, power: i32) -> f64 {
         let n = 4000;
         let at = |k: i32| -1.0 + 2.0 * f64::from(k) / f64::from(n);
-        let value = |k: i32| (a * at(k) - a.abs()).exp() * at(k).powi(power);
+        let value = |k: i32| libm::exp(a * at(k) - a.abs()) * at(k).powi(power);
         let weight = |k: i32| match k {
             0 => 1.0,
             _ if k == n => 1.0,

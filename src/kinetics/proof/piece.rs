@@ -236,7 +236,7 @@ impl Ground<'_> {
         let share = s.through(
             self.profile.between([ends[0], s.value]) / whole,
             self.profile.density(s.value) / whole,
-            rate * (-rate * least).exp() / whole,
+            rate * libm::exp(-rate * least) / whole,
         );
         [share, density.times((ends[1] - ends[0]) / whole)]
     }
@@ -292,7 +292,7 @@ impl Place {
             least += (under.sqrt() - off).max(0.0).powi(2);
             most += (over.sqrt() + off).powi(2);
         }
-        let at = |off: f64| (sign * self.value + off + moments.scale).exp() * volume;
+        let at = |off: f64| libm::exp(sign * self.value + off + moments.scale) * volume;
         let upper = at(high) * most * (1.0 + ROUNDING);
         let lower = at(low) * least * (1.0 - ROUNDING);
         if upper.is_finite() {

@@ -29,7 +29,7 @@ fn walls_are_where_tiles_touch_with_their_slopes() {
         let contact = problem.contact.as_ref().unwrap();
         let wall = Wall::new(Some(contact), 0.0).unwrap();
         let landing = |phi: f64, theta: f64| {
-            let (sin, cos) = phi.sin_cos();
+            let (sin, cos) = libm::sincos(phi);
             let q = Configuration::new(0.0, 0.0, theta);
             contact.landing(&q, Vector2::new(cos, sin)).unwrap()
         };
@@ -74,11 +74,11 @@ struct Slope(f64);
 
 impl Potential for Slope {
     fn energy(&self, q: &Configuration) -> f64 {
-        self.0 * q.x.hypot(q.y)
+        self.0 * libm::hypot(q.x, q.y)
     }
 
     fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let r = q.x.hypot(q.y);
+        let r = libm::hypot(q.x, q.y);
         (self.0 * r, Vector3::new(q.x, q.y, 0.0) * (self.0 / r))
     }
 
@@ -95,7 +95,7 @@ impl CellBounds for Slope {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         let (value, slope) = self.energy_and_gradient(&cell.centre);
         let far = cell.travel();
-        let least = cell.centre.x.hypot(cell.centre.y) - far;
+        let least = libm::hypot(cell.centre.x, cell.centre.y) - far;
         // The first derivative of a distance is 1, the second no greater than one over it.
         let off = match least > far {
             true => 0.5 * self.0 * far * far / least * (1.0 + 1e-9) + 1e-15,
@@ -157,9 +157,9 @@ fn a_linear_well_within_a_circle_is_left_as_its_quadrature_says() {
             .sum::<f64>()
             * step
     };
-    let barrier = sum(reach, radius, &|r| (slope * r / kt).exp() / r);
+    let barrier = sum(reach, radius, &|r| libm::exp(slope * r / kt) / r);
     let part = (TAU / TURNS as f64).powi(2);
-    let weight = |r: f64| (-slope * r / kt).exp() * r;
+    let weight = |r: f64| libm::exp(-slope * r / kt) * r;
     let held = part * sum(hole, reach, &weight);
     let around = part * sum(hole, radius, &weight);
     for (exact, [low, high], most) in [
@@ -217,7 +217,7 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
         };
         roles.push((Piece::whole(cell, &mesh.leaves[cell]), role));
     }
-    let scale = (field.level() / kt).exp();
+    let scale = libm::exp(field.level() / kt);
     let known = |id: usize| mesh.leaves[id].element.as_ref().unwrap();
     let load = |(piece, _): &(Piece, Role)| known(piece.cell).load.iter().sum::<f64>();
     let load = scale * roles.iter().map(load).sum::<f64>();

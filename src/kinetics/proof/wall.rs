@@ -62,7 +62,7 @@ struct Over<'a> {
 }
 
 fn polar(v: &Vector2<f64>) -> [f64; 2] {
-    [v.norm(), v.y.atan2(v.x)]
+    [v.norm(), libm::atan2(v.y, v.x)]
 }
 
 /// The greatest cosine of the angles between two.
@@ -71,7 +71,7 @@ fn greatest_cos([from, to]: [f64; 2]) -> f64 {
     if turn <= to {
         1.0
     } else {
-        from.cos().max(to.cos())
+        libm::cos(from).max(libm::cos(to))
     }
 }
 
@@ -193,16 +193,16 @@ impl Edge {
         for other in &self.arms {
             // A cosine again, of the two ends' difference.
             let (x, y) = (
-                other[0] * other[1].cos() - farthest[0] * farthest[1].cos(),
-                other[0] * other[1].sin() - farthest[0] * farthest[1].sin(),
+                other[0] * libm::cos(other[1]) - farthest[0] * libm::cos(farthest[1]),
+                other[0] * libm::sin(other[1]) - farthest[0] * libm::sin(farthest[1]),
             );
-            let shift = y.atan2(x);
-            let beyond = x.hypot(y) * greatest_cos([from + shift, to + shift]);
+            let shift = libm::atan2(y, x);
+            let beyond = libm::hypot(x, y) * greatest_cos([from + shift, to + shift]);
             if beyond > TIE {
                 alone = false;
                 arm = arm.widened(beyond);
                 let at = theta + Expansion::constant(shift);
-                let [low, high] = at.sin().times(x.hypot(y)).range();
+                let [low, high] = at.sin().times(libm::hypot(x, y)).range();
                 turning = turning.widened(high.max(-low));
             }
         }

@@ -73,7 +73,7 @@ impl<'a> Landscape<'a> {
             return None;
         }
         let centre = cell.centre;
-        let stretch = self.space.free_distance / centre.x.hypot(centre.y);
+        let stretch = self.space.free_distance / libm::hypot(centre.x, centre.y);
         let stretch = stretch.max(1.0) * (1.0 + 1e-12);
         let near = Configuration::new(centre.x * stretch, centre.y * stretch, centre.theta);
         let fits = self.space.contains(&near) && self.space.is_far(&near);

@@ -34,7 +34,7 @@ impl Domain {
         Self {
             half_size: [x, y],
             of_moving: count(&|s| s.fixed),
-            wedge: (of_fixed > 1 && is_wide).then(|| (PI / f64::from(of_fixed)).sin_cos()),
+            wedge: (of_fixed > 1 && is_wide).then(|| libm::sincos(PI / f64::from(of_fixed))),
         }
     }
 

@@ -57,7 +57,7 @@ pub(super) struct Waiting {
 
 impl Waiting {
     pub fn push(&mut self, cell: Cell, lowest: f64) {
-        let halvings = -cell.half[0].max(cell.half[1]).log2().floor() as i32;
+        let halvings = -libm::log2(cell.half[0].max(cell.half[1])).floor() as i32;
         let number = self.cells.len();
         self.queue
             .push(Reverse((halvings, OrderedFloat(lowest), number)));

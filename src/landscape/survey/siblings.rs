@@ -60,9 +60,10 @@ impl Meeting {
 
     fn distance(&self, other: &Self, size: f64) -> f64 {
         let turn = wrap_angle(self.tilt - other.tilt) * size;
-        (self.slide - other.slide)
-            .hypot(self.gap - other.gap)
-            .hypot(turn)
+        libm::hypot(
+            libm::hypot(self.slide - other.slide, self.gap - other.gap),
+            turn,
+        )
     }
 }
 

@@ -150,7 +150,7 @@ impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
         let mut open = vec![0];
         while let Some(number) = open.pop() {
             let group = &groups[number];
-            let radius = group.half[0].hypot(group.half[1]);
+            let radius = libm::hypot(group.half[0], group.half[1]);
             let (place, reach) = (sight.place(group.centre), self.bound.reach + radius);
             let is_small = radius <= SMALL * sight.distance(&fixed[0], group);
             let whole = is_small.then(|| self.many.patches.around(place.into(), reach));

@@ -16,7 +16,7 @@ use crate::potential::groups::walk::{Leeway, Walk};
 fn in_range(theta: f64) -> f64 {
     #[cold]
     fn reduced(theta: f64) -> f64 {
-        theta.sin().atan2(theta.cos())
+        libm::atan2(libm::sin(theta), libm::cos(theta))
     }
     if theta.abs() <= MAX_ANGLE {
         theta

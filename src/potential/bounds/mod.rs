@@ -80,7 +80,9 @@ impl Enclosure {
         };
         let (moved, turned) = (step.xy().norm(), step.z.abs());
         // Monotone in the lever, so that the least and the greatest bound all others.
-        let of = |lever: f64| (moved + lever * turned) / (half[0].hypot(half[1]) + lever * half[2]);
+        let of = |lever: f64| {
+            (moved + lever * turned) / (libm::hypot(half[0], half[1]) + lever * half[2])
+        };
         let shares = levers.map(of).into_iter().chain([turned / half[2]]);
         largest.min(shares.fold(0.0, f64::max))
     }

@@ -93,9 +93,9 @@ impl NearPair {
         [reach, turn]: [f64; 2],
         depths: f64,
     ) -> Self {
-        let r = dx.hypot(dy);
-        let phi = dy.atan2(dx);
-        let swing = if reach < r { (reach / r).asin() } else { PI };
+        let r = libm::hypot(dx, dy);
+        let phi = libm::atan2(dy, dx);
+        let swing = if reach < r { libm::asin(reach / r) } else { PI };
         Self {
             strength,
             angles: [a - b, a + b - 2.0 * phi],
@@ -136,7 +136,7 @@ impl NearPair {
     /// U at the cell's centre (J).
     pub fn energy_at_centre(&self) -> f64 {
         let [turn, across] = self.angles;
-        (-0.5 * turn.cos() - 1.5 * across.cos()) * self.scale(self.distance)
+        (-0.5 * libm::cos(turn) - 1.5 * libm::cos(across)) * self.scale(self.distance)
     }
 
     /// `K / r^3` at the least distance (J).
@@ -169,12 +169,12 @@ fn cosine_range(middle: f64, half: f64) -> Interval {
     let high = if middle <= half {
         1.0
     } else {
-        (middle - half).cos() + MARGIN
+        libm::cos(middle - half) + MARGIN
     };
     let low = if middle + half >= PI {
         -1.0
     } else {
-        (middle + half).cos() - MARGIN
+        libm::cos(middle + half) - MARGIN
     };
     Interval {
         low: low.max(-1.0),

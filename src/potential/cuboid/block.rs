@@ -25,7 +25,7 @@ impl From<&Magnet> for Block {
     fn from(magnet: &Magnet) -> Self {
         Self {
             position: magnet.position,
-            axis: Vector2::new(magnet.angle.cos(), magnet.angle.sin()),
+            axis: Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle)),
             moment: magnet.moment,
             size: magnet.size,
         }
@@ -55,7 +55,7 @@ impl Block {
 
     /// Half the diagonal in the plane (m).
     pub fn radius(&self) -> f64 {
-        self.size[0].hypot(self.size[1]) / 2.0
+        libm::hypot(self.size[0], self.size[1]) / 2.0
     }
 
     /// The unit vector across the axis, a quarter turn counter-clockwise from it: the direction
@@ -243,7 +243,7 @@ mod tests {
     fn block(x: f64, y: f64, angle: f64, size: [f64; 3], remanence: f64) -> Block {
         Block {
             position: Vector2::new(x, y),
-            axis: Vector2::new(angle.cos(), angle.sin()),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
             moment: remanence * size.iter().product::<f64>() / MU0,
             size,
         }
@@ -316,7 +316,10 @@ mod tests {
         let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
         for i in 0..60 {
             let (direction, distance) = (0.37 * i as f64, 0.022 + 0.0004 * i as f64);
-            let (x, y) = (distance * direction.cos(), distance * direction.sin());
+            let (x, y) = (
+                distance * libm::cos(direction),
+                distance * libm::sin(direction),
+            );
             let second = block(
                 x,
                 y,

@@ -26,7 +26,7 @@ impl Task for Correction<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
-        let (sin, cos) = self.q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(self.q.theta);
         let mut total = Sums::zero(l);
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {

@@ -298,7 +298,7 @@ mod tests {
     fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
         Block {
             position: Vector2::new(x, y),
-            axis: Vector2::new(angle.cos(), angle.sin()),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
             ..Block::new(0.3, size)
         }
     }
@@ -327,7 +327,7 @@ mod tests {
         let radius = series.radius(N, tolerance);
         for i in 0..10 {
             let first = block(0.0, 0.0, 0.5, one);
-            let (sin, cos) = (0.37 * i as f64).sin_cos();
+            let (sin, cos) = libm::sincos(0.37 * i as f64);
             let second = block(radius * cos, radius * sin, 1.1 * i as f64, two);
             let got = Level::best().run(Terms::<N>(&series, &first, &second));
             let exact = cloud::energy_and_gradient::<10>(&first, &second);

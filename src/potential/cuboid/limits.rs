@@ -67,7 +67,7 @@ impl Limits {
         let edge = a.size[2];
         let tangential = 4.0
             * height
-            * (width / 2.0 * (edge / width).asinh() + edge / 2.0 * (width / edge).asinh());
+            * (width / 2.0 * libm::asinh(edge / width) + edge / 2.0 * libm::asinh(width / edge));
         let normal = std::f64::consts::TAU * width * height;
         Self {
             dipole: MU0_OVER_4PI * a.moment * b.moment,
@@ -118,7 +118,7 @@ impl Limits {
         let [width, height] = self.face;
         let share = |distance: f64| {
             let (a, b) = (width / (2.0 * distance), height / (2.0 * distance));
-            height * a.asinh() + width * b.asinh()
+            height * libm::asinh(a) + width * libm::asinh(b)
         };
         let edges: f64 = distances.iter().map(|distance| share(*distance)).sum();
         8.0 * self.strength * edges + turn * self.gradient

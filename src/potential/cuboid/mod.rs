@@ -252,7 +252,7 @@ impl Potential for CuboidPotential {
     /// of their distance; the bound there is that at a sixteenth of the reach, which holds for the
     /// average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let (sin, cos) = q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(q.theta);
         let turn = self.lever.turn();
         let mut bound = 0.0;
         for second in &self.moving {
@@ -280,7 +280,7 @@ impl Potential for CuboidPotential {
     /// Known only where all blocks are farther apart than their own size: closer, the second
     /// derivative's bound tells more.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let (sin, cos) = q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(q.theta);
         let turn = self.lever.turn();
         let mut bound = 0.0;
         for second in &self.moving {

@@ -285,10 +285,10 @@ mod tests {
     /// pole face, turned by `angle` and slid along that face.
     fn pair(size: [f64; 3], gap: f64, angle: f64, slide: f64) -> BlockPair {
         let first = Block::new(0.3, [0.010, 0.010, 0.003]);
-        let reach = (size[0] * angle.cos().abs() + size[1] * angle.sin().abs()) / 2.0;
+        let reach = (size[0] * libm::cos(angle).abs() + size[1] * libm::sin(angle).abs()) / 2.0;
         let second = Block {
             position: Vector2::new(0.005 + gap + reach, slide),
-            axis: Vector2::new(angle.cos(), angle.sin()),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
             ..Block::new(0.3, size)
         };
         BlockPair::new(&first, &second, second.position)

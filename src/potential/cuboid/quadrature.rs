@@ -89,7 +89,7 @@ impl Rules {
 #[allow(clippy::needless_range_loop)]
 pub fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
     let node = |i: usize| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
+        let mut x = libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5));
         let mut slope = 1.0;
         for _ in 0..100 {
             let (value, derivative) = legendre(N, x);

@@ -313,7 +313,7 @@ mod tests {
         for level in Level::available() {
             for i in 0..200 {
                 let t = f64::from(i);
-                let (x, h) = (1.7 * (0.37 * t).sin(), 0.9 * (1.1 * t).cos());
+                let (x, h) = (1.7 * libm::sin(0.37 * t), 0.9 * libm::cos(1.1 * t));
                 let heights = [[0.4, 0.0], [0.5, 0.1]][i as usize % 2];
                 let step = 1e-4;
                 if h.abs() < 0.05 || (x.abs() - 1.0).abs() < 0.05 {

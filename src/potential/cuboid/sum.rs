@@ -22,7 +22,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
-        let (sin, cos) = self.q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(self.q.theta);
         let rotation = Complex::new(cos, sin);
         let mut sums = Sums::zero(l);
         let mut coefficients = Coefficients::NONE;
@@ -136,7 +136,7 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let (sin, cos) = self.q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(self.q.theta);
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {

@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 /// The `n` nodes of order `n` on [-1, 1]: `cos((2 k + 1) pi / (2 n))`.
 pub fn nodes(n: usize) -> Vec<f64> {
     let step = PI / (2 * n) as f64;
-    (0..n).map(|k| ((2 * k + 1) as f64 * step).cos()).collect()
+    (0..n)
+        .map(|k| libm::cos((2 * k + 1) as f64 * step))
+        .collect()
 }
 
 /// The values at `x` of the polynomials that are 1 at one of the nodes and 0 at the others, by the
@@ -32,7 +34,7 @@ pub fn shares(nodes: &[f64], x: f64) -> Vec<f64> {
 /// A bound of the sum of the shares' magnitudes anywhere on [-1, 1] (Lebesgue's constant;
 /// Trefethen, *Approximation Theory and Approximation Practice*, theorem 15.2).
 pub fn lebesgue(n: usize) -> f64 {
-    1.0 + 2.0 / PI * (n as f64).ln()
+    1.0 + 2.0 / PI * libm::log(n as f64)
 }
 
 /// A bound of what is lost of the energy of two dipoles by interpolating the place of the one at
@@ -50,7 +52,7 @@ pub fn lost(n: usize, half: f64, distance: f64) -> f64 {
 /// The least distance (m), to a part in a million, at which no more than `allowed` is [`lost`], which
 /// falls with the distance like its n-th power.
 pub fn least_distance(n: usize, half: f64, allowed: f64) -> f64 {
-    half * (lost(n, 1.0, 1.0) / allowed).powf(1.0 / n as f64) * (1.0 + 1e-6)
+    half * libm::pow(lost(n, 1.0, 1.0) / allowed, 1.0 / n as f64) * (1.0 + 1e-6)
 }
 
 #[cfg(test)]
@@ -89,9 +91,9 @@ mod tests {
                     let other = [[0.3, ratio], [1.0 + ratio, 0.0], [-1.0, -ratio]][kind];
                     let energy = |x: f64| {
                         let (dx, dy) = (other[0] - x, other[1]);
-                        let r = dx.hypot(dy);
-                        let along = (dx * angle.cos() + dy * angle.sin()) / r;
-                        (angle.cos() - 3.0 * along * dx / r) / r.powi(3)
+                        let r = libm::hypot(dx, dy);
+                        let along = (dx * libm::cos(angle) + dy * libm::sin(angle)) / r;
+                        (libm::cos(angle) - 3.0 * along * dx / r) / r.powi(3)
                     };
                     for k in 0..=50 {
                         let x = f64::from(k) / 25.0 - 1.0;

@@ -60,7 +60,7 @@ pub struct Sight<'a> {
 
 impl<'a> Sight<'a> {
     pub fn new(groups: [&'a [Group]; 2], q: &Configuration) -> Self {
-        let (sin, cos) = q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(q.theta);
         Self {
             groups,
             place: q.position(),

@@ -27,6 +27,7 @@ use std::sync::LazyLock;
 
 use nalgebra::{SMatrix, Vector2};
 
+use crate::matrix::product;
 use crate::potential::batch::Level;
 use crate::potential::batch::Sampled;
 use crate::potential::dipole::Dipole;
@@ -72,8 +73,9 @@ impl Polynomial {
                 values[(i, j)] = value;
             }
         }
-        let coefficients = *TO_CHEBYSHEV * values * TO_CHEBYSHEV.transpose();
-        let coefficients = *TO_POWERS * coefficients * TO_POWERS.transpose();
+        let both_ways =
+            |change: &Table, table| product(&product(change, table), &change.transpose());
+        let coefficients = both_ways(&TO_POWERS, &both_ways(&TO_CHEBYSHEV, &values));
         Self {
             rows: std::array::from_fn(|j| std::array::from_fn(|i| coefficients[(i, j)])),
             centre: centre.into(),
@@ -87,7 +89,7 @@ impl Polynomial {
 static TO_CHEBYSHEV: LazyLock<Table> = LazyLock::new(|| {
     Table::from_fn(|k, i| {
         let weight = if k == 0 { 1.0 } else { 2.0 } / ORDER as f64;
-        weight * (PI * (k * (2 * i + 1)) as f64 / (2 * ORDER) as f64).cos()
+        weight * libm::cos(PI * (k * (2 * i + 1)) as f64 / (2 * ORDER) as f64)
     })
 });
 
@@ -157,7 +159,7 @@ mod tests {
                 } else {
                     diagonal + Vector2::new(half, half)
                 };
-                let moment = Vector2::new(turn.cos(), turn.sin());
+                let moment = Vector2::new(libm::cos(turn), libm::sin(turn));
                 let centre = Vector2::new(0.7, -0.2);
                 let dipole = Dipole {
                     position: position + centre,

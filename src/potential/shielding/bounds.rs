@@ -74,7 +74,7 @@ impl ShieldedBounds {
     ) -> Option<Interval> {
         let moved = self.moving[j].moved(&cell.centre, rotation);
         let fixed = &self.fixed[i];
-        let angle = |v: Vector2<f64>| v.y.atan2(v.x);
+        let angle = |v: Vector2<f64>| libm::atan2(v.y, v.x);
         let scale = MU0_OVER_4PI;
         let reach = cell.reach(self.moving[j].position.norm()) + MARGIN;
         let pair = NearPair::new(

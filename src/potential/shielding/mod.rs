@@ -135,9 +135,9 @@ impl Shield {
 /// S(t) = 1 / (1 + exp(-t)), without overflow.
 fn logistic(t: f64) -> f64 {
     if t >= 0.0 {
-        1.0 / (1.0 + (-t).exp())
+        1.0 / (1.0 + libm::exp(-t))
     } else {
-        let e = t.exp();
+        let e = libm::exp(t);
         e / (1.0 + e)
     }
 }

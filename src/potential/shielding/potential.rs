@@ -55,7 +55,7 @@ impl Blocks {
 
     /// Bounds of |u|, |u'| and |u''| of each pair (see [`Limits`]), in columns of the given stride.
     fn limits(&self, q: &Configuration, turn: f64, reach: f64, stride: usize) -> [Vec<f64>; 3] {
-        let (sin, cos) = q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(q.theta);
         let mut columns = [(); 3].map(|()| vec![0.0; self.moving.len() * stride]);
         let mut limits = self.limits.iter();
         for (j, second) in self.moving.iter().enumerate() {

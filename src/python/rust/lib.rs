@@ -25,10 +25,13 @@ mod table;
 mod words;
 mod workshop;
 
+use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
+use tilebind::potential::batch::Level;
 
 #[pymodule]
 fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    Level::chosen().map_err(PyImportError::new_err)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<design::Design>()?;
     module.add_class::<analysis::Analysis>()?;

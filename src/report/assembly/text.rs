@@ -47,23 +47,26 @@ pub fn window(built: &Built) -> Option<[f64; 2]> {
     let less = built.wiring.least_strength();
     // ln K of bonds of a strength; it falls with kT.
     let ln_k = |strength: f64, kt: f64| {
-        let gmc = built.gmc - 2.5 * (kt / built.shaking.kt).ln();
+        let gmc = built.gmc - 2.5 * libm::log(kt / built.shaking.kt);
         strength * built.unit / kt - gmc
     };
     let end = |strength: f64| {
-        let (mut low, mut high) = ((built.unit / 400.0).ln(), (built.unit * tau.max(1.0)).ln());
-        if ln_k(strength, low.exp()) < 0.0 {
+        let (mut low, mut high) = (
+            libm::log(built.unit / 400.0),
+            libm::log(built.unit * tau.max(1.0)),
+        );
+        if ln_k(strength, libm::exp(low)) < 0.0 {
             return None;
         }
         for _ in 0..80 {
             let middle = (low + high) / 2.0;
-            if ln_k(strength, middle.exp()) > 0.0 {
+            if ln_k(strength, libm::exp(middle)) > 0.0 {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        Some(low.exp())
+        Some(libm::exp(low))
     };
     let lower = if tau > less { end(tau - less)? } else { 0.0 };
     Some([lower, end(tau)?])

@@ -101,7 +101,7 @@ fn arrows(map: &Map, at: &dyn Fn([f64; 2]) -> [f64; 2]) -> String {
             )
         })
         .collect();
-    let size = |flow: &[f64; 2]| flow[0].hypot(flow[1]);
+    let size = |flow: &[f64; 2]| libm::hypot(flow[0], flow[1]);
     let most = flows.iter().map(|(_, flow)| size(flow)).fold(0.0, f64::max);
     let mut text = String::new();
     let longest = 2.0 * map.radius / count as f64;
@@ -178,7 +178,7 @@ fn rates(table: &Table, over_kt: &[AtKt]) -> String {
         .flat_map(|at| at.leaving.iter().chain(&at.corner).flatten());
     let logs: Vec<f64> = known
         .filter(|rate| **rate > 0.0)
-        .map(|rate| rate.log10())
+        .map(|rate| libm::log10(*rate))
         .collect();
     let low = logs.iter().copied().fold(f64::INFINITY, f64::min).floor();
     let high = logs
@@ -190,9 +190,12 @@ fn rates(table: &Table, over_kt: &[AtKt]) -> String {
         return chart("kT", "rate out (1/s)", "");
     }
     let high = high.max(low + 1.0);
-    let (first, last) = (over_kt[0].kt.ln(), over_kt[over_kt.len() - 1].kt.ln());
-    let x = |kt: f64| left + width * (0.03 + 0.75 * (kt.ln() - first) / (last - first));
-    let y = |rate: f64| top + height * (high - rate.log10()) / (high - low);
+    let (first, last) = (
+        libm::log(over_kt[0].kt),
+        libm::log(over_kt[over_kt.len() - 1].kt),
+    );
+    let x = |kt: f64| left + width * (0.03 + 0.75 * (libm::log(kt) - first) / (last - first));
+    let y = |rate: f64| top + height * (high - libm::log10(rate)) / (high - low);
     let mut inner = String::new();
     let every = ((high - low) / 6.0).ceil() as usize;
     for power in (low as i32..=high as i32).step_by(every) {

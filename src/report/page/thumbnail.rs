@@ -76,9 +76,9 @@ fn keep(corners: &[Corner], first: usize, last: usize, tolerance: f64, kept: &mu
 /// Distance of a point from a line through two others, or from their one place.
 fn apart(p: Corner, [a, b]: [Corner; 2]) -> f64 {
     let (along, from) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let length = along[0].hypot(along[1]);
+    let length = libm::hypot(along[0], along[1]);
     if length == 0.0 {
-        return from[0].hypot(from[1]);
+        return libm::hypot(from[0], from[1]);
     }
     (along[0] * from[1] - along[1] * from[0]).abs() / length
 }

@@ -82,7 +82,7 @@ pub(super) fn frontier(answer: &Answer) -> String {
     let x = |gap: f64| left + width * gap;
     // From none on, then by factors.
     let y = |count: usize| {
-        let level = (1.0 + (count as f64).min(most)).ln() / (1.0 + most).ln();
+        let level = libm::log(1.0 + (count as f64).min(most)) / libm::log(1.0 + most);
         top + height * (1.0 - level)
     };
     let mut inner = String::new();

@@ -79,7 +79,7 @@ fn course(outcome: &Outcome) -> String {
     let times: Vec<f64> = outcome
         .course
         .iter()
-        .map(|point| point[0].log10())
+        .map(|point| libm::log10(point[0]))
         .collect();
     let (first, last) = (times[0], times[times.len() - 1]);
     let x = |log: f64| (log - first) / (last - first);
@@ -103,8 +103,8 @@ fn crowds(question: &Question, outcome: &Outcome) -> String {
     let mut coverages: Vec<f64> = outcome.table.iter().map(|row| row.1).collect();
     coverages.sort_by(f64::total_cmp);
     coverages.dedup();
-    let most = (*tiles.last().unwrap_or(&2) as f64 / 2.0).ln().max(1e-9);
-    let x = |tiles: usize| (tiles as f64 / 2.0).ln() / most;
+    let most = libm::log(*tiles.last().unwrap_or(&2) as f64 / 2.0).max(1e-9);
+    let x = |tiles: usize| libm::log(tiles as f64 / 2.0) / most;
     let mut inner = shares();
     for count in &tiles {
         inner += &below(x(*count), &count.to_string());

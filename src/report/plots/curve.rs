@@ -24,7 +24,7 @@ impl Scale {
     pub fn at(self, value: f64) -> f64 {
         match self {
             Self::Linear { unit } => value / unit,
-            Self::Decades { unit, low } => (value / unit).log10().max(low),
+            Self::Decades { unit, low } => libm::log10(value / unit).max(low),
         }
     }
 }
@@ -114,7 +114,7 @@ pub fn caption(root: &Area, text: &str, at: Pixel) -> Result<(), PictureError> {
 /// A ring, for what is none.
 pub fn ring(root: &Area, (x, y): Pixel, colour: RGBColor) -> Result<(), PictureError> {
     let around = (0..=20).map(|k| {
-        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 20.0).sin_cos();
+        let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / 20.0);
         (x + 4.2 * cos, y + 4.2 * sin)
     });
     polyline(root, &around.collect::<Vec<_>>(), colour, 1.8)

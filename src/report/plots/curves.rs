@@ -164,7 +164,7 @@ impl CurvePanel<'_> {
         let (scale, y, [low, high]) = match self.decades(unit) {
             Some(powers @ [low, high]) => {
                 let y = Axis::decades(low..high, name);
-                let ends = powers.map(|power| unit * 10f64.powf(power));
+                let ends = powers.map(|power| unit * libm::pow(10f64, power));
                 (Scale::Decades { unit, low }, y, ends)
             }
             None => {
@@ -261,7 +261,7 @@ impl CurvePanel<'_> {
     /// multiples of a unit.
     fn decades(&self, unit: f64) -> Option<[f64; 2]> {
         let scales = [Measure::Ratio, Measure::Energy].contains(&self.measure());
-        let powers = self.estimates().map(|e| (e.value / unit).log10());
+        let powers = self.estimates().map(|e| libm::log10(e.value / unit));
         let powers: Vec<f64> = powers.filter(|power| power.is_finite()).collect();
         let low = powers.iter().copied().fold(f64::INFINITY, f64::min);
         let high = powers.iter().copied().fold(f64::NEG_INFINITY, f64::max);

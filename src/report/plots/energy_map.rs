@@ -89,7 +89,7 @@ fn target_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
     window(
         scene,
         scene.pair.bound.position(),
-        normal.y.atan2(normal.x),
+        libm::atan2(normal.y, normal.x),
         [-LABELS * across, -half],
         [(1.0 - LABELS) * across, half],
     )

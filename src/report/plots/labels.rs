@@ -23,7 +23,7 @@ fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
 /// Joins a label to what it names by a thin line, where it is not beside it.
 fn join(root: &Area, anchor: Pixel, place: Box4) -> Result<(), PictureError> {
     let nearest = nearest(anchor, place);
-    if (nearest.0 - anchor.0).hypot(nearest.1 - anchor.1) > 14.0 {
+    if libm::hypot(nearest.0 - anchor.0, nearest.1 - anchor.1) > 14.0 {
         polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
         polyline(root, &[anchor, nearest], SOFT, 1.0)?;
     }
@@ -120,7 +120,7 @@ impl Labels {
     pub fn keep_off_line(&mut self, points: &[Pixel]) {
         for pair in points.windows(2) {
             let (a, b) = (pair[0], pair[1]);
-            let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 5.0).ceil().max(1.0);
+            let steps = (libm::hypot(a.0 - b.0, a.1 - b.1) / 5.0).ceil().max(1.0);
             for k in 0..=steps as usize {
                 let t = k as f64 / steps;
                 self.keep_off((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t), 2.0);
@@ -161,7 +161,7 @@ impl Labels {
         for ring in 0..13 {
             for k in 0..directions {
                 let angle = k as f64 * std::f64::consts::TAU / directions as f64;
-                let (dx, dy) = (angle.cos(), angle.sin());
+                let (dx, dy) = (libm::cos(angle), libm::sin(angle));
                 let away = 1.0 - (dx * outwards.x + dy * outwards.y);
                 let reach = 11.0 + 16.0 * ring as f64;
                 let place = self.moved_inside([

@@ -59,7 +59,9 @@ fn states(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), Pi
     states.sort_by_key(|state| state.kind == StateKind::Bond);
     for state in states {
         let at = view.pixel(state.configuration.position());
-        let repeated = drawn.iter().any(|p| (p.0 - at.0).hypot(p.1 - at.1) < 1.0);
+        let repeated = drawn
+            .iter()
+            .any(|p| libm::hypot(p.0 - at.0, p.1 - at.1) < 1.0);
         if inside(frame, at) && !repeated {
             marker(root, state.kind.into(), at, 6.5)?;
             drawn.push(at);

@@ -29,7 +29,7 @@ pub fn polyline(
     for p in rest {
         if kept
             .last()
-            .is_none_or(|k| (k.0 - p.0).hypot(k.1 - p.1) > 0.5)
+            .is_none_or(|k| libm::hypot(k.0 - p.0, k.1 - p.1) > 0.5)
         {
             kept.push(*p);
         }
@@ -108,7 +108,12 @@ pub fn marker(root: &Area, mark: Mark, (x, y): Pixel, radius: f64) -> Result<(),
         angles
             .iter()
             .zip(radii.iter().cycle())
-            .map(|(a, r)| (x + r * radius * a.sin(), y - r * radius * a.cos()))
+            .map(|(a, r)| {
+                (
+                    x + r * radius * libm::sin(*a),
+                    y - r * radius * libm::cos(*a),
+                )
+            })
             .collect()
     };
     let turn = |n: usize| -> Vec<f64> {
@@ -184,7 +189,7 @@ fn draw_magnet(
     magnet: &Magnet,
     q: &Configuration,
 ) -> Result<(), PictureError> {
-    let axis = Vector2::new(magnet.angle.cos(), magnet.angle.sin());
+    let axis = Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle));
     let across = Vector2::new(-axis.y, axis.x);
     let least = 5.0 / view.scale;
     let half_length = magnet.size[0].max(least) / 2.0;

@@ -286,7 +286,7 @@ pub(super) fn disc(root: &Area, (x, y): Pixel, colour: RGBColor) -> Result<(), P
     let ring = |radius: f64| -> Vec<Pixel> {
         (0..24)
             .map(|k| {
-                let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
+                let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / 24.0);
                 (x + radius * cos, y + radius * sin)
             })
             .collect()

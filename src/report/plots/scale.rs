@@ -101,8 +101,8 @@ impl EnergyScale {
         if self.is_linear {
             return (energy / self.most).clamp(-1.0, 1.0);
         }
-        let full = (self.most / self.linear()).asinh();
-        ((energy / self.linear()).asinh() / full).clamp(-1.0, 1.0)
+        let full = libm::asinh(self.most / self.linear());
+        (libm::asinh(energy / self.linear()) / full).clamp(-1.0, 1.0)
     }
 
     /// Zero and the powers of ten beyond the linear part, between two positions; round numbers on a
@@ -114,7 +114,7 @@ impl EnergyScale {
             let steps = ends[0].ceil() as i64..=ends[1].floor() as i64;
             return steps.map(|k| k as f64 * step).collect();
         }
-        let top = self.most.log10().floor() as i32;
+        let top = libm::log10(self.most).floor() as i32;
         let powers = (top - Self::DECADES + 1..=top).map(|k| 10f64.powi(k));
         let mut ticks: Vec<f64> = powers.flat_map(|u| [-u, u]).chain([0.0]).collect();
         ticks.retain(|&u| {
@@ -141,7 +141,7 @@ impl EnergyScale {
 
 /// The round number 1, 2 or 5 times a power of ten nearest above `step`.
 pub fn round_step(step: f64) -> f64 {
-    let power = 10f64.powf(step.log10().floor());
+    let power = libm::pow(10f64, libm::log10(step).floor());
     let multiple = [1.0, 2.0, 5.0]
         .into_iter()
         .find(|m| m * power >= step * (1.0 - 1e-9))

@@ -119,7 +119,7 @@ impl Axis {
     /// An axis with about `count` evenly spaced ticks at round numbers.
     pub fn linear(range: Range<f64>, count: usize, name: impl Into<String>) -> Self {
         let step = round_step((range.end - range.start) / count as f64);
-        let decimals = (-step.log10().floor()).max(0.0) as usize;
+        let decimals = (-libm::log10(step).floor()).max(0.0) as usize;
         let (first, last) = (
             (range.start / step - 1e-9).ceil() as i64,
             (range.end / step + 1e-9).floor() as i64,

@@ -82,7 +82,7 @@ fn mean_exit(motion: &Motion, proved: &Capacity) -> [f64; 2] {
 
 /// Bounds rounded outwards, to three digits of either.
 pub(in crate::report) fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
-    let unit = |end: f64| 10f64.powi(end.log10().floor() as i32 - 2);
+    let unit = |end: f64| 10f64.powi(libm::log10(end).floor() as i32 - 2);
     let to = |end: f64, round: fn(f64) -> f64| match end > 0.0 && end.is_finite() {
         true => round(end / unit(end)) * unit(end),
         false => end,

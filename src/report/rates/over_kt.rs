@@ -59,7 +59,7 @@ pub fn over_kt(
         let by_corner = |place: usize| -> Option<f64> {
             let own = &places[place];
             let closed = corner::volume(problem, &own.at, kt)? * own.copies as f64;
-            let volume = finest?.volumes[place] * ((own.energy - lowest) / kt).exp();
+            let volume = finest?.volumes[place] * libm::exp((own.energy - lowest) / kt);
             Some(rate(place)? * volume / closed)
         };
         AtKt {

@@ -56,7 +56,7 @@ pub fn search(
             let mut best = set.annealed();
             while !budget.is_spent() && best.share > enough {
                 let past = 1.0 - budget.left() as f64 / all;
-                let heat = HEAT[0] * (HEAT[1] / HEAT[0]).powf(past);
+                let heat = HEAT[0] * libm::pow(HEAT[1] / HEAT[0], past);
                 set.step(heat, &mut rng);
                 budget.spend(PAIR * set.meetings.pairs.take() + 50);
                 if set.share() < best.share {
@@ -190,7 +190,7 @@ impl<'a> Set<'a> {
         );
         self.words[i] = word;
         self.judge(i);
-        let allowed = before.0 - heat * (1.0 - rng.random::<f64>()).ln();
+        let allowed = before.0 - heat * libm::log(1.0 - rng.random::<f64>());
         if self.cost() > allowed {
             self.words[i] = before.1;
             self.wrong = before.2;
@@ -240,7 +240,7 @@ fn changed(wanted: &Wanted, word: &SpacedWord, rng: &mut ChaCha8Rng) -> Option<S
             word.magnets[other].1 *= -1;
         }
     } else {
-        let size = SHIFT.0 * SHIFT.1.powf(rng.random::<f64>());
+        let size = SHIFT.0 * libm::pow(SHIFT.1, rng.random::<f64>());
         word.magnets[k].0 += if rng.random() { size } else { -size };
         word.magnets.sort_by(|a, b| a.0.total_cmp(&b.0));
     }

@@ -56,7 +56,7 @@ impl Meetings {
                     // The slide at which the two face each other. Like poles attract most beside
                     // each other, at twice the distance of their dipoles: by 0.018 of what
                     // opposite ones do.
-                    let facing = at - (self.depth * tilt.sin() - other * tilt.cos());
+                    let facing = at - (self.depth * libm::sin(tilt) - other * libm::cos(tilt));
                     let aside = if pole == other_pole {
                         4.0 * self.depth
                     } else {
@@ -112,7 +112,7 @@ impl Meetings {
         slide: f64,
         tilt: f64,
     ) -> Option<f64> {
-        let (sin, cos) = tilt.sin_cos();
+        let (sin, cos) = libm::sincos(tilt);
         let out = self.contact(slide, sin, cos)?;
         self.pairs
             .set(self.pairs.get() + (first.magnets.len() * second.magnets.len()) as u64);

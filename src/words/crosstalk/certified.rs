@@ -141,7 +141,7 @@ impl Stage {
             .magnets
             .iter()
             .flat_map(|magnet| magnet.size);
-        let far = (4.0 * MU0_OVER_4PI * product / tolerance).cbrt();
+        let far = libm::cbrt(4.0 * MU0_OVER_4PI * product / tolerance);
         let far = far.max(10.0 * size.fold(0.0, f64::max));
         let half = self.pair.free_distance() + far;
         let (width, turn) = (

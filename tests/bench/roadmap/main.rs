@@ -10,6 +10,8 @@
 //! CSV; `--neighbours K` for other than the default number. `--draw results/scale.csv` draws such
 //! a table beside it.
 
+#![allow(clippy::disallowed_methods)]
+
 #[path = "../../shared/designs.rs"]
 mod designs;
 mod figure;

@@ -146,10 +146,10 @@ impl CuboidBounds {
             sizes.fold(0.0, f64::max)
         };
         let both = |size: &dyn Fn(&[f64; 3]) -> f64| largest(size, fixed) + largest(size, moving);
-        let diagonals = both(&|[a, b, c]| a.hypot(*b).hypot(*c) / 2.0);
+        let diagonals = both(&|[a, b, c]| libm::hypot(libm::hypot(*a, *b), *c) / 2.0);
         let spread = Spread {
             near: (CLOSE * diagonals).max(potential.hand_over()),
-            radii: both(&|[a, b, _]| a.hypot(*b) / 2.0),
+            radii: both(&|[a, b, _]| libm::hypot(*a, *b) / 2.0),
             square: both(&|[a, b, c]| (a * a + b * b + c * c) / 12.0),
             error: SERIES,
         };
@@ -286,7 +286,7 @@ impl CuboidBounds {
     fn add_near(&self, out: &mut Enclosure, cell: &Cell, i: usize, j: usize, nodes: &mut Nodes) {
         let (fixed, moving) = (&self.fixed[i], &self.moving[j]);
         let first = &fixed.block;
-        let (sin, cos) = cell.centre.theta.sin_cos();
+        let (sin, cos) = libm::sincos(cell.centre.theta);
         let second = moving.block.moved(cos, sin, cell.centre.position());
         let moment = (MU0_OVER_4PI * first.moment * second.moment).abs();
         if moment == 0.0 {

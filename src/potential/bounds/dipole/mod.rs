@@ -111,7 +111,7 @@ impl DipoleBounds {
     fn of_dipoles(fixed: &[(Dipole, f64)], moving: &[(Dipole, f64)], level: Level) -> Self {
         let fixed: Vec<_> = fixed.iter().map(Fixed::new).collect();
         let moving = Moving::new(moving);
-        let norm = |dipole: &Fixed| dipole.position[0].hypot(dipole.position[1]);
+        let norm = |dipole: &Fixed| libm::hypot(dipole.position[0], dipole.position[1]);
         Self {
             level,
             rounding: rounding(fixed.len() * moving.count),
@@ -183,7 +183,7 @@ impl Fixed {
             position: dipole.position.into(),
             moment: (dipole.moment * MU0_OVER_4PI).into(),
             magnitude: dipole.moment.norm() * MU0_OVER_4PI,
-            angle: dipole.moment.y.atan2(dipole.moment.x),
+            angle: libm::atan2(dipole.moment.y, dipole.moment.x),
             depth: *depth,
         }
     }
@@ -204,7 +204,7 @@ impl Moving {
             moment_y: column(&|(dipole, _)| dipole.moment.y),
             magnitude: column(&|(dipole, _)| dipole.moment.norm()),
             lever: column(&|(dipole, _)| dipole.position.norm()),
-            angle: column(&|(dipole, _)| dipole.moment.y.atan2(dipole.moment.x)),
+            angle: column(&|(dipole, _)| libm::atan2(dipole.moment.y, dipole.moment.x)),
             depth: column(&|(_, depth)| *depth),
         }
     }
@@ -245,7 +245,7 @@ impl DipoleBounds {
         let way = [at.x - fixed.position[0], at.y - fixed.position[1]];
         let reach = cell.reach(moving.lever[i]) + self.rounding;
         let depths = fixed.depth + moving.depth[i];
-        let r = way[0].hypot(way[1]);
+        let r = libm::hypot(way[0], way[1]);
         if self.groups.is_some() && r < ANY_ANGLE * reach {
             let least = least_distance(r, reach, depths);
             let [bound, slope] = if least > 0.0 {

@@ -192,7 +192,7 @@ impl<const BLOCKS: bool> Taylor<'_, BLOCKS> {
     fn dipoles<L: Lanes>(&self, l: L, first: usize) -> Dipoles<L::F> {
         let moving = &self.bounds.moving;
         let q = &self.cell.centre;
-        let (sin, cos) = q.theta.sin_cos();
+        let (sin, cos) = libm::sincos(q.theta);
         let turn = [l.splat(cos), l.splat(sin)];
         let arm = product(
             l,

@@ -13,7 +13,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 fn turned(angle: f64) -> Vector2<f64> {
-    Vector2::new(angle.cos(), angle.sin())
+    Vector2::new(libm::cos(angle), libm::sin(angle))
 }
 
 fn random_magnets(rng: &mut ChaCha8Rng, count: usize) -> Vec<Magnet> {
@@ -24,7 +24,7 @@ fn random_magnets(rng: &mut ChaCha8Rng, count: usize) -> Vec<Magnet> {
             (!k.is_multiple_of(3)).then(|| Shield {
                 attenuation: rng.random_range(0.0..1.0),
                 length: rng.random_range(0.01..0.1),
-                width: 10f64.powf(rng.random_range(-3.0..0.0)),
+                width: libm::pow(10f64, rng.random_range(-3.0..0.0)),
                 front_gain: rng.random_range(0.8..1.3),
             }),
             turned(rng.random_range(-3.1..3.1)),
@@ -165,13 +165,13 @@ fn factors_stay_within_their_bounds() {
             ..magnet
         };
         let start = turned(rng.random_range(-3.1..3.1)) * 0.05;
-        let (turn, reach) = (5.0, 10f64.powf(rng.random_range(-3.0..-1.7)));
+        let (turn, reach) = (5.0, libm::pow(10f64, rng.random_range(-3.0..-1.7)));
         // The other magnet moves one way and this one's face turns.
         let way = turned(rng.random_range(-3.1..3.1));
         let normal = magnet.front.1;
         let at = |s: f64| {
             let place = start + way * s;
-            let (sin, cos) = (turn * s).sin_cos();
+            let (sin, cos) = libm::sincos(turn * s);
             let turned = Vector2::new(
                 normal.x * cos - normal.y * sin,
                 normal.x * sin + normal.y * cos,

@@ -37,7 +37,8 @@ impl Pair {
         // What bends along h alone, upwards everywhere: what is along the gap alone by a constant,
         // the rest, from 0 to `edges`, by half of that.
         let [up, aside] = self.moved(panel);
-        let gap = |h: f64| 4.0 * (hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * SLACK)).ln();
+        let gap =
+            |h: f64| 4.0 * libm::log(hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * SLACK));
         let floor = (h - reach_up).max(0.0);
         let mut arch = Arch::of(floor, up, h + reach_up, |h| [gap(h); 2]);
         let off = arch.off + 0.5 * edges * up;
@@ -58,7 +59,7 @@ impl Pair {
         let bent = off * up + arced;
         let gap_alone = |way: f64| {
             let way = way.max(SLACK);
-            4.0 * way * way * (0.5 * (hypotenuse(way, high) / hypotenuse(way, low)).ln() + 0.75)
+            4.0 * way * way * (0.5 * libm::log(hypotenuse(way, high) / hypotenuse(way, low)) + 0.75)
         };
         // What is of third order.
         let rest =
@@ -66,7 +67,7 @@ impl Pair {
         // Their slopes.
         let gap_slope = |way: f64| {
             let way = way.max(SLACK);
-            4.0 * way * ((hypotenuse(way, high) / hypotenuse(way, low)).ln() + 1.0)
+            4.0 * way * (libm::log(hypotenuse(way, high) / hypotenuse(way, low)) + 1.0)
         };
         let bent_slope = off * fast_up + arced_slope;
         let rest_slope = third

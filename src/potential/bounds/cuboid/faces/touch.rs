@@ -116,7 +116,7 @@ impl Pair {
             let away = hypotenuse(h, height).max(0.1 * SLACK);
             stretch(sheet + v, away) * stretch(sheet - v, away) / (away * away)
         };
-        2.0 * (edge(low) / edge(high)).ln()
+        2.0 * libm::log(edge(low) / edge(high))
     }
 
     /// Phi falls with the distance from the face's line and with that from its middle line, so
@@ -144,7 +144,7 @@ impl Pair {
         let near = panel.half / 2.0;
         let log = |z: f64| {
             let root = hypotenuse(z, near);
-            z * ((z + root) / near).ln() - root
+            z * libm::log((z + root) / near) - root
         };
         let g = 2.0 * (log(high) - log(low));
         let [fast_up, fast_aside] = self.speeds(panel);

@@ -1,0 +1,110 @@
+//! The same bytes with every instruction set, and whatever the C library's functions are made of.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use tilebind::potential::batch::Level;
+
+use crate::folder::contents;
+use crate::program::{command, stderr};
+
+/// Ten designs, and the model that they are computed with.
+const DESIGNS: [(&str, &str); 10] = [
+    ("paper-tile", "dipole"),
+    ("hexagon", "dipole"),
+    ("arc-20mm", "dipole"),
+    ("drawn-wave", "dipole"),
+    ("dovetail", "dipole"),
+    ("halbach", "dipole"),
+    ("one-face", "cuboid"),
+    ("tab-20mm", "cuboid"),
+    ("shielded-backs", "dipole"),
+    ("shielded-nearest-face", "dipole"),
+];
+
+/// What an analysis writes, but for how long it took.
+fn analysed((design, model): (&str, &str), out: &Path, prepare: impl Fn(&mut Command)) -> Files {
+    let design = format!("shapes/{design}.toml");
+    let mut analyse = command(&[
+        "analyse",
+        &design,
+        "--model",
+        model,
+        "--out",
+        out.to_str().expect("UTF-8"),
+        "--milestones",
+        "300",
+        "--far-starts",
+        "20",
+        "--kinds",
+        "3",
+        "--complete-seconds",
+        "0",
+        "--compact",
+        "--quiet",
+    ]);
+    prepare(&mut analyse);
+    let output = analyse.output().expect("it starts");
+    assert!(output.status.success(), "{}", stderr(&output));
+    let mut files = contents(out);
+    let report = files.get_mut("report.json").expect("a report");
+    let mut value: serde_json::Value = serde_json::from_slice(report).expect("JSON");
+    value.as_object_mut().expect("an object").remove("timing");
+    *report = value.to_string().into_bytes();
+    files.retain(|name, _| !name.starts_with('.') && !name.ends_with(".html"));
+    files
+}
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+#[test]
+fn every_level_writes_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    for design in DESIGNS {
+        let out = |word: &str| folder.path().join(format!("{}-{word}", design.0));
+        let expected = analysed(design, &out("best"), |_| {});
+        assert!(expected.keys().any(|name| name.starts_with("pathways/")));
+        let best = Level::available().pop();
+        let others = Level::available().into_iter();
+        for level in others.filter(|level| Some(*level) != best) {
+            let found = analysed(design, &out(level.word()), |command| {
+                command.env("TILEBIND_KERNEL", level.word());
+                // The C library's variants for the same instruction sets, where it is GNU's.
+                command.env(
+                    "GLIBC_TUNABLES",
+                    "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F",
+                );
+            });
+            assert!(found.keys().eq(expected.keys()));
+            for (name, content) in &found {
+                assert!(*content == expected[name], "{}: {level}: {name}", design.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_level_that_is_not_there_is_told() {
+    let energy = |word: &str| {
+        let arguments = ["energy", "shapes/paper-tile.toml", "--pose", "0.5,0,0"];
+        let mut command = command(&arguments);
+        command.env("TILEBIND_KERNEL", word);
+        command.output().expect("it starts")
+    };
+    for word in ["sse2", "", "AVX2"] {
+        let output = energy(word);
+        assert_eq!(output.status.code(), Some(2), "{word}");
+        assert!(output.stdout.is_empty());
+        let said = stderr(&output);
+        assert!(
+            said.contains("TILEBIND_KERNEL") && said.contains("portable"),
+            "{said}"
+        );
+    }
+    let there: Vec<_> = Level::available().into_iter().map(Level::word).collect();
+    for word in ["avx512", "avx2", "portable"] {
+        let expected = if there.contains(&word) { 0 } else { 2 };
+        assert_eq!(energy(word).status.code(), Some(expected), "{word}");
+    }
+}
