@@ -118,6 +118,8 @@ pub mod kinetics;
 pub mod landscape;
 mod matrix;
 pub mod observer;
+mod order;
+mod parallel;
 pub mod pipeline;
 pub mod potential;
 pub mod problem;

@@ -9,6 +9,7 @@
 use super::depths::Depths;
 use super::matrix::Matrix;
 use super::wiring::Wiring;
+use crate::order::Order;
 use crate::words::Word;
 
 /// Depth of a bond in kT at which wrong meetings are weighed.
@@ -25,9 +26,9 @@ pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Vec<Wor
     let mut by_depth: Vec<usize> = (0..there).collect();
     // Depths that differ in their last digits only are the same.
     let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
-    by_depth.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
+    by_depth.order_by(|a, b| rank(*a).total_cmp(&rank(*b)));
     let mut by_strength: Vec<usize> = (0..needed).collect();
-    by_strength.sort_by(|a, b| {
+    by_strength.order_by(|a, b| {
         wiring.bonds[*b]
             .strength
             .total_cmp(&wiring.bonds[*a].strength)

@@ -4,6 +4,7 @@
 //! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones
 //! included, attract by at most (1 - gap) of the weakest bond of strength 1.
 
+use crate::order::Order;
 use crate::words::budget::Budget;
 use crate::words::candidates::{Candidates, number};
 use crate::words::graph::Graph;
@@ -123,7 +124,7 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choi
         Verdict::Found => (true, choice.gap),
         _ => (false, -choice.gap),
     };
-    trials.sort_by(|a, b| {
+    trials.order_by(|a, b| {
         let (a, b) = (last(a), last(b));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
     });

@@ -5,6 +5,7 @@
 //! glue that binds nothing needs none, and its faces stay empty.
 
 use super::{SIDES, TileSet};
+use crate::order::Order;
 
 /// An axis along which tiles meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -131,7 +132,7 @@ impl Wiring {
         }
         wiring
             .bonds
-            .sort_by_key(|bond| (bond.glues[0].iter().min().copied(), bond.axis));
+            .order_by_key(|bond| (bond.glues[0].iter().min().copied(), bond.axis));
         for (number, bond) in wiring.bonds.iter().enumerate() {
             for (side, glues) in bond.axis.sides().into_iter().zip(&bond.glues) {
                 for glue in glues {
@@ -153,7 +154,7 @@ impl Wiring {
     /// How many words of each strength are needed, the strongest first.
     pub fn demand(&self) -> Vec<(f64, usize)> {
         let mut strengths: Vec<f64> = self.bonds.iter().map(|bond| bond.strength).collect();
-        strengths.sort_by(|a, b| b.total_cmp(a));
+        strengths.order_by(|a, b| b.total_cmp(a));
         let mut demand: Vec<(f64, usize)> = Vec::new();
         for strength in strengths {
             match demand.last_mut() {

@@ -19,12 +19,12 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::configuration::Configuration;
 use crate::landscape::approach::Approach;
 use crate::landscape::minimum::{Known, Outcome};
+use crate::parallel;
 use crate::problem::Problem;
 
 /// Even steps along a line of starts.
@@ -86,13 +86,10 @@ pub fn find(
         [PI, 0.0, 0.0],
     ];
     // Each line learns for itself, so that it does not matter which is worked on first.
-    let shares: Vec<f64> = ends
-        .par_iter()
-        .map(|[tilt, offset, gap]| {
-            let mut known = known.clone();
-            reach(|share| captured(&mut known, share * tilt, share * offset, share * gap))
-        })
-        .collect();
+    let shares: Vec<f64> = parallel::map(&ends[..], |[tilt, offset, gap]| {
+        let mut known = known.clone();
+        reach(|share| captured(&mut known, share * tilt, share * offset, share * gap))
+    });
     let amount = |line: usize| shares[line] * ends[line].iter().sum::<f64>();
     Some(CaptureRange {
         offset: [amount(0), amount(1)],

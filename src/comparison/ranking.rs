@@ -2,6 +2,7 @@
 
 use super::{Assessment, Quantity};
 use crate::landscape::certificate::{self, Ordering};
+use crate::order::Order;
 use ordered_float::OrderedFloat;
 use std::cmp::Reverse;
 
@@ -13,7 +14,7 @@ pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
         estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
     };
     let mut order: Vec<usize> = (0..assessments.len()).collect();
-    order.sort_by_key(|&k| (Reverse(OrderedFloat(value(k))), k));
+    order.order_by_key(|&k| (Reverse(OrderedFloat(value(k))), k));
     order
 }
 
@@ -21,7 +22,7 @@ pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
 /// figure: see [`Assessment::obstacle`].
 pub fn ranked_for_use(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     let mut order = ranked(assessments, by);
-    order.sort_by_key(|&k| assessments[k].obstacle().map_or(0, |(degree, _)| degree));
+    order.order_by_key(|&k| assessments[k].obstacle().map_or(0, |(degree, _)| degree));
     order
 }
 

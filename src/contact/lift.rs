@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::{Contact, TOUCH};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::tile::outline::cross;
 
 /// So many touching translations are tried before the tile is pushed right out.
@@ -22,7 +23,7 @@ impl Contact {
         }
         let mut touching = self.touching_translations(q, direction);
         touching.retain(|t| *t > 0.0);
-        touching.sort_by(f64::total_cmp);
+        touching.order_by(f64::total_cmp);
         touching.dedup_by(|a, b| *a - *b < TOUCH);
         let at = |t: f64| Configuration::new(q.x + direction.x * t, q.y + direction.y * t, q.theta);
         let pocket = touching.iter().take(TRIED).find(|t| self.is_free(&at(**t)));
@@ -49,7 +50,7 @@ impl Contact {
         let mut ends = self.touching_translations(q, direction);
         ends.retain(|t| range[0] < *t && *t < range[1]);
         ends.extend(range);
-        ends.sort_by(f64::total_cmp);
+        ends.order_by(f64::total_cmp);
         ends.dedup_by(|a, b| *a - *b < TOUCH);
         let mut free: Vec<[f64; 2]> = Vec::new();
         let mut blocked_down_to = f64::INFINITY;
@@ -92,7 +93,7 @@ impl Contact {
         // (lateral position, height) of vertices, and of edges that span the lateral position.
         let sideways = |of: &[[f64; 2]]| {
             let mut sorted = of.to_vec();
-            sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            sorted.order_by(|a, b| a[0].total_cmp(&b[0]));
             sorted
         };
         meet(&sideways(&moving), &fixed, |vertex, edge| {

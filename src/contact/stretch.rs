@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::{Contact, Placement, TOUCH, support};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::tile::outline::ConvexPart;
 
 /// A translation along a line.
@@ -89,7 +90,7 @@ impl Shift {
 
     /// What is left of the line without some intervals, ascending.
     fn without(&self, mut blocked: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-        blocked.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        blocked.order_by(|a, b| a[0].total_cmp(&b[0]));
         let mut left = Vec::new();
         let mut since = 0.0;
         for [from, to] in blocked.into_iter().chain([[self.length; 2]]) {

@@ -4,6 +4,7 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
+use crate::order::Order;
 use crate::tile::Outline;
 
 /// Pieces in a leaf, at most.
@@ -93,7 +94,7 @@ impl CircleTree {
             .map(|&k| (circles[k].0 - centre).norm() + circles[k].1)
             .fold(0.0, f64::max);
         let axis = (high - low).imax();
-        pieces.sort_by_key(|&k| OrderedFloat(circles[k].0[axis]));
+        pieces.order_by_key(|&k| OrderedFloat(circles[k].0[axis]));
         let node = self.nodes.len();
         self.nodes.push(Node {
             centre,

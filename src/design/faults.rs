@@ -1,5 +1,6 @@
 //! The faults of a design, gathered while it is read on, as compilers do.
 
+use crate::order::Order;
 use std::cell::{Cell, RefCell};
 
 use super::DesignError;
@@ -55,7 +56,7 @@ impl Faults {
     pub fn conclude<T>(self, result: Result<T>) -> Result<T> {
         let result = self.note(result);
         let mut found = self.found.into_inner();
-        found.sort_by_key(|fault| fault.place.as_ref().map(|place| (place.line, place.column)));
+        found.order_by_key(|fault| fault.place.as_ref().map(|place| (place.line, place.column)));
         let mut found = found.into_iter();
         match found.next() {
             None => result,

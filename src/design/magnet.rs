@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::error::{DesignError, Span};
 use super::quantity::{self, four_digits};
 use super::reader::{Entry, Result, Section};
+use crate::order::Order;
 use crate::tile::barcode::Pole;
 use crate::units::MU0;
 
@@ -136,7 +137,7 @@ fn strength(section: &Section) -> Result<Option<Strength>> {
         .iter()
         .filter_map(|key| section.get(key))
         .collect();
-    given.sort_by_key(Entry::span);
+    given.order_by_key(Entry::span);
     if let [first, second, ..] = given.as_slice() {
         return Err(second.key_error(
             format!(

@@ -1,5 +1,6 @@
 //! Typed reading of a TOML tree in which every key and value knows its place in the file.
 
+use crate::order::Order;
 use toml::de::DeTable;
 
 use super::error::{DesignError, Span};
@@ -62,7 +63,7 @@ impl<'a> Section<'a> {
                 value,
             })
             .collect();
-        entries.sort_by_key(|entry| entry.key_span);
+        entries.order_by_key(|entry| entry.key_span);
         entries
     }
 

@@ -5,6 +5,7 @@
 
 use serde::Deserialize;
 
+use crate::order::Order;
 use crate::words::Word;
 use crate::words::word::MOST_PLACES;
 
@@ -31,7 +32,7 @@ pub(super) fn common(
         let wrong =
             |message: String, help: &str| Err((format!("`{name}` {message}"), help.to_owned()));
         let mut sorted: Vec<f64> = magnets.iter().map(|magnet| magnet.at).collect();
-        sorted.sort_by(f64::total_cmp);
+        sorted.order_by(f64::total_cmp);
         if sorted.is_empty() {
             return wrong(
                 "has no magnets".to_owned(),
@@ -67,7 +68,7 @@ pub(super) fn common(
         }
         places.extend(sorted.iter().flat_map(|at| [*at, -at]));
     }
-    places.sort_by(f64::total_cmp);
+    places.order_by(f64::total_cmp);
     places.dedup_by(|a, b| (*a - *b).abs() < SAME);
     if places.len() > MOST_PLACES {
         let message = format!(

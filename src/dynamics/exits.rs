@@ -1,11 +1,10 @@
 //! Exits of moving tiles: how long a shaken tile takes from a start to one of two ends.
 
-use rayon::prelude::*;
-
 use super::docking::stream;
 use super::trajectory::thermal_velocity;
 use super::{Body, Motion, MotionSettings, SettingsError, Simulation};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// What is asked of moving tiles.
@@ -74,7 +73,7 @@ pub fn exits(
         });
         (end, run.last.time, kinetic)
     };
-    let runs: Vec<(Option<usize>, f64, f64)> = (0..asked.runs).into_par_iter().map(one).collect();
+    let runs: Vec<(Option<usize>, f64, f64)> = parallel::map(0..asked.runs, one);
     let count = |end: Option<usize>| runs.iter().filter(|run| run.0 == end).count();
     let times: Vec<f64> = runs.iter().map(|run| run.1).collect();
     let warm: Vec<[f64; 2]> = runs

@@ -12,11 +12,10 @@
 #[cfg(test)]
 mod tests;
 
-use rayon::prelude::*;
-
 use super::field::Field;
 use super::mesh::{Gap, Nodes, System, Unsolved, loads};
 use super::rim::Rims;
+use crate::parallel;
 
 /// Places on a mesh, and what is known of them.
 pub(super) struct Asked<'a> {
@@ -77,7 +76,7 @@ impl Bracket {
         let none = vec![0.0; nodes.len()];
         let loads = loads(mesh, nodes, asked.left_out);
         // The last is the mean time.
-        let values = (0..=count).into_par_iter().map(|place| {
+        let values = parallel::map(0..count + 1, |place| {
             let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
             let given: Vec<f64> = pins.iter().map(one).collect();
             match place == count {
@@ -85,21 +84,21 @@ impl Bracket {
                 false => system.solve(&given, &none, &none),
             }
         });
-        let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
+        let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
         let network = field.network(nodes, pins, asked.rim).ok_or(Unsolved)?;
         let fluxes = network.fluxes();
         let source = |cell: usize| match (asked.left_out[cell], &mesh.leaves[cell].element) {
             (false, Some(element)) => element.load.iter().sum(),
             _ => 0.0,
         };
-        let found = (0..=count).into_par_iter().map(|place| {
+        let found = parallel::map(0..count + 1, |place| {
             let like = fluxes.potentials(nodes, &values[place]);
             match place == count {
                 true => fluxes.of(&source, &like),
                 false => fluxes.from(place, &like),
             }
         });
-        let found = found.collect::<Result<Vec<_>, _>>()?;
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let gap = |place: usize| Gap {
             flux: &found[place],
             values: &values[place],
@@ -110,13 +109,10 @@ impl Bracket {
         let capacities: Vec<[f64; 2]> = (0..count)
             .map(|place| [found[place].capacity, energy(place)])
             .collect();
-        let by_cells: Vec<Vec<Vec<f64>>> = (0..=count)
-            .into_par_iter()
-            .map(|i| {
-                let with = |j| fluxes.products(mesh, nodes, &gap(i), &gap(j));
-                (0..=i).map(with).collect()
-            })
-            .collect();
+        let by_cells: Vec<Vec<Vec<f64>>> = parallel::map(0..count + 1, |i| {
+            let with = |j| fluxes.products(mesh, nodes, &gap(i), &gap(j));
+            (0..=i).map(with).collect()
+        });
         // The squares as they are found otherwise, too: of the two the safer one, for of the mean time
         // both leave out how the load differs from a tilted one within cells.
         let square = |place: usize| match capacities.get(place) {

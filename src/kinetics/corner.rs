@@ -19,6 +19,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::constraints;
 use crate::landscape::stationary;
+use crate::order::Order;
 use crate::problem::Problem;
 
 /// Contacts with a gap below this (m) are closed.
@@ -128,7 +129,7 @@ fn solid_cone(walls: &[Vector3<f64>], slope: &Vector3<f64>) -> Option<f64> {
     let axis = rays.iter().sum::<Vector3<f64>>().normalize();
     let first = (rays[0] - axis * axis.dot(&rays[0])).try_normalize(0.0)?;
     let second = axis.cross(&first);
-    rays.sort_by(|a, b| {
+    rays.order_by(|a, b| {
         let angle = |ray: &Vector3<f64>| libm::atan2(second.dot(ray), first.dot(ray));
         angle(a).total_cmp(&angle(b))
     });

@@ -7,12 +7,13 @@ use std::sync::Mutex;
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::mesh::{Chart, Element, Integrator, Nodes, Octree, gradients, shapes};
 use super::rim::Rims;
 use super::sets;
 use crate::configuration::Configuration;
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 use network::Costs;
 
@@ -134,7 +135,7 @@ impl<'a> Field<'a> {
             self.integrator
                 .integrate(&self.mesh.chart, &self.mesh.leaves[id])
         };
-        let found: Vec<_> = new.par_iter().map(integrate).collect();
+        let found: Vec<_> = parallel::map(&new, integrate);
         for (id, (element, blocked)) in new.into_iter().zip(found) {
             let leaf = &mut self.mesh.leaves[id];
             leaf.seen = true;
@@ -192,7 +193,7 @@ impl<'a> Field<'a> {
     pub fn refine(&mut self, shares: &[f64], part: f64) -> bool {
         let count = self.mesh.leaves.len();
         let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by_key(|&id| Reverse(OrderedFloat(shares[id])));
+        order.order_by_key(|&id| Reverse(OrderedFloat(shares[id])));
         let mut left = part * shares.iter().sum::<f64>();
         let first = |id: &usize| {
             let divided = left > 0.0;

@@ -2,12 +2,13 @@
 //! included.
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::basin::Basin;
 use super::line::Weight;
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// Abscissas and weights of Gauss' rule of five points on [-1, 1].
@@ -149,10 +150,8 @@ impl Integral<'_> {
             (spreads, [halves[k / 4 % 2], halves[k / 8]])
         });
         let whole: Vec<_> = whole.collect();
-        let mut leaves: Vec<Rectangle> = whole
-            .par_iter()
-            .map(|(spreads, sides)| self.rectangle(*spreads, *sides))
-            .collect();
+        let mut leaves: Vec<Rectangle> =
+            parallel::map(&whole, |(spreads, sides)| self.rectangle(*spreads, *sides));
         loop {
             let total = sum(&leaves, |leaf| leaf.value);
             let error = sum(&leaves, |leaf| leaf.error);
@@ -163,10 +162,9 @@ impl Integral<'_> {
                     error,
                 };
             }
-            leaves.sort_by_key(|leaf| OrderedFloat(leaf.error));
+            leaves.order_by_key(|leaf| OrderedFloat(leaf.error));
             let split = leaves.split_off(leaves.len() - worst(&leaves, error));
-            let parts: Vec<[Rectangle; 4]> =
-                split.par_iter().map(|leaf| self.divided(leaf)).collect();
+            let parts: Vec<[Rectangle; 4]> = parallel::map(&split, |leaf| self.divided(leaf));
             leaves.extend(parts.into_iter().flatten());
         }
     }

@@ -1,10 +1,10 @@
 //! Slices through the landscape in front of the target face.
 
 use nalgebra::Vector2;
-use rayon::prelude::*;
 
 use super::map::{Grid, Sample, evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::{Face, Pair};
 
@@ -122,18 +122,14 @@ fn sampled(
     y: &[f64],
     configuration: impl Fn(f64, f64) -> Option<Configuration> + Sync,
 ) -> Grid<Sample> {
-    let values = y
-        .par_iter()
-        .with_max_len(1)
-        .flat_map_iter(|&y| {
-            let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
-            let free: Vec<_> = row.iter().flatten().copied().collect();
-            let mut samples = with_energies(problem, &free).into_iter();
-            row.into_iter()
-                .map(move |q| q.and_then(|_| samples.next()))
-                .collect::<Vec<_>>()
-        })
-        .collect();
+    let values = parallel::flat_map(y, |&y| {
+        let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
+        let free: Vec<_> = row.iter().flatten().copied().collect();
+        let mut samples = with_energies(problem, &free).into_iter();
+        row.into_iter()
+            .map(move |q| q.and_then(|_| samples.next()))
+            .collect::<Vec<_>>()
+    });
     Grid {
         x: x.to_vec(),
         y: y.to_vec(),

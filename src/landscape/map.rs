@@ -5,10 +5,10 @@
 //! the same numbers come out on any number of threads.
 
 use nalgebra::{Rotation2, Vector2};
-use rayon::prelude::*;
 
 use super::orientation::{Found, Search};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// Values on a grid, row by row from the lowest y; `None` where no free configuration belongs to
@@ -88,14 +88,10 @@ impl EnergyMap {
         let x = evenly(window.low[0], window.high[0], columns);
         let y = evenly(window.low[1], window.high[1], rows);
         let search = Search::new(problem, orientations);
-        let found = y
-            .par_iter()
-            .with_max_len(1)
-            .flat_map_iter(|&y| {
-                let places: Vec<_> = x.iter().map(|&x| window.place(x, y)).collect();
-                search.find(&places)
-            })
-            .collect();
+        let found = parallel::flat_map(&y, |&y| {
+            let places: Vec<_> = x.iter().map(|&x| window.place(x, y)).collect();
+            search.find(&places)
+        });
         let mut field = Field {
             search,
             window,
@@ -176,18 +172,17 @@ impl Field<'_> {
     /// a range of free orientations narrower than a step is missed by the sampled ones.
     fn find_narrow_ranges(&mut self) {
         for _ in 0..NARROW {
-            let more: Vec<_> = (0..self.found.len())
-                .into_par_iter()
-                .filter(|&index| self.found[index].is_none())
-                .filter_map(|index| {
-                    let free = self.beside(index, true).filter_map(|i| self.found[i]);
-                    let guesses: Vec<f64> = free
-                        .flat_map(|found| [found.middle, found.sample.configuration.theta])
-                        .collect();
-                    let found = self.search.find_near(self.place(index), &guesses)?;
-                    Some((index, found))
-                })
-                .collect();
+            let more: Vec<_> = parallel::flat_map(0..self.found.len(), |index| {
+                if self.found[index].is_some() {
+                    return None;
+                }
+                let free = self.beside(index, true).filter_map(|i| self.found[i]);
+                let guesses: Vec<f64> = free
+                    .flat_map(|found| [found.middle, found.sample.configuration.theta])
+                    .collect();
+                let found = self.search.find_near(self.place(index), &guesses)?;
+                Some((index, found))
+            });
             for (index, found) in more {
                 self.found[index] = Some(found);
             }
@@ -197,23 +192,19 @@ impl Field<'_> {
     /// See [`EnergyMap::border_distance`].
     fn border_distance(&self) -> Vec<f64> {
         let spacing = self.x[1] - self.x[0];
-        (0..self.found.len())
-            .into_par_iter()
-            .map(|index| {
-                let free = self.found[index].is_some();
-                let across = self
-                    .beside(index, false)
-                    .filter(|&i| self.found[i].is_some() != free);
-                if free {
-                    let distances = across.map(|blocked| spacing * self.free_share(index, blocked));
-                    distances.fold(spacing, f64::min)
-                } else {
-                    let distances =
-                        across.map(|free| spacing * (self.free_share(free, index) - 1.0));
-                    distances.fold(-spacing, f64::max)
-                }
-            })
-            .collect()
+        parallel::map(0..self.found.len(), |index| {
+            let free = self.found[index].is_some();
+            let across = self
+                .beside(index, false)
+                .filter(|&i| self.found[i].is_some() != free);
+            if free {
+                let distances = across.map(|blocked| spacing * self.free_share(index, blocked));
+                distances.fold(spacing, f64::min)
+            } else {
+                let distances = across.map(|free| spacing * (self.free_share(free, index) - 1.0));
+                distances.fold(-spacing, f64::max)
+            }
+        })
     }
 
     /// How much of the way from a free point to a blocked one is free.

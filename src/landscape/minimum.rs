@@ -3,13 +3,13 @@
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use super::constrained::{self, Point, downhill, step_along};
 use super::foresight::Past;
 use super::slides::{Slides, Stretch};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::{Problem, Symmetry};
 
 /// Longest step of a descent (m, mass metric).
@@ -99,11 +99,10 @@ impl Known {
     pub fn learn(&mut self, problem: &Problem, starts: &[Configuration]) -> Vec<Outcome> {
         let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
         while outcomes.len() < starts.len() {
-            // As many again as there were, which may come on the slides of those. One by one: left to
-            // itself, rayon deals out a few long parts, and threads wait for the last.
+            // As many again as there were, which may come on the slides of those.
             let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
-            let new = starts[outcomes.len()..next].par_iter().with_max_len(1);
-            let descents: Vec<Descent> = new.map(|q| approach(problem, q, self)).collect();
+            let new = &starts[outcomes.len()..next];
+            let descents = parallel::map(new, |q| approach(problem, q, self));
             for descent in descents {
                 self.slides.add(descent.stretches, &descent.outcome);
                 outcomes.push(descent.outcome);

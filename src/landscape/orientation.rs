@@ -9,6 +9,7 @@ use super::map::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::{Contact, TOUCH};
 use crate::interruption;
+use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
 use crate::tile::{Face, Outline};
@@ -274,7 +275,7 @@ fn orientations_within(period: f64, count: usize, [fixed, moving]: [&[Face]; 2])
             .map(move |from| (direction(to) - direction(from) + TAU / 2.0).rem_euclid(period))
     });
     let mut thetas: Vec<f64> = spread.chain(flush).collect();
-    thetas.sort_by(f64::total_cmp);
+    thetas.order_by(f64::total_cmp);
     thetas.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     thetas
 }

@@ -12,6 +12,7 @@ use ordered_float::OrderedFloat;
 use super::constrained::{self, Point, Projected, length};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch};
+use crate::order::Order;
 use crate::problem::{Problem, Symmetry};
 
 /// Step of the second differences (m, mass metric): errors of the Hessian of 1e-4 for magnets a
@@ -336,7 +337,7 @@ impl<'a> Surface<'a> {
                 (eigen.eigenvalues[k], direction)
             })
             .collect();
-        modes.sort_by_key(|(eigenvalue, _)| OrderedFloat(*eigenvalue));
+        modes.order_by_key(|(eigenvalue, _)| OrderedFloat(*eigenvalue));
         Some(modes)
     }
 }

@@ -6,12 +6,11 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
-
 use super::approach::Approach;
 use super::map::{evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::interruption;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
 
@@ -33,20 +32,17 @@ impl Volume {
         configuration: impl Fn([usize; 3]) -> Option<Configuration> + Sync,
     ) -> Self {
         let [planes, rows, columns] = [0, 1, 2].map(|k| axes[k].len());
-        let energies = (0..planes * rows)
-            .into_par_iter()
-            .flat_map_iter(|row| {
-                interruption::check();
-                let row: Vec<_> = (0..columns)
-                    .map(|column| configuration([row / rows, row % rows, column]))
-                    .collect();
-                let free: Vec<_> = row.iter().flatten().copied().collect();
-                let mut samples = with_energies(problem, &free).into_iter();
-                row.into_iter()
-                    .map(move |q| q.and_then(|_| samples.next()).map(|sample| sample.energy))
-                    .collect::<Vec<_>>()
-            })
-            .collect();
+        let energies = parallel::flat_map(0..planes * rows, |row| {
+            interruption::check();
+            let row: Vec<_> = (0..columns)
+                .map(|column| configuration([row / rows, row % rows, column]))
+                .collect();
+            let free: Vec<_> = row.iter().flatten().copied().collect();
+            let mut samples = with_energies(problem, &free).into_iter();
+            row.into_iter()
+                .map(move |q| q.and_then(|_| samples.next()).map(|sample| sample.energy))
+                .collect::<Vec<_>>()
+        });
         Self { axes, energies }
     }
 }
@@ -98,10 +94,9 @@ impl InFront {
         slides: Vec<f64>,
     ) -> Self {
         let columns = slides.len();
-        let landing: Vec<_> = (0..tilts.len() * columns)
-            .into_par_iter()
-            .map(|i| approach.landing(problem, tilts[i / columns], slides[i % columns]))
-            .collect();
+        let landing = parallel::map(0..tilts.len() * columns, |i| {
+            approach.landing(problem, tilts[i / columns], slides[i % columns])
+        });
         let axes = [gaps.clone(), tilts.clone(), slides.clone()];
         let volume = Volume::sample(problem, axes, |[plane, row, column]| {
             let distance = landing[row * columns + column]? + gaps[plane];

@@ -17,6 +17,7 @@ use crate::landscape::pathway::{self, Limits};
 use crate::landscape::survey::Survey;
 use crate::landscape::{Pathway, capture, highest_point};
 use crate::observer::Observer;
+use crate::order::Order;
 use crate::pipeline::{self, Clock};
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::{Milestone, Roadmap, RoadmapSettings, edge};
@@ -179,7 +180,7 @@ impl<'a> Search<'a> {
                 Some((self.problem.space.distance(q, &other), number, other))
             })
             .collect();
-        near.sort_by_key(|near| (OrderedFloat(near.0), near.1));
+        near.order_by_key(|near| (OrderedFloat(near.0), near.1));
         near.truncate(JOINED);
         near.into_iter().map(|(_, number, q)| (number, q)).collect()
     }
@@ -194,7 +195,7 @@ fn peaks(problem: &Problem, points: &[Point]) -> Vec<(Configuration, Vector3<f64
             energy(i) > energy(i - 1) && energy(i) >= energy(i + 1)
         })
         .collect();
-    peaks.sort_by_key(|&peak| Reverse(OrderedFloat(points[peak].energy)));
+    peaks.order_by_key(|&peak| Reverse(OrderedFloat(points[peak].energy)));
     peaks.truncate(PEAKS);
     let passed = |i: usize| {
         let off = |point: &&Point| problem.space.distance(&point.q, &points[i].q) >= PASSING;

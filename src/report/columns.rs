@@ -9,6 +9,7 @@ use super::values::{pose, positive_zero, proportion};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
+use crate::order::Order;
 use crate::pipeline::Analysis;
 
 /// What shows columns.
@@ -156,7 +157,7 @@ pub fn barriers(output: Output) -> Vec<Column<Barrier>> {
 fn shown<Row>(output: Output, mut columns: Vec<Column<Row>>) -> Vec<Column<Row>> {
     let place = |column: &Column<Row>| column.places[output as usize];
     columns.retain(|column| place(column) > 0);
-    columns.sort_by_key(place);
+    columns.order_by_key(place);
     columns
 }
 

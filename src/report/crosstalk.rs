@@ -12,6 +12,7 @@ use super::values::{pose, positive_zero};
 use super::words::name;
 use crate::configuration::Configuration;
 use crate::design::WordSet;
+use crate::order::Order;
 use crate::units::si;
 use crate::words::crosstalk::Crosstalk;
 
@@ -139,7 +140,7 @@ pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
     let mut wrong: Vec<(usize, usize)> = pairs(found)
         .filter(|(i, j)| !is_bond(found, *i, *j))
         .collect();
-    wrong.sort_by(|a, b| found.strongest[a.0][a.1].total_cmp(&found.strongest[b.0][b.1]));
+    wrong.order_by(|a, b| found.strongest[a.0][a.1].total_cmp(&found.strongest[b.0][b.1]));
     for (i, j) in wrong.into_iter().take(LISTED) {
         let q = found.poses[i][j];
         let names = format!(

@@ -10,6 +10,7 @@ use crate::dynamics::docking::{
     Docking, DockingMap, DockingSettings, ENGINE, End, MatchRule, OnRate, share_within,
 };
 use crate::landscape::Proportion;
+use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::Tile;
 use crate::tile::barcode::Pole;
@@ -182,7 +183,7 @@ fn times(docking: &Docking) -> Option<[f64; 3]> {
             _ => None,
         })
         .collect();
-    times.sort_by(f64::total_cmp);
+    times.order_by(f64::total_cmp);
     Some([*times.first()?, times[times.len() / 2], *times.last()?])
 }
 

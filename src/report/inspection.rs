@@ -11,6 +11,7 @@ use super::values::{pose, positive_zero};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection::{Hold, Inspection};
+use crate::order::Order;
 use crate::potential::MagnetModel;
 use crate::tile::barcode::Pole;
 use crate::tile::{Magnet, Tile};
@@ -172,7 +173,7 @@ impl Face {
                 (s, letter)
             })
             .collect();
-        magnets.sort_by(|a, b| a.0.total_cmp(&b.0));
+        magnets.order_by(|a, b| a.0.total_cmp(&b.0));
         Self {
             length: face.length(),
             code: magnets.iter().map(|(_, letter)| letter).collect(),

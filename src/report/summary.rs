@@ -11,6 +11,7 @@ use crate::design::Design;
 use crate::inspection;
 use crate::landscape::results::SAME_ENERGY;
 use crate::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
+use crate::order::Order;
 use crate::pipeline::Analysis;
 use crate::report::dynamics;
 use crate::report::figures::percent;
@@ -32,7 +33,7 @@ pub fn summary(
 ) -> String {
     let (bonds, mut traps): (Vec<Kind>, Vec<Kind>) =
         analysis.inventory.kinds().partition(Kind::is_bond);
-    traps.sort_by_key(|kind| std::cmp::Reverse(kind.captured().count));
+    traps.order_by_key(|kind| std::cmp::Reverse(kind.captured().count));
     let bond = bonds.first();
 
     let mut text = String::new();

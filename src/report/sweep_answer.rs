@@ -5,6 +5,7 @@ use super::sweep::Sweep;
 use super::terminal::write_folded;
 use crate::comparison::quantity::QUANTITIES;
 use crate::comparison::{Assessment, Quantity};
+use crate::order::Order;
 
 /// Points that the table lists; of more, the first ones.
 const LISTED: usize = 12;
@@ -41,7 +42,7 @@ impl Sweep<'_> {
         let mut ranked: Vec<(usize, &Assessment)> = done.clone();
         let value = |one: &Assessment| by.of(one).map_or(f64::NEG_INFINITY, |e| e.value);
         let degree = |one: &Assessment| one.obstacle().map_or(0, |(degree, _)| degree);
-        ranked.sort_by(|(_, a), (_, b)| {
+        ranked.order_by(|(_, a), (_, b)| {
             degree(a)
                 .cmp(&degree(b))
                 .then(value(b).total_cmp(&value(a)))

@@ -5,6 +5,7 @@ use ordered_float::OrderedFloat;
 
 use super::Milestone;
 use super::stretch::{Bends, Motion, Stretch};
+use crate::order::Order;
 use crate::problem::Problem;
 
 /// How closely a profile follows the energy.
@@ -123,7 +124,7 @@ impl Profile {
             }
             open = finer;
         }
-        settled.sort_by_key(|(number, [a, _])| (*number, OrderedFloat(a.t)));
+        settled.order_by_key(|(number, [a, _])| (*number, OrderedFloat(a.t)));
         settled
             .chunk_by(|a, b| a.0 == b.0)
             .map(|some| Self::of_stretches(some.iter().map(|(_, ends)| ends)))

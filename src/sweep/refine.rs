@@ -7,6 +7,7 @@ use super::store::Outcome;
 use super::vary::{Value, rounded};
 use crate::comparison::Assessment;
 use crate::comparison::quantity::{Measure, QUANTITIES};
+use crate::order::Order;
 
 /// The figures that are looked at.
 const FIGURES: [&str; 5] = [
@@ -34,7 +35,7 @@ pub fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let axis = &plan.axes[which];
     let numbers = axis.numbers()?;
     let mut order: Vec<usize> = (0..numbers.len()).collect();
-    order.sort_by_key(|&k| OrderedFloat(numbers[k]));
+    order.order_by_key(|&k| OrderedFloat(numbers[k]));
     let x: Vec<f64> = order.iter().map(|&k| numbers[k]).collect();
 
     let scores = scores(plan, outcomes, which, &order, &x);
@@ -42,7 +43,7 @@ pub fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let mut wanted: Vec<usize> = (0..x.len() - 1)
         .filter(|&k| scores[k] > STRAIGHT && x[k + 1] - x[k] > 2.0 * least)
         .collect();
-    wanted.sort_by_key(|&k| std::cmp::Reverse(OrderedFloat(scores[k])));
+    wanted.order_by_key(|&k| std::cmp::Reverse(OrderedFloat(scores[k])));
     let whole = axis.values.iter().all(|v| matches!(v, Value::Whole(_)));
     let between = wanted.into_iter().filter_map(|k| {
         let middle = rounded((x[k] + x[k + 1]) / 2.0);
@@ -60,7 +61,7 @@ pub fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let mut finer = plan.clone();
     let values = &mut finer.axes[which].values;
     values.extend(added);
-    values.sort_by_key(|value| value.number().map(OrderedFloat));
+    values.order_by_key(|value| value.number().map(OrderedFloat));
     Some(finer)
 }
 

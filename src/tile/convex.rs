@@ -12,6 +12,7 @@
 //! triangulation has a diagonal with at least a third of the vertices on either side (B. Chazelle,
 //! *A theorem on polygon cutting with applications*, 1982).
 
+use crate::order::Order;
 use std::cmp::Reverse;
 use std::f64::consts::PI;
 
@@ -53,7 +54,7 @@ pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>>
         diagonals.extend(cuts.into_iter().map(|(i, j)| (chain[i], chain[j])));
     }
     let length = |&(i, j): &(usize, usize)| (vertices[i] - vertices[j]).norm();
-    diagonals.sort_by_key(|d| (Reverse(OrderedFloat(length(d))), *d));
+    diagonals.order_by_key(|d| (Reverse(OrderedFloat(length(d))), *d));
     for (i, j) in diagonals {
         merge(&mut parts, vertices, i, j);
     }

@@ -7,6 +7,7 @@ use ordered_float::OrderedFloat;
 
 use super::{Face, Magnet, Tile};
 use crate::configuration::wrap_angle;
+use crate::order::Order;
 
 /// How closely, relative to the tile's size, its moments and a full turn, the turned tile must
 /// agree with the tile.
@@ -22,7 +23,7 @@ pub fn rotations(tile: &Tile) -> Vec<f64> {
         .filter(|&angle| maps_magnets(tile, angle))
         .collect();
     angles.push(0.0);
-    angles.sort_by(f64::total_cmp);
+    angles.order_by(f64::total_cmp);
     angles
 }
 

@@ -15,6 +15,7 @@ use nalgebra::Vector2;
 
 use super::word::MOST_PLACES;
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::potential::{CuboidPotential, DipolePotential, Potential};
 use crate::potential::{Interaction, MagnetModel};
 use crate::tile::{Magnet, Tile};
@@ -93,7 +94,7 @@ impl Lags {
     fn of(energies: Vec<f64>) -> Self {
         let either_side = energies[1..].iter().flat_map(|energy| [energy.abs(); 2]);
         let mut magnitudes: Vec<f64> = either_side.collect();
-        magnitudes.sort_by(|a, b| b.total_cmp(a));
+        magnitudes.order_by(|a, b| b.total_cmp(a));
         let mut sum = 0.0;
         let largest = magnitudes.into_iter().map(|magnitude| {
             sum += magnitude;

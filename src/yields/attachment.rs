@@ -8,6 +8,7 @@ use crate::dynamics::docking::{self, Docking, DockingError, DockingSettings, End
 use crate::kinetics::bond::Hold;
 use crate::kinetics::rates::{Basin, RateSettings, rates};
 use crate::landscape::Inventory;
+use crate::order::Order;
 use crate::pipeline::Analysis;
 use crate::problem::Problem;
 
@@ -223,7 +224,7 @@ fn tally(problem: &Problem, inventory: &Inventory, docking: &Docking) -> Attachm
     let kinds: Vec<_> = inventory.kinds().collect();
     // The bond first, then the traps, as their holds are listed.
     let mut order: Vec<usize> = (0..kinds.len()).collect();
-    order.sort_by_key(|&k| !kinds[k].is_bond());
+    order.order_by_key(|&k| !kinds[k].is_bond());
     let kind_of = |trap: usize| {
         let q = docking.traps[trap].configuration;
         let distance = |k: usize| {

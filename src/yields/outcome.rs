@@ -1,13 +1,13 @@
 //! What one setting yields: rates of the states, and the course of what is bound.
 
-use rayon::prelude::*;
-
 use super::Question;
 use super::attachment::Attachments;
 use crate::dynamics::docking::stream;
 use crate::dynamics::exits::mean_and_error;
 use crate::kinetics::bond::{Hold, Shaking, TOLERANCE};
 use crate::kinetics::population::{Crowd, MOST_PAIRS, PairRates};
+use crate::order::Order;
+use crate::parallel;
 
 /// Numbers of tiles and coverages of the table of yields, besides those asked for.
 const TILES: [usize; 6] = [2, 4, 8, 16, 32, 50];
@@ -161,7 +161,7 @@ fn with<T: Copy + PartialOrd>(list: &[T], more: T) -> Vec<T> {
         .filter(|x| *x != more)
         .chain([more])
         .collect();
-    all.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    all.order_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
     all
 }
 
@@ -185,13 +185,11 @@ fn shares(rates: &PairRates, crowd: &Crowd, time: f64) -> [f64; 2] {
 fn simulated(rates: &PairRates, crowd: &Crowd, question: &Question) -> Option<[f64; 2]> {
     let runs = question.simulations;
     let pairs = crowd.pairs() as f64;
-    let shares: Option<Vec<f64>> = (0..runs)
-        .into_par_iter()
-        .map(|run| {
-            let numbers = rates.simulate(crowd, question.time, &mut stream(question.seed, run))?;
-            Some(numbers[0] as f64 / pairs)
-        })
-        .collect();
+    let shares = parallel::map(0..runs, |run| {
+        let numbers = rates.simulate(crowd, question.time, &mut stream(question.seed, run))?;
+        Some(numbers[0] as f64 / pairs)
+    });
+    let shares: Option<Vec<f64>> = shares.into_iter().collect();
     let shares = shares.filter(|shares| shares.len() > 1)?;
     Some(mean_and_error(&shares))
 }

@@ -5,6 +5,7 @@ use ordered_float::OrderedFloat;
 
 use super::{Facing, TOUCHING};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::tile::Outline;
 
 /// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
@@ -66,7 +67,7 @@ fn clipped(polygon: &[Vector2<f64>], [a, b]: [Vector2<f64>; 2]) -> Vec<Vector2<f
 
 /// The convex hull, counter-clockwise (Andrew's monotone chain).
 fn hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
-    points.sort_by_key(|p| (OrderedFloat(p.x), OrderedFloat(p.y)));
+    points.order_by_key(|p| (OrderedFloat(p.x), OrderedFloat(p.y)));
     points.dedup();
     let mut lower = half_hull(points.iter());
     lower.extend(half_hull(points.iter().rev()));

@@ -15,10 +15,11 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::Contact;
 use crate::configuration::{Configuration, wrap_angle};
+use crate::order::Order;
+use crate::parallel;
 use crate::tile::Outline;
 
 /// A motion and what it brings.
@@ -51,15 +52,12 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
         .iter()
         .flat_map(|turn| turn.laid.iter().map(move |pair| (turn, *pair)))
         .collect();
-    let mut found: Vec<(&Turn, Match)> = laid
-        .par_iter()
-        .flat_map_iter(|&(turn, laid)| {
-            let motions = flush_motions(fixed, moving, turn, laid).into_iter();
-            motions.map(move |one| (turn, one))
-        })
-        .filter(|(_, found)| found.contact >= least && contact.is_free(&found.pose))
-        .collect();
-    found.sort_by_key(|(_, it)| {
+    let mut found: Vec<(&Turn, Match)> = parallel::flat_map(&laid, |&(turn, laid)| {
+        let motions = flush_motions(fixed, moving, turn, laid).into_iter();
+        let held = |found: &Match| found.contact >= least && contact.is_free(&found.pose);
+        motions.filter(held).map(move |one| (turn, one))
+    });
+    found.order_by_key(|(_, it)| {
         let q = it.pose;
         // Lengths that differ by rounding are the same.
         let length = (it.contact / SAME).round();
@@ -78,13 +76,10 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
             distinct.push(one);
         }
     }
-    distinct
-        .par_iter()
-        .map(|(turn, one)| Match {
-            gap: gap::gap_area(fixed, moving, &turn.facing, &one.pose),
-            ..*one
-        })
-        .collect()
+    parallel::map(&distinct, |(turn, one)| Match {
+        gap: gap::gap_area(fixed, moving, &turn.facing, &one.pose),
+        ..*one
+    })
 }
 
 fn edge(outline: &Outline, i: usize) -> [Vector2<f64>; 2] {
@@ -118,7 +113,7 @@ fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
         .flat_map(|a| (0..moving.vertices().len()).map(move |b| [a, b]))
         .map(|[a, b]| (turn_of(edge(fixed, a), edge(moving, b)), [a, b]))
         .collect();
-    pairs.sort_by_key(|(theta, pair)| (OrderedFloat(*theta), *pair));
+    pairs.order_by_key(|(theta, pair)| (OrderedFloat(*theta), *pair));
     let may_touch = |pairs: &[[usize; 2]]| {
         let of = |tile: usize, outline: &Outline| {
             let mut edges: Vec<usize> = pairs.iter().map(|pair| pair[tile]).collect();
@@ -152,7 +147,7 @@ fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
     };
     let same = |a: &(f64, [usize; 2]), b: &(f64, [usize; 2])| b.0 - a.0 < PARALLEL;
     let groups: Vec<&[(f64, [usize; 2])]> = pairs.chunk_by(same).collect();
-    groups.into_par_iter().filter_map(of).collect()
+    parallel::flat_map(&groups, |group| of(group))
 }
 
 /// Edges of such a length (m) are parallel to others within this angle (rad).
@@ -196,7 +191,7 @@ fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize;
         let meeting = corners.iter().map(|other| corner - other);
         slides.extend(meeting.filter(|slide| *slide > least && *slide < most));
     }
-    slides.sort_by(f64::total_cmp);
+    slides.order_by(f64::total_cmp);
     slides.dedup_by(|a, b| (*a - *b).abs() < SAME);
     let pose = |slide: &f64| {
         let shift = across + along * *slide;

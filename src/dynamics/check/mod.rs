@@ -38,12 +38,11 @@
 
 mod checker;
 
-use rayon::prelude::*;
-
 use super::{Body, Motion};
 use crate::configuration::Configuration;
 use crate::landscape::minimum::Known;
 use crate::landscape::{Barrier, Place, State};
+use crate::parallel;
 use crate::problem::Problem;
 use crate::units::si;
 use checker::Checker;
@@ -234,16 +233,13 @@ pub fn check(
         .collect();
     let known = slides_below(problem, states, &chosen);
     let checked = std::sync::atomic::AtomicUsize::new(0);
-    chosen
-        .par_iter()
-        .map(|&(number, barrier)| {
-            let checker = Checker::new(problem, body, (states, &known), barrier, settings);
-            let check = checker.check(settings.seed.wrapping_add(number as u64));
-            let before = checked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            done(before + 1, chosen.len());
-            check
-        })
-        .collect()
+    parallel::map(&chosen, |&(number, barrier)| {
+        let checker = Checker::new(problem, body, (states, &known), barrier, settings);
+        let check = checker.check(settings.seed.wrapping_add(number as u64));
+        let before = checked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        done(before + 1, chosen.len());
+        check
+    })
 }
 
 /// The ways on which slow motion leads down from the pathways: trajectories end on the same ones.

@@ -5,6 +5,7 @@ use crate::configuration::Configuration;
 use crate::dynamics::{Body, Simulation, Snapshot, Stop};
 use crate::landscape::Proportion;
 use crate::landscape::minimum::{Known, Outcome, approach};
+use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::Pair;
 
@@ -112,7 +113,7 @@ impl<'a> Experiment<'a> {
             runs.push(run);
         }
         let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by_key(|&k| std::cmp::Reverse(places[k].2));
+        order.order_by_key(|&k| std::cmp::Reverse(places[k].2));
         for run in &mut runs {
             if let End::Trapped { trap: Some(number) } = &mut run.end {
                 *number = order.iter().position(|k| k == number).unwrap_or(*number);

@@ -17,11 +17,10 @@ pub use starts::{Start, Starts, stream};
 
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use super::{MotionSettings, SettingsError, Snapshot};
 use crate::configuration::Configuration;
 use crate::landscape::Proportion;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// All that decides a docking experiment, besides the problem.
@@ -225,16 +224,11 @@ pub fn dock(
 ) -> Result<Docking, DockingError> {
     let experiment = Experiment::new(problem, settings)?;
     let clock = Instant::now();
-    let ended: Vec<_> = (0..settings.runs)
-        .into_par_iter()
-        // Of what is left, nothing is begun once the work is given up.
-        .panic_fuse()
-        .map(|index| {
-            let ended = experiment.run(index);
-            done();
-            ended
-        })
-        .collect();
+    let ended: Vec<_> = parallel::map(0..settings.runs, |index| {
+        let ended = experiment.run(index);
+        done();
+        ended
+    });
     Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
 }
 

@@ -1,5 +1,6 @@
 //! The on-rate: how often tiles attach.
 
+use crate::order::Order;
 use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::{Docking, End};
@@ -96,7 +97,7 @@ pub fn exponential_statistic(times: &[f64]) -> f64 {
     let n = times.len() as f64;
     let mean = times.iter().sum::<f64>() / n;
     let mut sorted = times.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.order_by(f64::total_cmp);
     let largest = sorted.iter().enumerate().fold(0.0, |largest: f64, (k, t)| {
         let expected = 1.0 - libm::exp(-t / mean);
         let k = k as f64;

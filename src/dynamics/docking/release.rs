@@ -1,10 +1,9 @@
 //! The off-rate: how soon bound tiles come loose.
 
-use rayon::prelude::*;
-
 use super::{DockingError, DockingSettings, MatchRule, OnRate, STEPS_BETWEEN_LOOKS, stream};
 use crate::dynamics::trajectory::thermal_velocity;
 use crate::dynamics::{Body, Motion, Simulation, Snapshot};
+use crate::parallel;
 use crate::problem::Problem;
 
 /// What became of one bound tile.
@@ -64,11 +63,7 @@ pub fn releases(
             left: !is_matched,
         }
     };
-    Ok((0..settings.runs)
-        .into_par_iter()
-        .panic_fuse()
-        .map(release)
-        .collect())
+    Ok(parallel::map(0..settings.runs, release))
 }
 
 /// The rate of detachment, with its interval and whether the times are exponential: the runs are

@@ -2,10 +2,9 @@
 
 use std::sync::{MutexGuard, PoisonError};
 
-use rayon::prelude::*;
-
 use super::Field;
 use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
+use crate::parallel;
 
 /// Powers of e by which the density of a flux falls over a cell, at most: over more of them it would
 /// hardly follow.
@@ -52,7 +51,7 @@ impl Field<'_> {
         let is_known = |id: &usize| costs.own[*id].is_some();
         let cells = self.mesh.live().map(|(id, ..)| id);
         let new: Vec<usize> = cells.filter(|id| !is_known(id)).collect();
-        let found: Vec<_> = new.par_iter().map(|&id| self.falls(id)).collect();
+        let found: Vec<_> = parallel::map(&new, |&id| self.falls(id));
         for (id, spread) in new.into_iter().zip(found) {
             costs.own[id] = Some(spread);
         }
@@ -103,7 +102,7 @@ impl Field<'_> {
             self.integrator
                 .resistance(&self.mesh.chart, leaf, &spread(id))
         };
-        cells.par_iter().map(resistance).collect()
+        parallel::map(cells, resistance)
     }
 
     /// The cells as conductors between places given by the cells that they are made of, through none

@@ -10,8 +10,8 @@
 //! or added on the way, gives `I - d <= -int J . grad h <= sqrt(C int J . M J / w)` for every
 //! committor 0 <= h <= 1 with the capacity C: a lower bound of C whatever is left to rounding.
 
+use crate::parallel;
 use nalgebra::{Matrix6, Vector6};
-use rayon::prelude::*;
 
 use super::element::shapes;
 use super::equations::{Entries, Equations, Unsolved};
@@ -101,7 +101,8 @@ impl Network {
             let means = spreads[id].means(mesh.along(id));
             Conductor::new(id, sides[id], resistance[id].as_deref()?, means)
         };
-        let conductors = cells.par_iter().map(conductor).collect::<Option<_>>()?;
+        let conductors = parallel::map(&cells, conductor);
+        let conductors = conductors.into_iter().collect::<Option<_>>()?;
         Some(Self { conductors, ends })
     }
 

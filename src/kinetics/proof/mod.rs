@@ -36,12 +36,11 @@ mod sums;
 mod tests;
 mod wall;
 
-use rayon::prelude::*;
-
 use super::field::Field;
-use super::mesh::{Leaf, Nodes, Profile, System};
+use super::mesh::{Nodes, Profile, System};
 use super::sets::is_at_the_rim;
 use crate::configuration::Configuration;
+use crate::parallel;
 use piece::{Ground, Piece, Range};
 pub(super) use sums::Closeness;
 use sums::{Load, Role, bounded};
@@ -166,10 +165,11 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let nodes = &Nodes::new(mesh);
     let rim = sets.len();
     // Where contact reaches to where tiles are free, as at corners, both are done without.
-    let is_narrow = |(id, leaf): (usize, &Leaf)| {
+    let is_narrow = |id: usize| {
+        let leaf = &mesh.leaves[id];
         leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
     };
-    let narrow: Vec<bool> = mesh.leaves.par_iter().enumerate().map(is_narrow).collect();
+    let narrow: Vec<bool> = parallel::map(0..mesh.leaves.len(), is_narrow);
     // Dirichlet's side.
     let mut pins = vec![None; nodes.len()];
     let mut pin = |node: u32, set: usize| -> Option<()> {
@@ -266,7 +266,7 @@ fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
             0,
         )
     };
-    (0..leaves.len()).into_par_iter().map(of).collect()
+    parallel::map(0..leaves.len(), of)
 }
 
 fn range(

@@ -1,11 +1,10 @@
 //! What a set holds of the cells that lie in it in part.
 
-use rayon::prelude::*;
-
 use super::Cells;
 use super::piece::{Ground, Piece};
 use super::sums::{Load, Role};
 use crate::kinetics::mesh::Octree;
+use crate::parallel;
 
 /// Parts of such a cell along each axis, ...
 const PARTS: [usize; 4] = [8, 4, 2, 1];
@@ -47,7 +46,7 @@ pub(super) fn pieces(
         place.is_some_and(|place| place.energies(ground.kt, ground.level)[1] < below)
     };
     let count = rim.len() * all;
-    let low: Vec<bool> = (0..count).into_par_iter().map(lies_below).collect();
+    let low: Vec<bool> = parallel::map(0..count, lies_below);
     // The middles of a part's sides, seen from beyond, in whole units: parts of the smallest cells
     // have none.
     let beside = |at: usize| {

@@ -3,11 +3,12 @@
 use std::cmp::Reverse;
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::piece::{Ground, Piece, Place, Range, UNKNOWN};
 use crate::interruption;
 use crate::kinetics::mesh::Octree;
+use crate::order::Order;
+use crate::parallel;
 
 /// What of a load is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,8 +108,8 @@ pub(super) fn bounded(
             piece,
         }
     };
-    let whole = |(number, (piece, _)): (usize, &(Piece, Role))| part((number, *piece));
-    let mut parts: Vec<Part> = roles.par_iter().enumerate().map(whole).collect();
+    let whole = |number: usize| part((number, roles[number].0));
+    let mut parts: Vec<Part> = parallel::map(0..roles.len(), whole);
     let mut rounds = 0;
     loop {
         let gap = |part: &Part| -> f64 {
@@ -132,7 +133,7 @@ pub(super) fn bounded(
                 [sum(k, 0) * (1.0 - ROUNDING), sum(k, 1) * (1.0 + ROUNDING)]
             });
         }
-        gaps.sort_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
+        gaps.order_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
         // At first those of which nothing is known; far from the goal all that is more than its
         // share of it.
         let least = match all.is_finite() {
@@ -152,21 +153,18 @@ pub(super) fn bounded(
             .map(|(at, _)| *at)
             .take(asked.pieces)
             .collect();
-        let halves: Vec<[Part; 2]> = marked
-            .par_iter()
-            .map(|&at| {
-                let whole = &parts[at];
-                let halves = whole.piece.halves(whole.axis);
-                halves.map(|half| {
-                    let mut half = part((whole.role, half));
-                    // Nothing is negative: a half has no more than the whole.
-                    for (range, [_, most]) in half.sums.iter_mut().zip(whole.sums) {
-                        range[1] = range[1].min(most);
-                    }
-                    half
-                })
+        let halves: Vec<[Part; 2]> = parallel::map(&marked, |&at| {
+            let whole = &parts[at];
+            let halves = whole.piece.halves(whole.axis);
+            halves.map(|half| {
+                let mut half = part((whole.role, half));
+                // Nothing is negative: a half has no more than the whole.
+                for (range, [_, most]) in half.sums.iter_mut().zip(whole.sums) {
+                    range[1] = range[1].min(most);
+                }
+                half
             })
-            .collect();
+        });
         for (at, [lower, upper]) in marked.into_iter().zip(halves) {
             parts[at] = lower;
             parts.push(upper);

@@ -17,6 +17,7 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::interruption;
 use crate::landscape::Uncertified;
+use crate::parallel;
 use crate::potential::bounds::CellBounds;
 
 /// Halvings of a leaf, one after the other, in one round.
@@ -86,16 +87,13 @@ impl<'a> Certifier<'a> {
         let mut store = Store::new(space);
         let keys = Store::first_keys();
         let assessed = keys.len();
-        let first: Vec<_> = keys
-            .into_par_iter()
-            .filter_map(|key| {
-                interruption::check();
-                if gives_up() {
-                    return None;
-                }
-                Some((key, landscape.assess(&store.cell(&key))?))
-            })
-            .collect();
+        let first = parallel::flat_map(&Vec::from_iter(keys), |key| {
+            interruption::check();
+            if gives_up() {
+                return None;
+            }
+            Some((*key, landscape.assess(&store.cell(key))?))
+        });
         store.fill(&first);
         Self {
             landscape,
@@ -117,16 +115,15 @@ impl<'a> Certifier<'a> {
         gives_up: impl Fn() -> bool + Sync,
     ) {
         let landscape = &self.landscape;
-        let foreseen = |(from, known, tolerance): (Configuration, Vec<Configuration>, f64)| {
-            let path = from_its_start(from, &known);
+        let foreseen = |(from, known, tolerance): &(Configuration, Vec<Configuration>, f64)| {
+            let path = from_its_start(*from, known);
             (!gives_up()).then(|| Foreseen {
-                proved: known_path(landscape, &path, tolerance),
+                proved: known_path(landscape, &path, *tolerance),
                 path,
-                tolerance,
+                tolerance: *tolerance,
             })
         };
-        let paths = paths.into_par_iter().with_max_len(1);
-        self.foreseen = paths.filter_map(foreseen).collect();
+        self.foreseen = parallel::flat_map(&paths, foreseen);
     }
 
     /// What comes of proving a known pathway for a query with a tolerance (J).

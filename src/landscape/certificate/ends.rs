@@ -7,6 +7,7 @@ use super::landscape::Landscape;
 use super::query::Goal;
 use super::store::Store;
 use crate::configuration::Configuration;
+use crate::order::Order;
 
 /// The leaves of a store that hold something, by their numbers; only leaves that were added since
 /// the last look are looked at.
@@ -59,7 +60,7 @@ impl Ends {
                         .collect();
                     all.extend(self.far(store, landscape));
                     // Of a leaf that holds both, what comes first.
-                    all.sort_by_key(|(id, _)| *id);
+                    all.order_by_key(|(id, _)| *id);
                     all.dedup_by_key(|(id, _)| *id);
                     all
                 }

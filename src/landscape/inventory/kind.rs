@@ -3,6 +3,7 @@
 use ordered_float::OrderedFloat;
 
 use crate::landscape::results::{Proportion, SAME_ENERGY, State, StateKind};
+use crate::order::Order;
 
 /// What people call the kinds of states, in the order in which they are given: `A` is the bond, then
 /// come the traps from the deepest on, `B`, `C`, ... `Z`, `AA`, ... Kinds as deep as each other (the
@@ -11,7 +12,7 @@ pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
     let mut names = vec![String::new(); kinds.len()];
     let mut traps: Vec<usize> = (0..kinds.len()).filter(|&k| !kinds[k].is_bond()).collect();
     let energy = |k: usize| kinds[k].first().energy;
-    traps.sort_by_key(|&k| OrderedFloat(energy(k)));
+    traps.order_by_key(|&k| OrderedFloat(energy(k)));
     let as_deep = |&a: &usize, &b: &usize| energy(b) - energy(a) <= SAME_ENERGY * energy(a).abs();
     for (twins, rank) in traps.chunk_by(as_deep).zip(1..) {
         // Among them the order of the states counts, not what rounding makes of their energies.

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::Inventory;
 use crate::configuration::Configuration;
@@ -14,6 +13,8 @@ use crate::landscape::results::{
     Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
 };
 use crate::landscape::survey::Survey;
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// A state this close (m, metric of the space) to the bound configuration is the bound one: the
@@ -48,8 +49,7 @@ impl Reader<'_> {
         let bound = order.first().copied();
         let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
         let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
-        let each = classes.par_iter().with_max_len(1);
-        let states: Vec<State> = each.flat_map_iter(of_class).collect();
+        let states: Vec<State> = parallel::flat_map(&classes, of_class);
         Inventory {
             barriers: self.barriers(&classes, &ids, bound),
             alternatives: self.alternatives(&states, &order, bound),
@@ -86,19 +86,20 @@ impl Reader<'_> {
         }
         let mut classes: Vec<Class> = of_class.into_values().collect();
         for class in &mut classes {
-            class.sort_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
+            class.order_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
         }
         let deepest = (0..self.survey.states.len())
             .map(|found| self.energy(found).abs())
             .fold(0.0, f64::max);
         let least = self.least_depth * deepest;
         let count = self.survey.states.len();
-        let mut classes: Vec<Class> = classes
-            .into_par_iter()
-            .filter(|class| self.depth(class[0]) >= least)
+        let is_deep = parallel::map(&classes, |class| self.depth(class[0]) >= least);
+        let with_depth = classes.into_iter().zip(is_deep);
+        let mut classes: Vec<Class> = with_depth
+            .filter_map(|(class, is_deep)| is_deep.then_some(class))
             .collect();
         let kept: usize = classes.iter().map(Vec::len).sum();
-        classes.sort_by_key(|class| {
+        classes.order_by_key(|class| {
             let distance = self.distance_to_bound(class[0]);
             let energy = OrderedFloat(self.energy(class[0]));
             (distance >= BOUND, energy, OrderedFloat(distance))
@@ -109,7 +110,7 @@ impl Reader<'_> {
             (a - b).abs() <= SAME_ENERGY * a.abs()
         };
         for twins in classes.chunk_by_mut(as_deep) {
-            twins.sort_by_key(|class| {
+            twins.order_by_key(|class| {
                 let Configuration { x, y, theta } = self.configuration(class[0]);
                 let place = [self.distance_to_bound(class[0]), y, x, theta];
                 place.map(|length| (length * TELLABLE).round() as i64)
@@ -224,8 +225,7 @@ impl Reader<'_> {
     /// also where none is known for the bond, or no way out at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
-        let each = classes.par_iter().with_max_len(1);
-        each.flat_map_iter(of_class).collect()
+        parallel::flat_map(classes, of_class)
     }
 
     fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
@@ -279,9 +279,7 @@ impl Reader<'_> {
                 );
             }
         }
-        let found = |(from, to, by)| self.alternative(from, to, by);
-        let each = asked.into_par_iter().with_max_len(1);
-        each.filter_map(found).collect()
+        parallel::flat_map(&asked, |&(from, to, by)| self.alternative(from, to, by))
     }
 
     fn alternative(

@@ -6,11 +6,12 @@ use std::iter::Peekable;
 
 use ordered_float::OrderedFloat;
 use petgraph::unionfind::UnionFind;
-use rayon::prelude::*;
 
 use super::routes::Ends;
 use super::{Link, Network, Route};
+use crate::parallel;
 use crate::problem::Problem;
+use rayon::prelude::*;
 
 /// Links that are looked at for those that can be weighed at once.
 const LOOKED_AT: usize = 32;
@@ -93,7 +94,7 @@ impl Network {
             !joined.equiv(link.from, link.to)
         });
         let by_peak = |number| self.by_peak(number);
-        let mut waiting = Waiting::new(left.into_par_iter().map(by_peak).collect());
+        let mut waiting = Waiting::new(parallel::map(&left, |&number| by_peak(number)));
         // Once a link has to be weighed, others that follow and join other parts of the forest; all
         // that are looked at meanwhile, and the parts that they touch.
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
@@ -153,7 +154,7 @@ impl Network {
                 below[*upper as usize].push((self.length(number), number as u32));
             }
         }
-        below.par_iter_mut().for_each(|links| links.sort_unstable());
+        parallel::for_each(&mut below, |links| links.sort_unstable());
         let mut found = Vec::with_capacity(self.nodes.len());
         let mut open: Vec<usize> = (0..self.nodes.len()).collect();
         // A look at the next link of each node, all of them side by side.

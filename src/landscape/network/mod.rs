@@ -20,7 +20,6 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
-use rayon::prelude::*;
 
 pub use forest::Merge;
 pub use routes::{Cost, Route};
@@ -28,6 +27,7 @@ pub use routes::{Cost, Route};
 use super::constrained::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Known;
+use crate::parallel;
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
 use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
@@ -98,7 +98,7 @@ impl Network {
         let of_milestone = |m: &Milestone| (m.gradient, problem.known(&m.configuration));
         let mut network = Self {
             nodes: Vec::with_capacity(nodes),
-            of_milestones: roadmap.milestones.par_iter().map(of_milestone).collect(),
+            of_milestones: parallel::map(&roadmap.milestones, of_milestone),
             links: Vec::with_capacity(links),
             settings: *settings,
             space: problem.space.clone(),

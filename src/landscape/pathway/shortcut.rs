@@ -3,6 +3,7 @@
 use super::legs::OVERLAP;
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
+use crate::order::Order;
 use crate::problem::Problem;
 use crate::roadmap::profile::Profile;
 use crate::roadmap::{Milestone, ProfileTolerance};
@@ -169,7 +170,7 @@ fn worst_detour(
             }
         }
     }
-    pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.order_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let is_bypass = |&&(saved, from, to): &&(f64, usize, usize)| {
         let ends = [&milestones[from], &milestones[to]];
         let most = prices[to] - prices[from] - 0.5 * saved;

@@ -2,13 +2,12 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
-
 use super::{Survey, SurveySettings};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Outcome, approach, descend_among};
 use crate::landscape::stationary::Stationary;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// Ways that are followed into one state.
@@ -33,14 +32,12 @@ impl Survey {
         let is_new = |end: &&Configuration| self.state_at(problem, end, SAME).is_none();
         let new: Vec<&Configuration> = ends.iter().flatten().filter(is_new).collect();
         let known = self.known();
-        let found: Vec<Stationary> = new
-            .into_par_iter()
-            .with_max_len(1)
-            .filter_map(|end| match descend_among(problem, end, &known).outcome {
+        let found: Vec<Stationary> = parallel::flat_map(&new, |end| {
+            match descend_among(problem, end, &known).outcome {
                 Outcome::Minimum(found) if found.point.energy < below => Some(*found),
                 _ => None,
-            })
-            .collect();
+            }
+        });
         if !found.is_empty() {
             self.add(problem, &found, settings);
         }
@@ -61,11 +58,7 @@ impl Survey {
         let starts: Vec<Configuration> =
             far.iter().filter(wanted).map(|(start, _)| *start).collect();
         let known = self.known();
-        let descents: Vec<_> = starts
-            .par_iter()
-            .with_max_len(1)
-            .map(|q| approach(problem, q, &known))
-            .collect();
+        let descents: Vec<_> = parallel::map(&starts, |q| approach(problem, q, &known));
         for mut descent in descents {
             // What lies behind is free as well.
             let is_far = |point: &Point| problem.space.is_far(&point.q);

@@ -6,12 +6,12 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use super::{Survey, SurveySettings};
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::landscape::network::Merge;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{Milestone, edge};
 
@@ -133,19 +133,16 @@ struct Place {
 
 /// Free configurations around a place, those that would overlap pushed out into contact.
 fn added_milestones(problem: &Problem, place: &Place, settings: &SurveySettings) -> Vec<Milestone> {
-    (0..settings.added_milestones)
-        .into_par_iter()
-        .filter_map(|i| {
-            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ place.number.rotate_left(16));
-            rng.set_stream((1 << 32) + i as u64);
-            let mut draw = || rng.random_range(-1.0..1.0);
-            let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
-            let aim = place.centre.moved(step);
-            let q = constrained::settle(problem, &aim, place.radius)?;
-            let milestone = Milestone::new(problem, q);
-            (milestone.energy < place.highest).then_some(milestone)
-        })
-        .collect()
+    parallel::flat_map(0..settings.added_milestones, |i| {
+        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ place.number.rotate_left(16));
+        rng.set_stream((1 << 32) + i as u64);
+        let mut draw = || rng.random_range(-1.0..1.0);
+        let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
+        let aim = place.centre.moved(step);
+        let q = constrained::settle(problem, &aim, place.radius)?;
+        let milestone = Milestone::new(problem, q);
+        (milestone.energy < place.highest).then_some(milestone)
+    })
 }
 
 /// For each new configuration (from `old` on) its `k` nearest among all.
@@ -168,8 +165,7 @@ fn pairs_with_new(
         near.into_iter()
             .map(move |(_, j)| (i.min(j) as u32, i.max(j) as u32))
     };
-    let new = (old..around.len()).into_par_iter();
-    let mut pairs: Vec<(u32, u32)> = new.flat_map_iter(nearest).collect();
+    let mut pairs: Vec<(u32, u32)> = parallel::flat_map(old..around.len(), nearest);
     pairs.sort_unstable();
     pairs.dedup();
     pairs

@@ -2,12 +2,13 @@
 //! magnets come to lie opposite each other as faces slide, and where the outlines fit.
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::{Survey, SurveySettings, siblings, slides};
 use crate::configuration::Configuration;
 use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Descent, descend_among};
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// No minimum is looked for closer than this (m) to a known one.
@@ -49,11 +50,10 @@ impl Survey {
         let slid = slides::slid_meetings(problem);
         let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
         let places: Vec<Configuration> = places.collect();
-        let mut places: Vec<(f64, Configuration)> = places
-            .into_par_iter()
-            .map(|q| (problem.energy(&q), q))
-            .filter(|(energy, q)| *energy < held && problem.is_free(q))
-            .collect();
+        let mut places: Vec<(f64, Configuration)> = parallel::flat_map(&places, |q| {
+            let energy = problem.energy(q);
+            (energy < held && problem.is_free(q)).then_some((energy, *q))
+        });
         if problem.is_dear() {
             places = lowest_around(problem, places, AROUND * slides::pitch(problem));
             let most = settings.most_kinds.map(|kinds| MEETINGS_A_KIND * kinds);
@@ -76,11 +76,8 @@ impl Survey {
             .filter(|q| self.state_at(problem, q, KNOWN).is_none())
             .collect();
         let verified = self.known();
-        let descents: Vec<Descent> = places
-            .par_iter()
-            .with_max_len(1)
-            .map(|q| descend_among(problem, q, &verified))
-            .collect();
+        let descents: Vec<Descent> =
+            parallel::map(&places, |q| descend_among(problem, q, &verified));
         for descent in &descents {
             if let Some(end) = self.arrive(problem, descent) {
                 self.join(problem, end, settings);
@@ -96,7 +93,7 @@ fn lowest_around(
     mut places: Vec<(f64, Configuration)>,
     radius: f64,
 ) -> Vec<(f64, Configuration)> {
-    places.sort_by_key(|(energy, _)| OrderedFloat(*energy));
+    places.order_by_key(|(energy, _)| OrderedFloat(*energy));
     let mut kept: Vec<(f64, Configuration)> = Vec::new();
     for place in places {
         let is_near = |(_, q): &(f64, Configuration)| problem.space.distance(q, &place.1) < radius;

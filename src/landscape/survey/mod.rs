@@ -30,12 +30,13 @@ mod withdraw;
 use std::collections::{HashMap, HashSet};
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::minimum::{Descent, Known, Outcome, descend_among};
 use super::network::{Merge, Network};
 use super::stationary::Stationary;
 use crate::configuration::Configuration;
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{EdgeSettings, Roadmap};
 
@@ -215,11 +216,8 @@ impl Survey {
         // What some find the next ones need not verify.
         for some in starts.chunks(TOGETHER) {
             let known = self.known();
-            let descents: Vec<Descent> = some
-                .par_iter()
-                .with_max_len(1)
-                .map(|(_, q)| descend_among(problem, q, &known))
-                .collect();
+            let descents: Vec<Descent> =
+                parallel::map(some, |(_, q)| descend_among(problem, q, &known));
             for ((node, _), descent) in some.iter().zip(descents) {
                 let end = self.arrive(problem, &descent);
                 match (*node, end) {
@@ -237,7 +235,7 @@ impl Survey {
     /// Leaves out all but the deepest kinds of states, so many.
     fn keep_deepest(&mut self, most: usize) {
         let mut deepest: Vec<usize> = self.firsts().collect();
-        deepest.sort_by_key(|&first| OrderedFloat(self.states[first].minimum.point.energy));
+        deepest.order_by_key(|&first| OrderedFloat(self.states[first].minimum.point.energy));
         let Some(&shallower) = deepest.get(most) else {
             return;
         };

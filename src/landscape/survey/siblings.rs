@@ -3,9 +3,9 @@
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use crate::configuration::{Configuration, wrap_angle};
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::{Face, face_to_face};
 
@@ -96,11 +96,11 @@ pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Ve
         }
     }
     let pairs: Vec<(&Face, &Face)> = pairs().collect();
-    let places = pairs.par_iter().flat_map_iter(|(fixed, moving)| {
-        let place = |meeting: &Meeting| (meeting.place(problem, fixed, moving), meeting.energy);
-        meetings.iter().map(place)
-    });
-    let held = places.filter(|(q, energy)| problem.energy(q) < HELD * energy);
-    let free = held.filter(|(q, _)| problem.is_free(q));
-    free.map(|(q, _)| q).collect()
+    parallel::flat_map(&pairs, |(fixed, moving)| {
+        meetings.iter().filter_map(|meeting| {
+            let q = meeting.place(problem, fixed, moving);
+            let is_held = problem.energy(&q) < HELD * meeting.energy;
+            (is_held && problem.is_free(&q)).then_some(q)
+        })
+    })
 }

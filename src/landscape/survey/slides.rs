@@ -6,6 +6,7 @@ use ordered_float::OrderedFloat;
 
 use super::siblings::{Meeting, SAME};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::{Face, Tile, face_to_face};
 
@@ -64,7 +65,7 @@ fn meetings([fixed, moving]: [Vec<f64>; 2], length: f64) -> impl Iterator<Item =
     {
         slides.extend((-STEPS..=STEPS).map(|k| s + t + f64::from(k) * STEP * pitch));
     }
-    slides.sort_by_key(|&slide| OrderedFloat(slide));
+    slides.order_by_key(|&slide| OrderedFloat(slide));
     slides.dedup_by(|a, b| *a - *b < STEP * pitch / 2.0);
     slides.into_iter().flat_map(move |slide| {
         TILTS.map(|tilt| Meeting {
@@ -87,7 +88,7 @@ fn places(tile: &Tile, number: usize) -> Vec<f64> {
 /// The least distance (m) between two of these places; infinite for fewer.
 fn closest(places: &[f64]) -> f64 {
     let mut places = places.to_vec();
-    places.sort_by_key(|&s| OrderedFloat(s));
+    places.order_by_key(|&s| OrderedFloat(s));
     let apart = places.windows(2).map(|two| two[1] - two[0]);
     apart.fold(f64::INFINITY, f64::min)
 }

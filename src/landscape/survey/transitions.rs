@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::copies::distinct;
 use super::{SAME, Survey};
@@ -12,6 +11,7 @@ use crate::landscape::constrained::{self, Point};
 use crate::landscape::minimum::{Descent, Known, descend_among};
 use crate::landscape::network::{Merge, Way};
 use crate::landscape::stationary::{self, Stationary};
+use crate::parallel;
 use crate::problem::{Problem, Symmetry};
 
 /// How far (m, mass metric) from a transition state its descents start.
@@ -37,18 +37,14 @@ impl Survey {
         places: &[(Configuration, Vector3<f64>)],
         symmetries: &[Symmetry],
     ) {
-        let found: Vec<Option<Stationary>> = places
-            .par_iter()
-            .with_max_len(1)
-            .map(|(q, along)| {
-                stationary::transition_state(problem, q, along)
-                    .filter(|found| problem.is_free(&found.point.q))
-            })
-            .collect();
+        let found = parallel::flat_map(places, |(q, along)| {
+            stationary::transition_state(problem, q, along)
+                .filter(|found| problem.is_free(&found.point.q))
+        });
         let mut known: Vec<Configuration> =
             self.transition_states.iter().map(|s| s.0.point.q).collect();
         let mut fresh: Vec<Stationary> = Vec::new();
-        for found in found.into_iter().flatten() {
+        for found in found {
             let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
             if !known.iter().any(is_same) {
                 known.extend(symmetries.iter().map(|s| s.apply(&found.point.q)));
@@ -56,11 +52,9 @@ impl Survey {
             }
         }
         let known = self.known();
-        let joined: Vec<[Option<Descent>; 2]> = fresh
-            .par_iter()
-            .with_max_len(1)
-            .map(|saddle| [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known)))
-            .collect();
+        let joined: Vec<[Option<Descent>; 2]> = parallel::map(&fresh, |saddle| {
+            [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known))
+        });
         for (saddle, sides) in fresh.into_iter().zip(joined) {
             let [Some(first), Some(second)] = sides else {
                 continue;

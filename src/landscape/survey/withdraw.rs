@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::copies::distinct;
 use super::{FoundState, Survey, SurveySettings};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::constrained;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{EdgeCosts, Milestone, edge};
 
@@ -49,17 +49,15 @@ impl Survey {
                     .map(move |(_, other)| [one.min(other), one.max(other)])
             })
             .collect();
-        let found: Vec<Option<([usize; 2], EdgeCosts)>> = pairs
-            .into_par_iter()
-            .map(|pair| {
-                let [from, to] = pair.map(at);
-                let ends = [from, to].map(|q| Milestone::new(problem, q));
-                let weighed = || edge::costs(problem, ends.each_ref(), &settings.edge);
-                let is_free = problem.motion_is_free(&from, &to);
-                is_free.then(|| (pair, weighed()))
-            })
-            .collect();
-        for (pair, costs) in found.into_iter().flatten() {
+        let pairs: Vec<[usize; 2]> = pairs.into_iter().collect();
+        let found: Vec<([usize; 2], EdgeCosts)> = parallel::flat_map(&pairs, |&pair| {
+            let [from, to] = pair.map(at);
+            let ends = [from, to].map(|q| Milestone::new(problem, q));
+            let weighed = || edge::costs(problem, ends.each_ref(), &settings.edge);
+            let is_free = problem.motion_is_free(&from, &to);
+            is_free.then(|| (pair, weighed()))
+        });
+        for (pair, costs) in found {
             let nodes = pair.map(|state| self.states[state].node);
             self.add_motion_and_images(problem, nodes, costs);
         }
@@ -78,10 +76,10 @@ impl Survey {
             .filter(is_open)
             .map(|state| state.class)
             .collect();
-        let ways: Vec<(usize, Vec<(Milestone, EdgeCosts)>)> = open
-            .into_par_iter()
-            .map(|first| (first, self.ways_out(problem, first, settings)))
-            .collect();
+        let ways: Vec<(usize, Vec<(Milestone, EdgeCosts)>)> =
+            parallel::map(&Vec::from_iter(open), |&first| {
+                (first, self.ways_out(problem, first, settings))
+            });
         let known = self.network.nodes.len();
         for (first, ways) in ways {
             let node = self.states[first].node;
@@ -115,11 +113,10 @@ impl Survey {
                 .map(|(_, other, _)| other)
                 .take(MOST_MILESTONES)
         };
-        let joined: Vec<[usize; 2]> = (fresh..self.network.nodes.len())
-            .into_par_iter()
-            .filter_map(|node| Some((node, at(node)?)))
-            .flat_map_iter(|(node, here)| nearest(here).map(move |other| [node, other]))
-            .collect();
+        let joined: Vec<[usize; 2]> = parallel::flat_map(fresh..self.network.nodes.len(), |node| {
+            let near = at(node).into_iter().flat_map(nearest);
+            near.map(move |other| [node, other])
+        });
         for [node, other] in joined {
             self.network.add_untried(node, other);
         }

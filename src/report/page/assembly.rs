@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::{Column, Fact, Illustration, Page, Table};
 use crate::assembly::slides::Slid;
+use crate::order::Order;
 use crate::report::assembly::{Assembly, headline};
 use crate::units::si;
 
@@ -180,7 +181,7 @@ fn slid(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Table {
         .iter()
         .filter_map(|it| Some((it, it.2.deepest?)))
         .collect();
-    found.sort_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    found.order_by(|a, b| a.1.1.total_cmp(&b.1.1));
     let row = |((i, j, _), (slide, energy)): &(&(usize, usize, Slid), (i32, f64))| {
         vec![
             json!(assembly.face(*i)),

@@ -1,5 +1,6 @@
 //! The parts of a page put together.
 
+use crate::order::Order;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
@@ -24,7 +25,7 @@ pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
         .iter()
         .filter_map(|(name, value)| Some((template.find(name)?, *name, value)))
         .collect();
-    places.sort_by_key(|(at, ..)| *at);
+    places.order_by_key(|(at, ..)| *at);
     let mut text = String::new();
     let mut rest = 0;
     for (at, name, value) in places {

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::word_charts::{AREA, chart, label};
 use crate::kinetics::map::Map;
+use crate::order::Order;
 use crate::report::plots::scale;
 use crate::report::rates::{AtKt, Table};
 use crate::units::{plain, si};
@@ -238,7 +239,7 @@ fn rates(table: &Table, over_kt: &[AtKt]) -> String {
             names.push((end, name));
         }
     }
-    names.sort_by(|a, b| a.0.total_cmp(&b.0));
+    names.order_by(|a, b| a.0.total_cmp(&b.0));
     let mut last = f64::NEG_INFINITY;
     for (end, name) in names {
         last = end.max(last + 16.0);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::word_charts::{AREA, chart, label};
+use crate::order::Order;
 use crate::units::{duration, si};
 use crate::yields::{Outcome, Question, Yields};
 
@@ -101,7 +102,7 @@ fn crowds(question: &Question, outcome: &Outcome) -> String {
     let mut tiles: Vec<usize> = outcome.table.iter().map(|row| row.0).collect();
     tiles.dedup();
     let mut coverages: Vec<f64> = outcome.table.iter().map(|row| row.1).collect();
-    coverages.sort_by(f64::total_cmp);
+    coverages.order_by(f64::total_cmp);
     coverages.dedup();
     let most = libm::log(*tiles.last().unwrap_or(&2) as f64 / 2.0).max(1e-9);
     let x = |tiles: usize| libm::log(tiles as f64 / 2.0) / most;
@@ -123,7 +124,7 @@ fn crowds(question: &Question, outcome: &Outcome) -> String {
 fn over_kt(found: &Yields) -> String {
     let [left, top, width, height] = AREA;
     let mut by_kt: Vec<&Outcome> = found.outcomes.iter().collect();
-    by_kt.sort_by(|a, b| a.kt.total_cmp(&b.kt));
+    by_kt.order_by(|a, b| a.kt.total_cmp(&b.kt));
     let most = by_kt.iter().map(|outcome| outcome.kt).fold(0.0, f64::max);
     let x = |kt: f64| 0.02 + 0.93 * kt / most;
     let points = |of: &dyn Fn(&Outcome) -> f64| -> Vec<[f64; 2]> {

@@ -14,6 +14,7 @@ use super::style::{Axis, INK, LABEL, Text, chart, pixel, units};
 use super::{energy, length};
 use crate::landscape::approach::{Approach, ApproachSlices, SliceSettings};
 use crate::landscape::map::{Grid, Sample};
+use crate::order::Order;
 use crate::report::csv::table;
 use crate::report::names::face;
 use crate::units::prefix_of;
@@ -129,7 +130,7 @@ fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> 
         })
         .collect();
     // The bond on top.
-    marks.sort_by_key(|(.., mark)| *mark == Mark::Bond);
+    marks.order_by_key(|(.., mark)| *mark == Mark::Bond);
     marks
 }
 

@@ -4,6 +4,7 @@ use super::curve_names::{Common, LENGTHS, common, file, titled};
 use super::style::Axis;
 use super::{Figure, PictureError, Sheet, curve_map, curves};
 use crate::comparison::Assessment;
+use crate::order::Order;
 use crate::report::sweep::Sweep;
 use crate::sweep::{Point, Value};
 use ordered_float::OrderedFloat;
@@ -180,7 +181,7 @@ fn curves_of<'a>(
             }
         });
         let mut points: Vec<_> = points.collect();
-        points.sort_by_key(|point| OrderedFloat(point.x));
+        points.order_by_key(|point| OrderedFloat(point.x));
         let series = Series { name, points };
         match pictures.iter_mut().find(|(known, _)| *known == rest) {
             Some((_, all)) => all.push(series),
@@ -212,7 +213,7 @@ pub fn variables(sweep: &Sweep) -> Vec<Variable> {
     axes.filter_map(|(axis, varied)| {
         let values: Option<Vec<f64>> = varied.values.iter().map(Value::number).collect();
         let mut values = values?;
-        values.sort_by(f64::total_cmp);
+        values.order_by(f64::total_cmp);
         values.dedup();
         (values.len() > 1).then(|| Variable {
             axis,

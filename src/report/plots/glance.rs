@@ -13,6 +13,7 @@ use super::style::{
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection::Inspection;
+use crate::order::Order;
 use crate::potential::MagnetModel;
 use crate::report::inspection::{force, pole, wrong};
 use crate::tile::barcode::Pole;
@@ -139,7 +140,7 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
 fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64, &'a Magnet)> {
     let place = |m: &&'a Magnet| ((m.position - face.middle()).dot(&face.tangent()), *m);
     let mut placed: Vec<_> = magnets.iter().map(place).collect();
-    placed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    placed.order_by(|a, b| a.0.total_cmp(&b.0));
     placed.into_iter()
 }
 

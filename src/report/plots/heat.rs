@@ -10,6 +10,7 @@ use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::{COLOURS, EnergyScale, HATCH, colour};
 use super::style::{Chart, INK, SMALL, Text, pixel, units};
 use crate::landscape::map::{Grid, Sample};
+use crate::order::Order;
 
 /// The positions on a scale that colours are given to, and two colours for the hatching of what
 /// is blocked.
@@ -172,7 +173,7 @@ fn colour_bar(
     let mut taken: Vec<(f64, f64)> = Vec::new();
     let mut ticks = scale.ticks(range.low, range.high);
     // Zero first, then outwards: where numbers would collide the later ones are left out.
-    ticks.sort_by_key(|energy| OrderedFloat(energy.abs()));
+    ticks.order_by_key(|energy| OrderedFloat(energy.abs()));
     for energy in ticks {
         let x = place(energy);
         let (start, width, text, font) = if energy == 0.0 {

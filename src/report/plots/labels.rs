@@ -1,5 +1,6 @@
 //! Labels that keep out of each other's way.
 
+use crate::order::Order;
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use plotters::prelude::{Color, WHITE};
@@ -55,7 +56,7 @@ pub fn label_column(
     [left, top, _, bottom]: Box4,
     mut labels: Vec<(Pixel, String)>,
 ) -> Result<(), PictureError> {
-    labels.sort_by_key(|(anchor, _)| OrderedFloat(anchor.1));
+    labels.order_by_key(|(anchor, _)| OrderedFloat(anchor.1));
     let (_, high) = extent(font, "");
     let mut heights: Vec<f64> = labels.iter().map(|(anchor, _)| anchor.1).collect();
     let room = (bottom - top - 2.0 * high) / labels.len().max(1) as f64;
@@ -173,7 +174,7 @@ impl Labels {
                 candidates.push((reach + 24.0 * away, place));
             }
         }
-        candidates.sort_by_key(|(distance, _)| OrderedFloat(*distance));
+        candidates.order_by_key(|(distance, _)| OrderedFloat(*distance));
         candidates
             .into_iter()
             .map(|(_, place)| place)

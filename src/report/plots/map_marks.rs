@@ -10,6 +10,7 @@ use super::scene::Scene;
 use super::style::{INK, SMALL, Text};
 use crate::configuration::Configuration;
 use crate::landscape::{Kind, StateKind};
+use crate::order::Order;
 
 /// Pathways drawn.
 const PATHWAYS: usize = 8;
@@ -56,7 +57,7 @@ fn states(root: &Area, view: &View, scene: &Scene, frame: Box4) -> Result<(), Pi
     let mut drawn: Vec<Pixel> = Vec::new();
     // Bound states last, on top.
     let mut states: Vec<_> = scene.states().iter().collect();
-    states.sort_by_key(|state| state.kind == StateKind::Bond);
+    states.order_by_key(|state| state.kind == StateKind::Bond);
     for state in states {
         let at = view.pixel(state.configuration.position());
         let repeated = drawn

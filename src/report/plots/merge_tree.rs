@@ -1,5 +1,6 @@
 //! The merge tree of a disconnectivity graph.
 
+use crate::order::Order;
 use ordered_float::OrderedFloat;
 
 use super::scale::EnergyScale;
@@ -92,7 +93,7 @@ impl Tree {
                 other => children.push(other),
             }
         }
-        children.sort_by_key(Tree::deepest);
+        children.order_by_key(Tree::deepest);
         Self::Merge {
             energy: over.energy,
             bounds: over.bounds,
@@ -108,7 +109,7 @@ pub fn merge(
     mut joins: Vec<Join>,
     scale: &EnergyScale,
 ) -> Vec<Tree> {
-    joins.sort_by_key(|join| OrderedFloat(join.energy));
+    joins.order_by_key(|join| OrderedFloat(join.energy));
     let leaf = |(class, energy)| Tree::Leaf { class, energy };
     let mut trees: Vec<Tree> = leaves.into_iter().map(leaf).collect();
     for join in &joins {
@@ -123,7 +124,7 @@ pub fn merge(
             trees.push(Tree::join([first, second], join, scale));
         }
     }
-    trees.sort_by_key(Tree::deepest);
+    trees.order_by_key(Tree::deepest);
     trees
 }
 

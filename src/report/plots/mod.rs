@@ -47,13 +47,12 @@ pub mod sheet;
 mod style;
 mod tree_lines;
 
-use rayon::prelude::*;
-
 pub use picture::{Picture, PictureError};
 pub use scene::Scene;
 pub use sheet::Sheet;
 
 use super::csv::{number, rounded};
+use crate::parallel;
 use composition::Composition;
 use film::Film;
 use models::Curves;
@@ -173,10 +172,10 @@ pub fn draw(
     ];
     let mut drawn: Vec<_> = drawn.into_iter().flatten().collect();
     drawn.retain(|(composition, _)| wanted(&composition.name));
-    drawn
-        .into_par_iter()
-        .map(|(composition, data)| Figure::new(&composition, sheet, data))
-        .collect()
+    let figures = parallel::map(&drawn, |(composition, data)| {
+        Figure::new(composition, sheet, data.clone())
+    });
+    figures.into_iter().collect()
 }
 
 /// A length (m) or an angle (rad) in a table of numbers: to a micrometre.

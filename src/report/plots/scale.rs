@@ -1,5 +1,6 @@
 //! Energies as positions and colours.
 
+use crate::order::Order;
 use crate::units::si;
 
 /// The diverging colour map "vik", attraction blue and repulsion brown, pale at zero: perceptually
@@ -121,7 +122,7 @@ impl EnergyScale {
             let position = self.position(u);
             position >= low - 1e-9 && position <= high + 1e-9
         });
-        ticks.sort_by(f64::total_cmp);
+        ticks.order_by(f64::total_cmp);
         ticks
     }
 

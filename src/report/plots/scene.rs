@@ -5,6 +5,7 @@ use ordered_float::OrderedFloat;
 use super::marks::Mark;
 use crate::design::Design;
 use crate::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
+use crate::order::Order;
 use crate::potential::Interaction;
 use crate::problem::Problem;
 use crate::tile::Pair;
@@ -58,7 +59,7 @@ impl<'a> Scene<'a> {
     /// The kinds of states, the lowest first.
     pub fn kinds(&self) -> Vec<Kind<'a>> {
         let mut kinds: Vec<_> = self.inventory.kinds().collect();
-        kinds.sort_by_key(|kind| OrderedFloat(kind.first().energy));
+        kinds.order_by_key(|kind| OrderedFloat(kind.first().energy));
         kinds
     }
 

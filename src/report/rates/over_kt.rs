@@ -1,11 +1,10 @@
 //! Rates out of states over kT, and what corner wells in closed form say of them.
 
-use rayon::prelude::*;
-
 use super::{Motion, Place};
 use crate::design::Design;
 use crate::kinetics::corner;
 use crate::kinetics::rates::{RateSettings, Rates, rates};
+use crate::parallel;
 use crate::problem::Problem;
 
 /// kT over the one asked for.
@@ -68,5 +67,5 @@ pub fn over_kt(
             corner: (0..places.len()).map(by_corner).collect(),
         }
     };
-    SHAKINGS.par_iter().map(at).collect()
+    parallel::map(&SHAKINGS[..], at)
 }

@@ -8,6 +8,7 @@ use ordered_float::OrderedFloat;
 use super::sampled::{Setting, tilts};
 use super::{Couple, Stage, energies, in_parallel};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::words::Word;
 
 /// Minima of the grid that are polished, of a word.
@@ -26,7 +27,7 @@ impl Stage {
             })
             .collect();
         let mut tilts = tilts();
-        tilts.sort_by(f64::total_cmp);
+        tilts.order_by(f64::total_cmp);
         let slides = self.slides();
         let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
             let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
@@ -49,7 +50,7 @@ impl Stage {
                     }
                 }
             }
-            minima.sort_by_key(|(energy, _)| OrderedFloat(*energy));
+            minima.order_by_key(|(energy, _)| OrderedFloat(*energy));
             let problem = self.problem(&couples[number]);
             let bond = self.pair.bound;
             let polished = minima

@@ -1,13 +1,13 @@
 //! Kicks out of a state.
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::{Checker, Fate, Fated, moving};
 use crate::configuration::Configuration;
 use crate::dynamics::Simulation;
 use crate::dynamics::docking::stream;
 use crate::landscape::Pathway;
+use crate::parallel;
 
 /// Energies of kicks that are tried, in barriers.
 const KICKS: [f64; 16] = [
@@ -28,7 +28,7 @@ impl Checker<'_> {
         for share in KICKS {
             let energy = share * self.climb;
             let one = |aim| self.kicked(lossless, first, direction, aim, energy);
-            let kicked: Vec<Fated> = (0..AIMS).into_par_iter().map(one).collect();
+            let kicked: Vec<Fated> = parallel::map(0..AIMS, one);
             *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
             // The least is asked for.
             if kicked.iter().any(|kick| kick.0 == Fate::Crossed) {

@@ -7,7 +7,6 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use super::{BarrierCheck, Below, CheckSettings};
 use crate::configuration::Configuration;
@@ -16,6 +15,7 @@ use crate::dynamics::trajectory::normal;
 use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot};
 use crate::landscape::minimum::{Known, Outcome, descend_among};
 use crate::landscape::{Barrier, Place, State};
+use crate::parallel;
 use crate::problem::Problem;
 
 /// A tile this close (m, metric of the space) to a state may be in it.
@@ -164,7 +164,7 @@ impl<'a> Checker<'a> {
             }
             (None, TRIES, steps)
         };
-        let runs: Vec<_> = (0..self.settings.runs).into_par_iter().map(one).collect();
+        let runs: Vec<_> = parallel::map(0..self.settings.runs, one);
         for (ended, spoilt, steps) in runs {
             result.steps += steps;
             result.below.spoilt += spoilt;
@@ -186,10 +186,7 @@ impl<'a> Checker<'a> {
             let start = self.start(lossless, self.barrier.saddle_energy + more, &mut rng);
             self.fate(lossless, &start, self.duration, f64::INFINITY, &mut rng)
         };
-        let runs: Vec<Fated> = (0..self.settings.controls)
-            .into_par_iter()
-            .map(one)
-            .collect();
+        let runs: Vec<Fated> = parallel::map(0..self.settings.controls, one);
         let crossed = runs.iter().filter(|run| run.0 == Fate::Crossed).count();
         result.above = (crossed, runs.len());
         result.steps += runs.iter().map(|run| run.1).sum::<usize>();
