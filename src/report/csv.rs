@@ -79,13 +79,25 @@ pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
     rows: impl IntoIterator<Item = Row>,
 ) -> String {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
-    let mut written = writer.write_record(columns);
+    let mut add = |cell: Option<&[u8]>| added(&mut writer, cell);
+    columns.into_iter().for_each(|cell| add(Some(cell.as_ref())));
+    add(None);
     for row in rows {
-        written = written.and_then(|()| writer.write_record(row));
+        row.into_iter().for_each(|cell| add(Some(cell.as_ref())));
+        add(None);
     }
-    written.expect("a vector takes rows of equal length");
     let bytes = writer.into_inner().expect("a vector takes all");
     String::from_utf8(bytes).expect("cells are text")
+}
+
+/// Adds a cell, or the end of a row.
+#[inline(never)]
+fn added(writer: &mut ::csv::Writer<Vec<u8>>, cell: Option<&[u8]>) {
+    match cell {
+        Some(cell) => writer.write_field(cell),
+        None => writer.write_record(None::<&[u8]>),
+    }
+    .expect("a vector takes rows of equal length");
 }
 
 /// The points of a pathway that are not on the straight line between their neighbours, to within
