@@ -101,9 +101,11 @@ fn collected<T: Send>(count: usize, put: &(dyn Fn(usize, &mut Vec<T>) + Sync)) -
         }
         *found[part].lock().unwrap_or_else(PoisonError::into_inner) = of_part;
     });
-    let mut all = Vec::with_capacity(count);
-    for part in found {
-        all.append(&mut part.into_inner().unwrap_or_else(PoisonError::into_inner));
+    let of_part = |part: Mutex<Vec<T>>| part.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let found: Vec<Vec<T>> = found.into_iter().map(of_part).collect();
+    let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
+    for mut part in found {
+        all.append(&mut part);
     }
     all
 }

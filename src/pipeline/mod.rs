@@ -11,8 +11,6 @@ pub(crate) use clock::Clock;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Body;
@@ -21,6 +19,7 @@ use crate::landscape::completeness::Search;
 use crate::landscape::survey::Survey;
 use crate::landscape::{Barrier, Claims, Inventory, Uncertified, capture, certification};
 use crate::observer::Observer;
+use crate::parallel;
 use crate::potential::{Interaction, MagnetModel};
 use crate::problem::Problem;
 use crate::roadmap::{Roadmap, RoadmapSettings};
@@ -158,10 +157,10 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     let blocks = blocks
         .between(&design.pair.fixed, &design.pair.moving)
         .potential;
-    let kinds = inventory.states.par_chunk_by_mut(|a, b| a.class == b.class);
-    kinds.for_each(|copies| {
+    let kinds = inventory.states.chunk_by_mut(|a, b| a.class == b.class);
+    parallel::for_each(&mut Vec::from_iter(kinds), |copies| {
         let energy = blocks.energy(&copies[0].configuration);
-        for state in copies {
+        for state in copies.iter_mut() {
             state.block_energy = Some(energy);
         }
     });

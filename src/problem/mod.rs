@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
-use rayon::prelude::*;
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
 use crate::contact::{Contact, Halves, Known, TOUCH};
 use crate::interruption;
+use crate::parallel;
 use crate::potential::{
     BoxedBounds, CellBounds, Energy, Interaction, LazyBounds, Potential, Unbounded,
 };
@@ -283,24 +283,28 @@ impl Problem {
         pairs: &[(u32, u32)],
     ) -> Vec<(u32, u32)> {
         // Of every configuration once, not of every pair.
-        let known: Vec<_> = configurations.par_iter().map(|q| self.known(q)).collect();
-        let ends = |&(from, to): &(u32, u32)| [from, to].map(|end| &known[end as usize]);
-        self.free_among(pairs.par_iter().copied(), ends).collect()
+        let known = parallel::map(configurations, |q| self.known(q));
+        let end = |end: u32| &known[end as usize];
+        let is_free = self.free_among(pairs.len(), |pair| [end(pairs[pair].0), end(pairs[pair].1)]);
+        let free = pairs.iter().zip(is_free).filter(|(_, is_free)| *is_free);
+        free.map(|(pair, _)| *pair).collect()
     }
 
-    /// Those of some motions that are free, in the order given, `ends` telling what is known of where
-    /// each begins and ends.
-    pub fn free_among<'a, M: Send>(
-        &'a self,
-        motions: impl ParallelIterator<Item = M> + 'a,
-        ends: impl Fn(&M) -> [&'a Option<Known>; 2] + Send + Sync + 'a,
-    ) -> impl ParallelIterator<Item = M> + 'a {
-        motions
-            .map_init(Halves::default, move |left, motion| {
-                let is_free = self.known_motion_is_free(ends(&motion), left);
-                is_free.then_some(motion)
-            })
-            .flatten_iter()
+    /// Whether each of so many motions is free, `ends` telling what is known of where it begins and
+    /// ends.
+    pub fn free_among<'a>(
+        &self,
+        count: usize,
+        ends: impl Fn(usize) -> [&'a Option<Known>; 2] + Sync,
+    ) -> Vec<bool> {
+        /// Motions that lend each other their memory.
+        const TOGETHER: usize = 64;
+        parallel::flat_map(0..count.div_ceil(TOGETHER), |part| {
+            let mut left = Halves::default();
+            let motions = part * TOGETHER..count.min((part + 1) * TOGETHER);
+            let is_free = |motion| self.known_motion_is_free(ends(motion), &mut left);
+            motions.map(is_free).collect::<Vec<_>>()
+        })
     }
 
     /// What every motion from or to a configuration asks of contact; `None` where there is none.

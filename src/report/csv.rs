@@ -80,7 +80,9 @@ pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
 ) -> String {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let mut add = |cell: Option<&[u8]>| added(&mut writer, cell);
-    columns.into_iter().for_each(|cell| add(Some(cell.as_ref())));
+    columns
+        .into_iter()
+        .for_each(|cell| add(Some(cell.as_ref())));
     add(None);
     for row in rows {
         row.into_iter().for_each(|cell| add(Some(cell.as_ref())));

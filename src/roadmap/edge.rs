@@ -1,11 +1,11 @@
 //! Motions between milestones and what they cost.
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::Milestone;
 use super::profile::{Profile, ProfileTolerance};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// What a motion costs, read off one energy profile.
@@ -79,7 +79,8 @@ pub fn edges(
     let mut edges = Vec::with_capacity(free.len());
     // In parts, as collecting in parallel takes twice the memory.
     for part in free.chunks(TOGETHER) {
-        edges.par_extend(part.par_chunks(SIDE_BY_SIDE).flat_map_iter(of_some));
+        let part: Vec<&[(u32, u32)]> = part.chunks(SIDE_BY_SIDE).collect();
+        edges.append(&mut parallel::flat_map(&part, |some| of_some(some)));
     }
     edges
 }

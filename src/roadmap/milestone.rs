@@ -20,10 +20,10 @@ use std::f64::consts::PI;
 use nalgebra::Vector2;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
-use super::{Milestone, PART};
+use super::Milestone;
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
 
@@ -74,16 +74,11 @@ const MOST_PROPOSALS: usize = 10_000;
 
 /// Draws the milestones, in the order of their random streams.
 pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Milestone> {
-    (0..settings.count)
-        .into_par_iter()
-        .with_min_len(PART / 4)
-        .with_max_len(PART)
-        .filter_map(|i| {
-            let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-            rng.set_stream(i as u64);
-            draw(problem, &settings.acceptance, &mut rng)
-        })
-        .collect()
+    parallel::flat_map(0..settings.count, |i| {
+        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+        rng.set_stream(i as u64);
+        draw(problem, &settings.acceptance, &mut rng)
+    })
 }
 
 fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Option<Milestone> {

@@ -16,10 +16,6 @@ pub use profile::ProfileTolerance;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// Milestones that a thread deals with one after the other: left to itself, rayon deals out a few long
-/// parts, and threads wait for the last.
-const PART: usize = 64;
-
 /// A configuration of the roadmap with its energy (J) and the energy's gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Milestone {

@@ -5,11 +5,11 @@ use std::num::NonZeroUsize;
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
-use super::{Milestone, PART};
+use super::Milestone;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::interruption;
+use crate::parallel;
 
 /// Neighbours per milestone that a roadmap of n milestones needs for its paths to tend to the best
 /// ones: `e (1 + 1/d) ln n` in d = 3 dimensions, rounded up (PRM* of Karaman and Frazzoli,
@@ -90,22 +90,18 @@ pub fn neighbour_pairs(
     }
     let k = k.min(milestones.len() - 1);
     let search = NeighbourSearch::new(milestones, space);
-    let near: Vec<Vec<u32>> = milestones
-        .par_iter()
-        .with_max_len(PART)
-        .map(|milestone| {
-            interruption::check();
-            let found = search.nearest(&milestone.configuration, k + 1);
-            found.into_iter().map(|(_, index)| index).collect()
-        })
-        .collect();
+    let near: Vec<Vec<u32>> = parallel::map(milestones, |milestone| {
+        interruption::check();
+        let found = search.nearest(&milestone.configuration, k + 1);
+        found.into_iter().map(|(_, index)| index).collect()
+    });
     let mut later: Vec<Vec<u32>> = vec![Vec::new(); milestones.len()];
     for (i, near) in (0u32..).zip(&near) {
         for &j in near.iter().filter(|j| **j != i).take(k) {
             later[i.min(j) as usize].push(i.max(j));
         }
     }
-    later.par_iter_mut().for_each(|later| {
+    parallel::for_each(&mut later, |later| {
         later.sort_unstable();
         later.dedup();
     });

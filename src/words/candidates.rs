@@ -1,10 +1,10 @@
 //! The words that may be in a set at all: each sound by itself, one of a word and its mate where
 //! the two are interchangeable.
 
+use crate::parallel;
 use rand::seq::index::sample;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use super::Task;
 use super::word::Word;
@@ -39,36 +39,32 @@ impl Candidates {
             return Self::sampled(task, limit, seed, count as usize);
         }
         let words: Vec<Word> = match task.magnets == task.places {
-            true => (0..1u64 << task.places)
-                .into_par_iter()
-                .map(|set| Word::new(set, !set, task.places))
-                .filter(|word| sound(task, limit, word))
-                .collect(),
-            false => places_of(task.places, task.magnets)
-                .into_par_iter()
-                .flat_map_iter(|places| with_poles(places, task.places))
-                .filter(|word| sound(task, limit, word))
-                .collect(),
+            true => parallel::flat_map(0..1 << task.places, |set| {
+                let word = Word::new(set as u64, !set as u64, task.places);
+                Some(word).filter(|word| sound(task, limit, word))
+            }),
+            false => parallel::flat_map(&places_of(task.places, task.magnets), |places| {
+                let words = with_poles(*places, task.places);
+                words.filter(|word| sound(task, limit, word))
+            }),
         };
         Self::ordered(words, complete)
     }
 
     /// Those of about `count` words drawn at random.
     pub fn sampled(task: &Task, limit: f64, seed: u64, count: usize) -> Self {
-        let words = (0..count / CHUNK)
-            .into_par_iter()
-            .flat_map_iter(|chunk| drawn(task, seed, chunk))
-            .map(|word| match task.exchangeable() {
+        let words = parallel::flat_map(0..count / CHUNK, |chunk| {
+            let words = drawn(task, seed, chunk).map(|word| match task.exchangeable() {
                 true => word.min(word.mate()),
                 false => word,
-            })
-            .filter(|word| sound(task, limit, word))
-            .collect();
+            });
+            words.filter(|word| sound(task, limit, word))
+        });
         Self::ordered(words, false)
     }
 
     fn ordered(mut words: Vec<Word>, complete: bool) -> Self {
-        words.par_sort_unstable();
+        words.sort_unstable();
         words.dedup();
         Self { words, complete }
     }

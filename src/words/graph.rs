@@ -1,9 +1,9 @@
 //! Which words go together: a graph with a word at each vertex.
 
+use crate::parallel;
 use std::borrow::Cow;
 
 use fixedbitset::FixedBitSet;
-use rayon::prelude::*;
 
 use super::Task;
 use super::word::Word;
@@ -94,7 +94,7 @@ impl<'a> Graph<'a> {
             task: self.task,
             words: pairs.iter().map(|pair| self.words[pair[0]]).collect(),
             limit: self.limit,
-            rows: pairs.par_iter().map(row).collect(),
+            rows: parallel::map(&pairs, row),
         };
         (folded, pairs)
     }
@@ -121,11 +121,9 @@ impl<'a> Graph<'a> {
     }
 
     fn worked_out(&self, vertex: usize) -> FixedBitSet {
-        let blocks: Vec<usize> = (0..self.len().div_ceil(BITS))
-            .into_par_iter()
-            .with_min_len(16)
-            .map(|block| self.block(vertex, block, 0))
-            .collect();
+        let blocks: Vec<usize> = parallel::map(0..self.len().div_ceil(BITS), |block| {
+            self.block(vertex, block, 0)
+        });
         FixedBitSet::with_capacity_and_blocks(self.len(), blocks)
     }
 
@@ -140,16 +138,13 @@ impl<'a> Graph<'a> {
     /// All rows: what lies above the diagonal worked out, the rest mirrored.
     fn all_rows(&self) -> Vec<FixedBitSet> {
         let n = self.len();
-        let mut rows: Vec<FixedBitSet> = (0..n)
-            .into_par_iter()
-            .map(|a| {
-                let blocks = (0..n.div_ceil(BITS)).map(|block| match (block + 1) * BITS <= a {
-                    true => 0,
-                    false => self.block(a, block, a + 1),
-                });
-                FixedBitSet::with_capacity_and_blocks(n, blocks)
-            })
-            .collect();
+        let mut rows: Vec<FixedBitSet> = parallel::map(0..n, |a| {
+            let blocks = (0..n.div_ceil(BITS)).map(|block| match (block + 1) * BITS <= a {
+                true => 0,
+                false => self.block(a, block, a + 1),
+            });
+            FixedBitSet::with_capacity_and_blocks(n, blocks)
+        });
         for a in 0..n {
             let (before, rest) = rows.split_at_mut(a + 1);
             for b in before[a].ones().filter(|b| *b > a) {

@@ -2,8 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
 use super::ends::Ends;
 use super::landscape::Landscape;
 use super::lower::Assessment;
@@ -22,9 +20,6 @@ use crate::potential::bounds::CellBounds;
 
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: usize = 3;
-
-/// Leaves that a thread subdivides one after the other.
-const TOGETHER: usize = 8;
 
 /// Certifies barriers of one landscape. What one query finds out about the landscape serves the
 /// next ones.
@@ -235,15 +230,11 @@ impl<'a> Certifier<'a> {
     /// Subdivides leaves, going on where a part may still be passed at `level` (J); returns how
     /// many of them could be subdivided.
     pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
-        let divided: Vec<_> = ids
-            .par_iter()
-            .with_max_len(TOGETHER)
-            .map(|&id| {
-                interruption::check();
-                let leaf = self.store.leaf(id);
-                self.parts(&leaf.key, &leaf.known, level)
-            })
-            .collect();
+        let divided: Vec<_> = parallel::map(ids, |&id| {
+            interruption::check();
+            let leaf = self.store.leaf(id);
+            self.parts(&leaf.key, &leaf.known, level)
+        });
         let mut count = 0;
         for (&id, (parts, assessed)) in ids.iter().zip(&divided) {
             if *assessed > 0 {

@@ -11,7 +11,6 @@ use super::routes::Ends;
 use super::{Link, Network, Route};
 use crate::parallel;
 use crate::problem::Problem;
-use rayon::prelude::*;
 
 /// Links that are looked at for those that can be weighed at once.
 const LOOKED_AT: usize = 32;
@@ -39,7 +38,7 @@ struct Waiting {
 
 impl Waiting {
     fn new(mut ascending: Vec<ByPeak>) -> Self {
-        ascending.par_sort_unstable();
+        ascending.sort_unstable();
         Self {
             ascending: ascending.into_iter().peekable(),
             again: BinaryHeap::new(),
@@ -190,7 +189,7 @@ impl Network {
     /// Those of them that span the network, `free` and all, ascending.
     fn spanning_links(&self) -> Vec<u32> {
         let mut ascending = self.hung();
-        ascending.par_sort_by_cached_key(|&number| self.by_peak(number));
+        ascending.sort_by_cached_key(|&number| self.by_peak(number));
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
         ascending.retain(|number| {
             let link = &self.links[*number as usize];

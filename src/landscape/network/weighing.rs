@@ -2,10 +2,9 @@
 
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-
 use super::{Link, Network};
 use crate::contact::Halves;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::Milestone;
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
@@ -31,21 +30,22 @@ impl Network {
             let Link { from, to, .. } = self.links[*link];
             [from, to].map(|node| &self.of_milestones[node as usize].1)
         };
-        let free = problem.free_among(open.into_par_iter(), ends).count();
-        free + weighed
-            .iter()
-            .filter(|link| !self.is_blocked(**link))
-            .count()
+        let free = problem.free_among(open.len(), |number| ends(&open[number]));
+        free.into_iter().filter(|is_free| *is_free).count()
+            + weighed
+                .iter()
+                .filter(|link| !self.is_blocked(**link))
+                .count()
     }
 
     /// Weighs those of some links that are not, side by side.
     pub(super) fn weigh(&mut self, problem: &Problem, links: &[usize]) {
         let open = links.iter().copied();
         let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
-        let costs: Vec<EdgeCosts> = open
-            .par_chunks(open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE))
-            .flat_map_iter(|some| self.costs_of_straight(problem, some))
-            .collect();
+        let together = open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE);
+        let parts: Vec<&[usize]> = open.chunks(together).collect();
+        let costs: Vec<EdgeCosts> =
+            parallel::flat_map(&parts, |some| self.costs_of_straight(problem, some));
         for (number, costs) in open.into_iter().zip(costs) {
             self.links[number].costs = OnceLock::from(costs);
         }

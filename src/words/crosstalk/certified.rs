@@ -9,7 +9,6 @@
 use std::collections::BinaryHeap;
 
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::{Couple, Stage};
 use crate::cell::{Cell, Quadratic};
@@ -17,6 +16,7 @@ use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells};
 use crate::interruption;
 use crate::landscape::certificate::lower::{Assessment, assess_open};
+use crate::parallel;
 use crate::potential::bounds::Enclosure;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
@@ -99,13 +99,10 @@ impl Stage {
         while cells < most_cells && !heap.is_empty() {
             let batch: Vec<Open> = (0..BATCH).map_while(|_| heap.pop()).collect();
             cells += batch.len();
-            let halves: Vec<Vec<Open>> = batch
-                .par_iter()
-                .map(|open| {
-                    interruption::check();
-                    self.look_at(open, couples, &wanted, &contact)
-                })
-                .collect();
+            let halves: Vec<Vec<Open>> = parallel::map(&batch, |open| {
+                interruption::check();
+                self.look_at(open, couples, &wanted, &contact)
+            });
             for mut open in halves.into_iter().flatten() {
                 open.number = made;
                 made += 1;

@@ -17,11 +17,11 @@ mod sampled;
 mod traps;
 
 use nalgebra::Vector2;
-use rayon::prelude::*;
 
 use super::Word;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::Contact;
+use crate::parallel;
 use crate::potential::{Energy, Interaction};
 use crate::problem::Problem;
 use crate::tile::{Magnet, Pair, Tile};
@@ -256,7 +256,7 @@ fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Se
         crate::interruption::check();
         work(item)
     };
-    items.par_iter().map(heeded).collect()
+    parallel::map(items, heeded)
 }
 
 /// The outward normal of the fixed tile's target face.
