@@ -17,6 +17,7 @@ mod weighing;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
+use fixedbitset::FixedBitSet;
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
@@ -76,6 +77,9 @@ pub struct Network {
     of_milestones: Vec<(Vector3<f64>, Option<Known>)>,
     /// What joins nodes.
     pub links: Vec<Link>,
+    /// Those that are weighed, but for what searches have weighed: they run side by side, and none may
+    /// know of what another one has done.
+    settled: FixedBitSet,
     /// How links are weighed.
     settings: EdgeSettings,
     space: ConfigurationSpace,
@@ -100,6 +104,7 @@ impl Network {
             nodes: Vec::with_capacity(nodes),
             of_milestones: parallel::map(&roadmap.milestones, of_milestone),
             links: Vec::with_capacity(links),
+            settled: FixedBitSet::new(),
             settings: *settings,
             space: problem.space.clone(),
             of_roadmap: links,
@@ -162,6 +167,8 @@ impl Network {
     fn push(&mut self, from: u32, to: u32, costs: OnceLock<EdgeCosts>) -> usize {
         let ends = [from, to].map(|node| NodeIndex::new(node as usize));
         self.graph.add_edge(ends[0], ends[1], ());
+        self.settled.grow(self.links.len() + 1);
+        self.settled.set(self.links.len(), costs.get().is_some());
         self.links.push(Link { from, to, costs });
         self.links.len() - 1
     }
@@ -203,10 +210,14 @@ impl Network {
 
     /// The same of its peak alone (J).
     fn peak(&self, link: usize) -> f64 {
-        let Link { from, to, costs } = &self.links[link];
-        if let Some(costs) = costs.get() {
-            return costs.peak;
+        match self.links[link].costs.get() {
+            Some(costs) => costs.peak,
+            None => self.peak_at_least(link),
         }
+    }
+
+    fn peak_at_least(&self, link: usize) -> f64 {
+        let Link { from, to, .. } = &self.links[link];
         let ends = [*from, *to].map(|node| self.nodes[node as usize]);
         let energies = ends.into_iter().flatten().map(|end| end.1);
         energies.fold(f64::NEG_INFINITY, f64::max)

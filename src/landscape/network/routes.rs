@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
+use fixedbitset::FixedBitSet;
 use ordered_float::OrderedFloat;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
@@ -10,6 +11,7 @@ use petgraph::visit::EdgeRef;
 use super::Network;
 use super::ahead::Ahead;
 use crate::problem::Problem;
+use crate::roadmap::edge::EdgeCosts;
 
 /// A path through the network: links with the direction in which each is gone.
 pub type Route = Vec<(usize, bool)>;
@@ -66,7 +68,7 @@ impl Network {
 
     /// A* ([`Ahead`]). A link that is not weighed waits by what it costs at least and is weighed when
     /// its turn comes; where it costs more, it waits again. So only links that might be the best way to
-    /// some node are weighed.
+    /// some node are weighed, the same ones whatever other searches weigh meanwhile.
     fn search(
         &self,
         problem: &Problem,
@@ -82,26 +84,29 @@ impl Network {
         reached[ends.from] = Some((0.0, None));
         let mut waiting = BinaryHeap::new();
         let mut ahead = Ahead::new(self, ends, cost, gone);
+        let mut weighed = self.settled.clone();
         // What weighed links that wait offer.
         let mut offered = vec![f64::INFINITY; self.nodes.len()];
         let mut here = ends.from;
         while !ends.goals.contains(&here) {
             for edge in self.graph.edges(NodeIndex::new(here)) {
                 let (number, target) = (edge.id().index(), edge.target().index());
-                if reached[target].is_some() || !self.is_allowed(number, ends, cost) {
+                if reached[target].is_some() || !self.is_allowed(&weighed, number, ends, cost) {
                     continue;
                 }
-                let total = reached[here]?.0 + self.cost(number, here, cost, gone);
+                let price = self.cost(&weighed, number, here, (cost, gone));
+                let total = reached[here]?.0 + price;
                 if total > offered[target] {
                     continue;
                 }
-                if self.is_weighed(number) {
+                if weighed.contains(number) {
                     offered[target] = total;
                 }
                 let key = [total + ahead.of(target), total].map(OrderedFloat);
                 waiting.push(Reverse((key, number as u32, here as u32)));
             }
-            here = self.best_of(problem, &mut waiting, &mut reached, (ends, &mut ahead))?;
+            let known = (&mut weighed, &mut reached[..]);
+            here = self.best_of(problem, &mut waiting, known, (ends, &mut ahead))?;
         }
         let route = self.route(here, |node| reached[node]?.1);
         Some((here, reached[here]?.0, route))
@@ -124,7 +129,7 @@ impl Network {
         &self,
         problem: &Problem,
         waiting: &mut BinaryHeap<Waiting>,
-        reached: &mut [Option<(f64, Option<u32>)>],
+        (weighed, reached): (&mut FixedBitSet, &mut [Option<(f64, Option<u32>)>]),
         (ends, ahead): (Ends, &mut Ahead),
     ) -> Option<usize> {
         let (cost, gone) = (ahead.cost, ahead.gone);
@@ -136,11 +141,12 @@ impl Network {
                 continue;
             }
             self.weighed(problem, number as usize);
-            if !self.is_allowed(number as usize, ends, cost) {
+            weighed.insert(number as usize);
+            if !self.is_allowed(weighed, number as usize, ends, cost) {
                 continue;
             }
             let from = source as usize;
-            let price = self.cost(number as usize, from, cost, gone);
+            let price = self.cost(weighed, number as usize, from, (cost, gone));
             let total = reached[from]?.0 + price;
             let key = [total + ahead.of(target), total].map(OrderedFloat);
             if key <= least {
@@ -151,11 +157,19 @@ impl Network {
         }
     }
 
-    fn is_allowed(&self, number: usize, ends: Ends, cost: Cost) -> bool {
+    /// What a link costs, if a search has `weighed` it.
+    fn known_costs(&self, weighed: &FixedBitSet, number: usize) -> Option<&EdgeCosts> {
+        let costs = &self.links[number].costs;
+        costs.get().filter(|_| weighed.contains(number))
+    }
+
+    fn is_allowed(&self, weighed: &FixedBitSet, number: usize, ends: Ends, cost: Cost) -> bool {
+        let costs = self.known_costs(weighed, number);
+        let peak = || costs.map_or_else(|| self.peak_at_least(number), |costs| costs.peak);
         let may_help = match cost {
-            Cost::Below { highest, .. } => self.peak(number) <= highest,
+            Cost::Below { highest, .. } => peak() <= highest,
             Cost::Work | Cost::Probability => true,
-        } && !self.is_blocked(number);
+        } && costs != Some(&EdgeCosts::BLOCKED);
         may_help && self.is_motion(number, ends)
     }
 
@@ -174,17 +188,22 @@ impl Network {
     /// What it costs to go along a link from one of its ends, or, `Backwards`, to there; at least, where
     /// it is not weighed. A motion never costs less than that, be it by a rounding: a search would find
     /// another of two as good routes where somebody else had weighed the link before.
-    fn cost(&self, number: usize, from: usize, cost: Cost, gone: Gone) -> f64 {
+    fn cost(
+        &self,
+        weighed: &FixedBitSet,
+        number: usize,
+        from: usize,
+        (cost, gone): (Cost, Gone),
+    ) -> f64 {
         let link = &self.links[number];
         let is_back = (link.from as usize != from) != (gone == Gone::Backwards);
         let direction = usize::from(is_back);
         let least = self.costs_at_least(number);
         let climb = least.work[direction] - least.work[1 - direction];
         let least = self.least_cost(cost, least.length, climb);
-        if !self.is_weighed(number) {
+        let Some(costs) = self.known_costs(weighed, number) else {
             return least;
-        }
-        let costs = self.costs(number);
+        };
         let price = match cost {
             Cost::Work => costs.work[direction],
             Cost::Probability => costs.minus_ln_probability[direction],

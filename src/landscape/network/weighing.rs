@@ -48,10 +48,11 @@ impl Network {
             parallel::flat_map(&parts, |some| self.costs_of_straight(problem, some));
         for (number, costs) in open.into_iter().zip(costs) {
             self.links[number].costs = OnceLock::from(costs);
+            self.settled.insert(number);
         }
     }
 
-    /// Weighs a link, unless it is.
+    /// Weighs a link for a search, unless any has.
     pub(super) fn weighed(&self, problem: &Problem, number: usize) {
         let weigh = || self.costs_of_straight(problem, &[number])[0];
         self.links[number].costs.get_or_init(weigh);
