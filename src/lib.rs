@@ -60,8 +60,9 @@
 //! - Point dipoles are too weak near contact (see `results/README.md`); they are the default
 //!   because they are fast and rank codes and shapes alike.
 //! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
-//!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds. Within
-//!   the certificate's time limit results are the same bytes on any number of threads.
+//!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds.
+//! - Work is counted, not timed (see [`budget`]): results are the same bytes on any number of threads,
+//!   busy or idle, unless a clock is set (`--certify-seconds`, `--complete-seconds`) and ends a proof.
 //! - Tiles of 128 magnets and more: far groups of point dipoles are replaced by fewer, with
 //!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair. From some
 //!   64 magnets a face on surveys take long all the same, up to hours for hundreds: there are many
@@ -104,6 +105,7 @@
 //! dependencies state; a compiler that old has not been tried.
 
 pub mod assembly;
+pub mod budget;
 pub mod calibration;
 pub mod cell;
 mod checksum;

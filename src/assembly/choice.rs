@@ -4,8 +4,8 @@
 //! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones
 //! included, attract by at most (1 - gap) of the weakest bond of strength 1.
 
+use crate::budget::Budget;
 use crate::order::Order;
-use crate::words::budget::Budget;
 use crate::words::candidates::{Candidates, number};
 use crate::words::graph::Graph;
 use crate::words::search::{self, Effort};
@@ -70,8 +70,6 @@ pub struct Class {
 
 /// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
 const WEAKER: f64 = 0.97;
-/// The clock ends work that takes so many times longer than it should.
-const LATE: f64 = 30.0;
 /// Share of the work left for bounds, where there are several strengths.
 const FOR_BOUNDS: f64 = 0.3;
 /// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
@@ -96,7 +94,7 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choi
     let unit = asked.magnets(places, weakest, strongest);
     let trial = |gap: f64, trials: f64| {
         let seconds = asked.seconds / trials;
-        let budget = Budget::seconds(seconds, Budget::deadline(LATE * seconds));
+        let budget = Budget::seconds(seconds);
         let mut effort = Effort {
             seed: asked.seed,
             budget,
@@ -291,6 +289,10 @@ fn beside(
         false => Candidates::sampled(task, limit, effort.seed, 2 * MOST_JUDGED),
     };
     let mut words = thinned(all.words, MOST_JUDGED);
+    let judged = words.len() as u64 * (1 + there.len() as u64) * task.judgement();
+    effort
+        .budget
+        .spend((all.work + judged).min(effort.budget.left() / 2));
     words.retain(|word| {
         task.rules.bond(&task.lags, *word) >= least
             && there

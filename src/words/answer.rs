@@ -38,8 +38,6 @@ pub struct Answer {
     pub candidates: usize,
     /// See there.
     pub complete: bool,
-    /// Whether the clock ended the search, so that another run may end elsewhere.
-    pub late: bool,
 }
 
 /// Words on one page of a frontier at most: it ends where there are more.
@@ -70,7 +68,7 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
             Answer {
                 judgement: judged(&found.words),
                 beyond,
-                ..of(found, effort)
+                ..of(found)
             }
         }
         Question::Count(count) => {
@@ -86,13 +84,10 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
                 upper,
                 proved: widest.proved,
                 gap_upper: Some(widest.upper),
-                ..of(
-                    Found {
-                        words: Vec::new(),
-                        ..found
-                    },
-                    effort,
-                )
+                ..of(Found {
+                    words: Vec::new(),
+                    ..found
+                })
             }
         }
         Question::Frontier => {
@@ -110,18 +105,18 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
                 .min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)))
                 .cloned();
             let Some((point, judgement)) = middle else {
-                return of(search::largest(task, MIDDLE, usize::MAX, effort), effort);
+                return of(search::largest(task, MIDDLE, usize::MAX, effort));
             };
             Answer {
                 judgement,
                 frontier: points,
-                ..of(point.found, effort)
+                ..of(point.found)
             }
         }
     }
 }
 
-fn of(found: Found, effort: &Effort) -> Answer {
+fn of(found: Found) -> Answer {
     Answer {
         upper: found.upper,
         proved: found.is_proved(),
@@ -131,7 +126,6 @@ fn of(found: Found, effort: &Effort) -> Answer {
         beyond: None,
         candidates: found.candidates,
         complete: found.complete,
-        late: effort.budget.is_late(),
         words: found.words,
     }
 }

@@ -15,6 +15,8 @@ const MOST_ENUMERATED: f64 = (1u64 << 23) as f64;
 const SAMPLE: u64 = 1 << 19;
 /// Of a sample so small that all of it can be judged so often with the work there is.
 const JUDGED: u64 = 1000;
+/// Units of work that drawing a word takes.
+const DRAWN: u64 = 100;
 /// Words of a sample share a random stream.
 const CHUNK: usize = 1 << 12;
 
@@ -25,6 +27,8 @@ pub struct Candidates {
     pub words: Vec<Word>,
     /// Whether these are all there are.
     pub complete: bool,
+    /// Units of work that finding them took.
+    pub work: u64,
 }
 
 impl Candidates {
@@ -48,7 +52,7 @@ impl Candidates {
                 words.filter(|word| sound(task, limit, word))
             }),
         };
-        Self::ordered(words, complete)
+        Self::ordered(words, complete, number as u64 * task.judgement())
     }
 
     /// Those of about `count` words drawn at random.
@@ -60,13 +64,17 @@ impl Candidates {
             });
             words.filter(|word| sound(task, limit, word))
         });
-        Self::ordered(words, false)
+        Self::ordered(words, false, count as u64 * (DRAWN + task.judgement()))
     }
 
-    fn ordered(mut words: Vec<Word>, complete: bool) -> Self {
+    fn ordered(mut words: Vec<Word>, complete: bool, work: u64) -> Self {
         words.sort_unstable();
         words.dedup();
-        Self { words, complete }
+        Self {
+            words,
+            complete,
+            work,
+        }
     }
 }
 

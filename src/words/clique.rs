@@ -7,7 +7,8 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::budget::Budget;
+use crate::budget::Budget;
+
 use super::graph::Graph;
 
 /// A clique, and what is known of larger ones.
@@ -22,6 +23,9 @@ pub struct Clique {
 /// Finds a largest clique of a graph that is held, from one already known on; or, where the budget
 /// ends, the largest one so far and a bound.
 pub fn largest(graph: &Graph, known: Vec<usize>, budget: &mut Budget) -> Clique {
+    // Each edge is looked at some times, and each two vertices once to be ordered.
+    let pairs = (graph.len() * graph.len()) as u64;
+    budget.spend(pairs * LOOKED_AT);
     let order = order(graph);
     let position = inverse(&order);
     let rows: Vec<FixedBitSet> = order
@@ -79,6 +83,8 @@ fn permuted(row: &FixedBitSet, position: &[usize]) -> FixedBitSet {
     out
 }
 
+/// Units of work that finding an order and symmetries takes for each two vertices.
+const LOOKED_AT: u64 = 1;
 /// Units of work that every step takes, however small the graph.
 const OVERHEAD: u64 = 24;
 /// Larger graphs are ordered by the number of neighbours alone.

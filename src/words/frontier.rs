@@ -2,6 +2,7 @@
 
 use super::Task;
 use super::search::{self, Effort, Found};
+use super::set::Weighed;
 use super::word::Word;
 
 /// The widest gap of so many words.
@@ -97,16 +98,11 @@ fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> Found {
 
 /// So many of the words, those taken away whose loss widens the gap most.
 fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
-    let mut words = words.to_vec();
-    while words.len() > count {
-        let worst = task.judge(&words).and_then(|set| set.worst);
-        let in_worst = |word: &Word| {
-            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
-        };
-        let gone = words.iter().position(in_worst).unwrap_or(words.len() - 1);
-        words.remove(gone);
+    let mut set = Weighed::new(task, words.to_vec());
+    while set.words().len() > count {
+        set.drop_worst();
     }
-    words
+    set.words().to_vec()
 }
 
 /// A point of the frontier.

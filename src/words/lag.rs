@@ -67,6 +67,8 @@ impl Bar {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lags {
     energies: Vec<f64>,
+    /// J(|d|) from the least d on.
+    either_way: Vec<f64>,
     /// The sum of the k largest magnitudes but for the first (J), those of either side apart.
     beside: Vec<f64>,
 }
@@ -102,6 +104,12 @@ impl Lags {
         });
         Self {
             beside: std::iter::once(0.0).chain(largest).collect(),
+            either_way: energies[1..]
+                .iter()
+                .rev()
+                .chain(&energies)
+                .copied()
+                .collect(),
             energies,
         }
     }
@@ -131,6 +139,38 @@ impl Lags {
         (-last..=last)
             .map(|l| self.energies[(l - s).unsigned_abs() as usize] * f64::from(correlations.at(l)))
             .sum()
+    }
+
+    /// The same at all slides, side by side: each the sum of the same terms in the same order.
+    pub(super) fn energies(&self, correlations: &Correlations) -> BySlide {
+        let count = self.energies.len();
+        let mut sums = [0.0; 2 * MOST_PLACES];
+        for (l, value) in correlations.values[..count].iter().enumerate() {
+            if *value == 0 {
+                continue;
+            }
+            let value = f64::from(*value);
+            let energies = &self.either_way[count - 1 - l..2 * count - 1 - l];
+            for (sum, energy) in sums[..count].iter_mut().zip(energies) {
+                *sum += energy * value;
+            }
+        }
+        BySlide {
+            last: correlations.places - 1,
+            sums,
+        }
+    }
+}
+
+/// Energies (J) of two words at all slides.
+pub(super) struct BySlide {
+    last: usize,
+    sums: [f64; 2 * MOST_PLACES],
+}
+
+impl BySlide {
+    pub fn at(&self, s: i32) -> f64 {
+        self.sums[(s + self.last as i32) as usize]
     }
 }
 

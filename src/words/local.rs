@@ -13,7 +13,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::budget::Budget;
+use crate::budget::Budget;
+
 use super::graph::Graph;
 
 /// Walks of their own through the same graph.
@@ -41,6 +42,9 @@ pub fn search(
     let mut walks: Vec<Walk> = (0..walks)
         .map(|walk| Walk::new(graph, &best, seed, walk as u64))
         .collect();
+    if !graph.is_held() {
+        budget.spend((best.len() * graph.len()) as u64 * graph.judgement());
+    }
     while best.len() < enough && !budget.is_spent() {
         let mut parts: Vec<Budget> = walks.iter().map(|_| budget.part(ROUND)).collect();
         walks
@@ -102,7 +106,7 @@ impl<'a> Walk<'a> {
             false => self.graph.judgement() * self.graph.len() as u64,
         };
         while !budget.is_spent() && self.best.len() < enough {
-            budget.spend(2 * scan + judged);
+            budget.spend(scan + judged);
             match self.choose() {
                 [Some(vertex), _] => {
                     self.add(vertex);

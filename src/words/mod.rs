@@ -14,12 +14,10 @@
 //! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
 //! - [`answer`](mod@answer) - a question answered;
 //! - [`continuous`] - positions and poles together, over all poses;
-//! - [`crosstalk`] - attraction of every two words over all poses;
-//! - [`budget`] - work, counted so that results do not depend on the machine.
+//! - [`crosstalk`] - attraction of every two words over all poses.
 
 pub mod answer;
 pub mod bound;
-pub mod budget;
 pub mod candidates;
 pub mod clique;
 pub mod constraint;
@@ -45,6 +43,9 @@ pub use lag::{Bar, BarError, Lags, PAPER_FACE};
 pub use rules::{Faces, Meeting, Rules, Shape};
 pub use set::Judgement;
 pub use word::Word;
+
+/// Products of energies and correlations that take a unit of work.
+const WEIGHED_A_UNIT: u64 = 24;
 
 /// What words are wanted.
 #[derive(Clone, Debug)]
@@ -73,6 +74,16 @@ impl Task {
         (!self.rules.words_meet() || u != v.mate())
             && self.rules.within(&self.lags, u, v, limit)
             && self.constraints.allow_both(&self.lags, &self.rules, u, v)
+    }
+
+    /// Units of work that finding the strongest wrong meetings of so many words counts as.
+    fn weighing(&self, words: usize) -> u64 {
+        let lags = 2 * self.places as u64;
+        let each = match self.rules.fault {
+            Some(_) => self.rules.meetings(self.places) as u64 * lags * lags,
+            None => self.rules.ways_of_meeting() as u64 * lags * lags / WEIGHED_A_UNIT,
+        };
+        (words * words / 2) as u64 * (20 + each)
     }
 
     /// Units of work that finding out whether two words go together counts as.

@@ -97,7 +97,7 @@ pub struct Meeting {
 
 impl Meeting {
     /// The one that attracts more; the first of equals.
-    fn stronger(self, other: Self) -> Self {
+    pub(super) fn stronger(self, other: Self) -> Self {
         if other.energy < self.energy {
             other
         } else {
@@ -129,6 +129,11 @@ impl Rules {
     /// How many meetings two words of so many places have.
     pub fn meetings(&self, places: usize) -> usize {
         self.ways().count() * self.slides_of(places).count()
+    }
+
+    /// How many ways they meet in, at any slide.
+    pub(super) fn ways_of_meeting(&self) -> usize {
+        self.ways().count()
     }
 
     fn ways(&self) -> impl Iterator<Item = Way> {
@@ -215,25 +220,23 @@ impl Rules {
 
     fn strongest_way(&self, lags: &Lags, [u, v]: [Word; 2], way: Way) -> Option<Meeting> {
         let facing = way.facing(v);
-        let all = Correlations::new(u, facing);
+        let all = lags.energies(&Correlations::new(u, facing));
         let slides = self.slides_of(u.places());
         let wrong = slides.filter(|s| !Self::is_bond(way, *s, u == v));
-        let energies = wrong.map(|s| {
-            let (energy, faulty) = match self.fault {
-                Some(fault) => fault.least(lags, -way.sign(), [u, facing], s),
-                None => (-way.sign() * lags.energy(&all, s), [None; 2]),
-            };
-            Meeting {
-                first: u,
-                second: if way.mate { v.mate() } else { v },
-                flipped: way.flipped,
-                // u[k] faces place k + s of the second, counted from its end.
-                slide: -s,
-                energy,
-                faulty: [faulty[0], faulty[1].map(|j| way.place(j, v.places()))],
-            }
+        let energies = wrong.map(|s| match self.fault {
+            Some(fault) => (fault.least(lags, -way.sign(), [u, facing], s), s),
+            None => ((-way.sign() * all.at(s), [None; 2]), s),
         });
-        energies.reduce(Meeting::stronger)
+        let ((energy, faulty), s) = energies.reduce(|a, b| if b.0.0 < a.0.0 { b } else { a })?;
+        Some(Meeting {
+            first: u,
+            second: if way.mate { v.mate() } else { v },
+            flipped: way.flipped,
+            // u[k] faces place k + s of the second, counted from its end.
+            slide: -s,
+            energy,
+            faulty: [faulty[0], faulty[1].map(|j| way.place(j, v.places()))],
+        })
     }
 
     /// The depth (J) of the bond of a word and its mate, flush; with the worst faults where faces
@@ -259,10 +262,10 @@ impl Rules {
             mate,
             flipped: false,
         };
-        let all = Correlations::new(u, way.facing(v));
+        let all = lags.energies(&Correlations::new(u, way.facing(v)));
         self.slides_of(u.places())
             .filter(|s| !Self::is_bond(way, *s, u == v))
-            .map(|s| -way.sign() * lags.energy(&all, s))
+            .map(|s| -way.sign() * all.at(s))
             .collect()
     }
 }

@@ -1,5 +1,8 @@
 //! Sets of words, judged.
 
+use rayon::prelude::*;
+
+use super::Task;
 use super::lag::Lags;
 use super::rules::{Meeting, Rules};
 use super::word::Word;
@@ -20,28 +23,99 @@ impl Judgement {
     pub fn of(words: &[Word], lags: &Lags, rules: &Rules) -> Option<Self> {
         let bonds = words.iter().map(|word| rules.bond(lags, *word));
         let bond = bonds.reduce(f64::min)?;
-        let mut worst: Option<Meeting> = None;
-        for (i, u) in words.iter().enumerate() {
-            for v in &words[i..] {
-                let found = rules.strongest(lags, *u, *v);
-                let worse = |it: &Meeting| worst.is_none_or(|worst| it.energy < worst.energy);
-                worst = found.filter(worse).or(worst);
-            }
-        }
-        // With faults a bond may be none at all.
-        if bond <= 0.0 {
-            return Some(Self {
-                bond,
-                worst,
-                gap: f64::MIN,
-            });
-        }
-        let attraction = worst.map_or(0.0, |worst| (-worst.energy).max(0.0));
+        let strongest_from = |(i, u): (usize, &Word)| {
+            let found = words[i..]
+                .iter()
+                .filter_map(|v| rules.strongest(lags, *u, *v));
+            found.reduce(Meeting::stronger)
+        };
+        let strongest: Vec<Option<Meeting>> =
+            words.par_iter().enumerate().map(strongest_from).collect();
+        let worst = strongest.into_iter().flatten().reduce(Meeting::stronger);
+        let energy = worst.map_or(f64::INFINITY, |worst| worst.energy);
         Some(Self {
             bond,
             worst,
-            gap: 1.0 - attraction / bond,
+            gap: gap(bond, energy),
         })
+    }
+}
+
+/// Words, with what the strongest wrong meeting of every two comes to, so that some can be taken away.
+pub(super) struct Weighed<'a> {
+    task: &'a Task,
+    words: Vec<Word>,
+    /// Depths (J).
+    bonds: Vec<f64>,
+    /// Energies (J) of every word with itself and those after it; infinite where they never meet.
+    wrong: Vec<Vec<f64>>,
+}
+
+impl<'a> Weighed<'a> {
+    pub fn new(task: &'a Task, words: Vec<Word>) -> Self {
+        let (lags, rules) = (&task.lags, &task.rules);
+        let energy = |u: &Word, v: &Word| {
+            let worst = rules.strongest(lags, *u, *v);
+            worst.map_or(f64::INFINITY, |worst| worst.energy)
+        };
+        let from = |(i, u): (usize, &Word)| words[i..].iter().map(|v| energy(u, v)).collect();
+        Self {
+            bonds: words.iter().map(|word| rules.bond(lags, *word)).collect(),
+            wrong: words.par_iter().enumerate().map(from).collect(),
+            task,
+            words,
+        }
+    }
+
+    pub fn words(&self) -> &[Word] {
+        &self.words
+    }
+
+    /// The first two words that meet most strongly where they should not, and the energy (J).
+    fn worst(&self) -> (f64, [usize; 2]) {
+        let all = self.wrong.iter().enumerate();
+        let all =
+            all.flat_map(|(i, row)| row.iter().enumerate().map(move |(k, u)| (*u, [i, i + k])));
+        let first = (f64::INFINITY, [0; 2]);
+        all.fold(first, |least, it| if it.0 < least.0 { it } else { least })
+    }
+
+    /// As [`Judgement`] has it; `None` of no words.
+    pub fn gap(&self) -> Option<f64> {
+        let bond = self.bonds.iter().copied().reduce(f64::min)?;
+        Some(gap(bond, self.worst().0))
+    }
+
+    /// Takes a word of the strongest wrong meeting away.
+    pub fn drop_worst(&mut self) {
+        let (energy, [i, j]) = self.worst();
+        let worst = match energy < f64::INFINITY {
+            true => self
+                .task
+                .rules
+                .strongest(&self.task.lags, self.words[i], self.words[j]),
+            false => None,
+        };
+        let in_worst = |word: &Word| {
+            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
+        };
+        let last = self.words.len() - 1;
+        let gone = self.words.iter().position(in_worst).unwrap_or(last);
+        self.words.remove(gone);
+        self.bonds.remove(gone);
+        self.wrong.remove(gone);
+        for (i, row) in self.wrong[..gone].iter_mut().enumerate() {
+            row.remove(gone - i);
+        }
+    }
+}
+
+/// 1 less the strongest wrong attraction over the weakest bond (J), of energies.
+fn gap(bond: f64, worst: f64) -> f64 {
+    match bond > 0.0 {
+        true => 1.0 - (-worst).max(0.0) / bond,
+        // With faults a bond may be none at all.
+        false => f64::MIN,
     }
 }
 

@@ -4,8 +4,8 @@ use tilebind::report::words::{Spaced, SpacedError};
 use tilebind::words::continuous::Wanted;
 use tilebind::words::{Bar, Faces, Question};
 
+use super::super::Failure;
 use super::super::figures::command_line;
-use super::super::{Failure, tell};
 use super::Words;
 
 impl Words {
@@ -37,9 +37,6 @@ impl Words {
             }
             _ => Failure::Usage(error.to_string()),
         })?;
-        if spaced.late {
-            tell("note: the clock ended the search; the same command may find other words");
-        }
         self.finish(
             &spaced.json(),
             || spaced.files(&command_line()),

@@ -7,17 +7,17 @@ pub(super) mod values;
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::budget::Budget;
 use tilebind::design::MagnetModel;
 use tilebind::report::files::Files;
 use tilebind::report::words::{self as report, Request};
 use tilebind::report::writer;
-use tilebind::words::budget::Budget;
 use tilebind::words::search::Effort;
 use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use super::figures::command_line;
 use super::options::{PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell, tell_of_kept};
+use super::{Failure, input, interrupt, tell_of_kept};
 use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
@@ -194,7 +194,7 @@ impl Words {
         };
         let mut effort = Effort {
             seed: self.work.seed,
-            budget: Budget::seconds(self.seconds, Budget::deadline(3.0 * self.seconds)),
+            budget: Budget::seconds(self.seconds),
         };
         let answer = answer(&task, question, &energies, &mut effort);
         let request = Request {
@@ -207,9 +207,6 @@ impl Words {
             seconds: self.seconds,
             energies,
         };
-        if answer.late {
-            tell("note: the clock ended the search; the same command may find other words");
-        }
         let json = report::json(&request, &answer);
         self.finish(
             &json,

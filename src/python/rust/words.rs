@@ -1,10 +1,10 @@
 //! Sets of barcodes that bind their mates and nothing else.
 
 use pyo3::prelude::*;
+use tilebind::budget::Budget;
 use tilebind::design::WordSet;
 use tilebind::report::crosstalk as crosstalk_report;
 use tilebind::report::words::{self as report, Request, Spaced};
-use tilebind::words::budget::Budget;
 use tilebind::words::continuous::Wanted;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 use tilebind::words::search::Effort;
@@ -165,7 +165,7 @@ pub fn words<'py>(
     };
     let mut effort = Effort {
         seed,
-        budget: Budget::seconds(seconds, Budget::deadline(3.0 * seconds)),
+        budget: Budget::seconds(seconds),
     };
     let answer = job::run(py, progress, |told| {
         told.tell(0.0, "words".to_owned());

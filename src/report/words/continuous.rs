@@ -33,8 +33,6 @@ pub struct Spaced {
     pub seed: u64,
     /// Work to do (s).
     pub seconds: f64,
-    /// Whether the clock ended the search.
-    pub late: bool,
     /// The set as a file, and its crosstalk; `None` of no words.
     pub judged: Option<(WordSet, Crosstalk)>,
 }
@@ -127,7 +125,6 @@ impl Spaced {
             "gap": found.and_then(Crosstalk::gap),
             "bond_J": found.and_then(|found| found.weakest_bond()).map(|bond| -bond.1),
             "worst": worst,
-            "stopped_by_clock": self.late,
             "seed": self.seed,
             "settings": {
                 "continuous": true,

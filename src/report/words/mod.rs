@@ -84,8 +84,6 @@ fn value(request: &Request, answer: &Answer) -> Value {
         "candidates": answer.candidates,
         // Whether these were all words that satisfy the constraints by themselves.
         "all_candidates": answer.complete,
-        // Whether the clock ended the search: only then another run may find other words.
-        "stopped_by_clock": answer.late,
         "seed": request.seed,
         "settings": {
             "design": request.design,

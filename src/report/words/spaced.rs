@@ -2,11 +2,11 @@
 //! as its file tells it.
 
 use super::{Spaced, rounded, spaced_toml};
+use crate::budget::Budget;
 use crate::design::{DesignError, WordSet};
 use crate::words::Question;
-use crate::words::budget::Budget;
 use crate::words::continuous::{SpacedWord, Wanted, search};
-use crate::words::crosstalk::{Crosstalk, Stage};
+use crate::words::crosstalk::{Crosstalk, Stage, sampling_work};
 use crate::words::search::Effort;
 use crate::words::word::MOST_PLACES;
 
@@ -79,7 +79,7 @@ impl Spaced {
         check(wanted, asked)?;
         let mut effort = Effort {
             seed,
-            budget: Budget::seconds(seconds, Budget::deadline(3.0 * seconds)),
+            budget: Budget::seconds(seconds),
         };
         let (words, judged) = match asked {
             Question::Count(count) => of_count(wanted, count, &mut effort)?,
@@ -93,7 +93,6 @@ impl Spaced {
             face: wanted.face,
             seed,
             seconds,
-            late: effort.budget.is_late(),
             judged,
         })
     }
@@ -125,6 +124,7 @@ fn of_count(
     count: usize,
     effort: &mut Effort,
 ) -> Result<(Vec<SpacedWord>, Judged), DesignError> {
+    effort.budget.spend(judging(wanted, count));
     let found = search(wanted, count, &[], 0.0, effort);
     let words = told(found.map(|found| found.words));
     let judged = judged(wanted, &words)?;
@@ -141,6 +141,12 @@ fn of_gap(
     let most = MOST_PLACES / (2 * wanted.magnets);
     'more: for count in 1..=most {
         for margin in MARGINS {
+            // One word is judged in any case.
+            let judging = judging(wanted, count);
+            if count > 1 && judging > effort.budget.left() {
+                break 'more;
+            }
+            effort.budget.spend(judging);
             let mut part = Effort {
                 seed: effort.seed,
                 budget: effort.budget.share(FOR_A_WORD),
@@ -159,6 +165,11 @@ fn of_gap(
         break;
     }
     Ok(best)
+}
+
+/// Units of work that judging so many words takes: each and its mate has places of its own.
+fn judging(wanted: &Wanted, count: usize) -> u64 {
+    sampling_work(2 * wanted.magnets * count)
 }
 
 fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {

@@ -4,10 +4,10 @@ use nalgebra::Vector2;
 
 use super::pose::Meetings;
 use super::*;
+use crate::budget::Budget;
 use crate::contact::Contact;
 use crate::potential::dipole::pair;
 use crate::tile::Outline;
-use crate::words::budget::Budget;
 use crate::words::search::Effort;
 
 fn wanted(magnets: usize) -> Wanted {
@@ -28,7 +28,7 @@ fn wanted(magnets: usize) -> Wanted {
 fn effort(seconds: f64) -> Effort {
     Effort {
         seed: 1,
-        budget: Budget::seconds(seconds, None),
+        budget: Budget::seconds(seconds),
     }
 }
 

@@ -26,6 +26,8 @@ use crate::potential::{Energy, Interaction};
 use crate::problem::Problem;
 use crate::tile::{Magnet, Pair, Tile};
 
+pub use sampled::work as sampling_work;
+
 /// The usual width of bounds, as a share of two magnets' energy.
 pub const TOLERANCE: f64 = 0.25;
 

@@ -23,6 +23,14 @@ const POLISHED: usize = 4;
 /// Where compass search ends (m).
 const FINEST: f64 = 1e-6;
 
+/// Units of work that sampling couples of words with so many places takes: most of it for the energy
+/// of each magnet with each, at all poses of the grid.
+pub fn work(places: usize) -> u64 {
+    const A_PAIR: u64 = 30;
+    let slides = 2 * (SLIDES_A_PLACE as usize * places) + 1;
+    A_PAIR * (tilts().len() * slides * places * places) as u64
+}
+
 /// Tilt (rad), slide (m), and how far drawn back (m).
 pub(super) type Setting = [f64; 3];
 

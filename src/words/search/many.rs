@@ -10,10 +10,10 @@ use rand::seq::SliceRandom;
 use rand::seq::index::sample;
 use rand_chacha::ChaCha8Rng;
 
-use super::super::budget::Budget;
 use super::super::graph::Graph;
 use super::super::local;
 use super::Search;
+use crate::budget::Budget;
 
 /// Weakest bonds tried first, each leaving this share of the words of the one before, and then
 /// twice those midway between the best one and its neighbours.
@@ -43,6 +43,9 @@ impl Search<'_> {
         let mut trials: Vec<Trial> = Vec::new();
         let number = BONDS + 2 * HALVINGS;
         for k in 0..number {
+            if self.effort.budget.is_spent() {
+                break;
+            }
             let share = 1.0 / (number - k) as f64;
             let at = match k {
                 0..BONDS => Some(self.leaving(first, last, LEFT.powi(k as i32))),
@@ -52,10 +55,12 @@ impl Search<'_> {
                 continue;
             };
             let mut part = work.share(share);
-            let graph = self.graph(at..=at);
+            let graph = self.graph(at..=at, false);
             let members = self.taken(&graph, &mut rng, &mut part);
             work.give_back(&part);
-            self.accept(&graph, &members);
+            if members.len() > self.best.len() {
+                self.accept(&graph, &members);
+            }
             trials.push(Trial { at, members });
             trials.sort_by_key(|trial| trial.at);
         }
@@ -81,7 +86,7 @@ impl Search<'_> {
 
     /// Improves a set of words with what work is left.
     fn improved(&mut self, at: usize, mut members: Vec<usize>, rng: &mut ChaCha8Rng) {
-        let graph = self.graph(at..=at);
+        let graph = self.graph(at..=at, false);
         for round in 0..ROUNDS {
             let mut work = self.effort.budget.share(1.0 / (ROUNDS - round) as f64);
             self.improve(&graph, &mut members, rng, &mut work);

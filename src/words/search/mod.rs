@@ -14,10 +14,12 @@ use std::ops::RangeInclusive;
 use rayon::prelude::*;
 use symmetric::symmetric;
 
-use super::budget::Budget;
+use crate::budget::Budget;
+
 use super::candidates::Candidates;
 use super::clique::{self, Clique};
 use super::graph::Graph;
+use super::set::Weighed;
 use super::word::Word;
 use super::{Task, local};
 
@@ -63,6 +65,8 @@ const WITHIN_REACH: f64 = 1.5;
 /// Share of the work left for sets that have a symmetry, of large graphs.
 const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
+/// Units of work that finding a bond's depth takes.
+const BOND: u64 = 100;
 /// Weakest bonds tried where nothing is proved of the whole range.
 const LADDER: usize = 8;
 
@@ -87,6 +91,9 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         words.retain(|(_, word)| sound(*word));
     }
     let candidates = words.len();
+    // Of little work there is always some left to do something with what was drawn.
+    let looked = first.work + candidates as u64 * BOND;
+    effort.budget.spend(looked.min(effort.budget.left() / 2));
     let mut bonds: Vec<f64> = words.iter().map(|(bond, _)| *bond).collect();
     bonds.sort_by(|a, b| b.total_cmp(a));
     bonds.dedup_by(|a, b| (*a - *b).abs() <= SAME * b.abs());
@@ -151,9 +158,8 @@ impl<'a> Search<'a> {
     }
 
     /// Whether a set has the gap.
-    fn has_gap(&self, words: &[Word]) -> bool {
-        let gap = self.task.judge(words).map_or(1.0, |set| set.gap);
-        gap >= self.gap - 2.0 * SAME
+    fn has_gap(&self, set: &Weighed) -> bool {
+        set.gap().unwrap_or(1.0) >= self.gap - 2.0 * SAME
     }
 
     /// Searches the sets whose weakest bond is in a range of [`Self::bonds`], and gives an upper
@@ -163,8 +169,7 @@ impl<'a> Search<'a> {
             return self.best.len();
         }
         let (first, last) = (*range.start(), *range.end());
-        let graph = self.graph(range);
-        self.effort.budget.spend(graph.work());
+        let graph = self.graph(range, true);
         if graph.len() <= self.best.len() {
             return graph.len();
         }
@@ -198,8 +203,9 @@ impl<'a> Search<'a> {
         deep.max(self.range(middle + 1..=last))
     }
 
-    /// The graph of the sets whose weakest bond is in a range.
-    fn graph(&self, range: RangeInclusive<usize>) -> Graph<'a> {
+    /// The graph of the sets whose weakest bond is in a range, to be held as a whole if there is work
+    /// enough for that.
+    fn graph(&mut self, range: RangeInclusive<usize>, is_held: bool) -> Graph<'a> {
         let task = self.task;
         let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
         let limit = self.limit(deepest);
@@ -207,7 +213,11 @@ impl<'a> Search<'a> {
         let words = self.words.par_iter();
         let words = words.filter(|(bond, word)| *bond >= weakest * (1.0 - SAME) && sound(*word));
         let words = words.map(|(_, word)| *word).collect();
-        Graph::new(task, words, limit, self.effort.budget.left())
+        let budget = &mut self.effort.budget;
+        budget.spend(self.words.len() as u64 * task.judgement());
+        let graph = Graph::new(task, words, limit, if is_held { budget.left() } else { 0 });
+        budget.spend(graph.work());
+        graph
     }
 
     /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the
@@ -256,36 +266,27 @@ impl<'a> Search<'a> {
     /// Takes a set that is larger than the best one, if it has the gap; else what is left of it when
     /// it has. Whether all of it has.
     fn accept(&mut self, graph: &Graph, members: &[usize]) -> bool {
-        let mut set: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
+        let words: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
+        self.effort.budget.spend(self.task.weighing(words.len()));
+        let mut set = Weighed::new(self.task, words);
         let accepted = self.has_gap(&set);
-        while set.len() > self.best.len() && !self.has_gap(&set) {
-            self.drop_worst(&mut set);
+        while set.words().len() > self.best.len() && !self.has_gap(&set) {
+            set.drop_worst();
         }
-        if set.len() > self.best.len() {
-            self.best = set;
+        if set.words().len() > self.best.len() {
+            self.best = set.words().to_vec();
         }
         accepted
-    }
-
-    /// Takes a word of the strongest wrong meeting out of a set.
-    fn drop_worst(&self, set: &mut Vec<Word>) {
-        let worst = self.task.judge(set).and_then(|set| set.worst);
-        let in_worst = |word: &Word| {
-            worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
-        };
-        let at = set.iter().position(in_worst).unwrap_or(set.len() - 1);
-        set.remove(at);
     }
 
     /// Tries single weakest bonds of a range of which nothing is proved.
     fn ladder(&mut self, first: usize, last: usize) {
         for step in 1..=LADDER {
             let at = first + (last - first) * step / LADDER;
-            let graph = self.graph(at..=at);
+            let graph = self.graph(at..=at, true);
             let mut part = self.effort.budget.share(1.0 / (LADDER + 1 - step) as f64);
             let (enough, seed) = (self.enough, self.effort.seed);
             let members = local::search(&graph, Vec::new(), enough, seed, &mut part);
-            self.effort.budget.give_back(&Budget::none(part.is_late()));
             self.accept(&graph, &members);
         }
     }

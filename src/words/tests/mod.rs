@@ -5,9 +5,9 @@ mod definitions;
 
 use nalgebra::Vector2;
 
-use super::budget::Budget;
 use super::search::{Effort, largest};
 use super::*;
+use crate::budget::Budget;
 use crate::potential::dipole::pair;
 
 const PITCH: f64 = 0.04;
@@ -15,7 +15,7 @@ const PITCH: f64 = 0.04;
 fn effort(seconds: f64) -> Effort {
     Effort {
         seed: 1,
-        budget: Budget::seconds(seconds, None),
+        budget: Budget::seconds(seconds),
     }
 }
 
