@@ -14,7 +14,7 @@ use tilebind::{Design, Settings};
 
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
-use super::options::{DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
+use super::options::{CertifyOptions, DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
 use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
 
 const DYNAMICS: &str = "\
@@ -68,13 +68,16 @@ pub struct Analyse {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 
-    /// Seconds after which the certificate keeps the bounds it has; 0 for no certificate
-    /// [default: 60; of very many magnets 0]
-    #[arg(long, value_name = "S", value_parser = input::not_negative)]
-    certify_seconds: Option<f64>,
+    #[command(flatten)]
+    certify: CertifyOptions,
 
-    /// Seconds given to the proof that no state is missing from the list; 0 for no proof
-    /// [default: 60; of very many magnets 0]
+    /// Work given to the proof that no state is missing from the list, as what takes about so many
+    /// seconds of a core; it is counted. 0 for no proof [default: 180; of very many magnets 0]
+    #[arg(long, value_name = "W", value_parser = input::not_negative)]
+    complete_work: Option<f64>,
+
+    /// Seconds by the clock after which that proof ends too, so that another run may differ; 0 for no
+    /// proof [default: no limit]
     #[arg(long, value_name = "S", value_parser = input::not_negative)]
     complete_seconds: Option<f64>,
 
@@ -172,11 +175,15 @@ impl Analyse {
             most_kinds: self.survey.kinds.or(default.most_kinds),
             repeats: self.repeats,
             tolerance: self.tolerance,
-            certify_seconds: self.certify_seconds.unwrap_or(default.certify_seconds),
+            certify: self.certify.allowed(default.certify),
             completeness: CompletenessSettings {
                 below: self.complete_below,
                 escape: self.complete_escape,
-                seconds: self.complete_seconds.unwrap_or(complete.seconds),
+                allowed: complete.allowed.or(
+                    self.complete_work,
+                    self.complete_seconds,
+                    Settings::default().completeness.allowed,
+                ),
                 ..complete
             },
             dynamics_runs: self.survey.dynamics_runs(),

@@ -1,22 +1,27 @@
 //! `tilebind barrier`.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use clap::Args;
 use serde_json::{Value, json};
+use tilebind::budget::Ended;
 use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::{csv, json, writer};
 use tilebind::{Configuration, Design, Settings};
 
-use super::options::{DesignOptions, WorkOptions};
+use super::options::{CertifyOptions, DesignOptions, WorkOptions};
 use super::progress::Progress;
 use super::{Failure, input, interrupt, memory, print, workload};
+
+const WORK: &str = "\
+Work given to the bounds, as what takes about so many seconds of a core; it is counted. 0 for no \
+bounds [default: 180]";
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
 #[command(
+    mut_arg("certify_work", |work| work.help(WORK)),
     mut_arg("seed", |seed| seed.help("Seed of all random numbers")),
     mut_arg("threads", |threads| threads.help("Threads [default: all cores]")),
     after_help = "\
@@ -42,10 +47,8 @@ pub struct Barrier {
     #[arg(long, value_name = "E_J", value_parser = input::positive)]
     tolerance: Option<f64>,
 
-    /// Stop narrowing the bounds after this time (s); 0 for no bounds
-    #[arg(long, value_name = "S", default_value_t = Settings::default().certify_seconds,
-          value_parser = input::not_negative)]
-    certify_seconds: f64,
+    #[command(flatten)]
+    certify: CertifyOptions,
 
     /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
     #[arg(long, value_name = "N", value_parser = input::count)]
@@ -105,10 +108,10 @@ impl Barrier {
                 milestones: self.milestones.unwrap_or(default.milestones),
                 far_starts: 0,
                 most_kinds: None,
+                certify: self.certify.allowed(Settings::default().certify),
                 ..default
             },
             tolerance: self.tolerance,
-            certify: Duration::from_secs_f64(self.certify_seconds.min(1e9)),
         }
     }
 
@@ -121,6 +124,9 @@ impl Barrier {
         }
         // Why the bounds are null, where they are.
         entry["uncertified"] = json!(answer.uncertified.map(|why| why.to_string()));
+        // What ended the narrowing before it was done: "work" or "clock", of which only the latter
+        // makes another run differ.
+        entry["ended_by"] = json!(answer.ended.map(Ended::name));
         entry["pathway"] = json!(self.pathway);
         entry
     }

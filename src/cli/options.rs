@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::Settings;
+use tilebind::budget::Allowance;
 use tilebind::design::{Design, MagnetModel};
 
 use super::progress::Progress;
@@ -78,6 +79,31 @@ impl SurveyOptions {
     /// Trajectories below each barrier; 0 for no check.
     pub fn dynamics_runs(&self) -> usize {
         self.dynamics.unwrap_or(0)
+    }
+}
+
+/// What the certificate is worth.
+#[derive(Args)]
+pub struct CertifyOptions {
+    /// Work given to the certified bounds of barriers, as what takes about so many seconds of a core; it
+    /// is counted. 0 for no bounds [default: 180; of very many magnets 0]
+    #[arg(long, value_name = "W", value_parser = input::not_negative)]
+    certify_work: Option<f64>,
+
+    /// Seconds by the clock after which the bounds stay as they are, so that another run may differ; 0
+    /// for no bounds [default: no limit]
+    #[arg(long, value_name = "S", value_parser = input::not_negative)]
+    certify_seconds: Option<f64>,
+}
+
+impl CertifyOptions {
+    /// What is asked for in place of a default.
+    pub fn allowed(&self, default: Allowance) -> Allowance {
+        default.or(
+            self.certify_work,
+            self.certify_seconds,
+            Settings::default().certify,
+        )
     }
 }
 

@@ -21,9 +21,8 @@ pub fn tell_of(design: &Design, asked: &Settings) {
     if asked.far_starts > 0 {
         less.push(format!("{} far starts (--far-starts)", asked.far_starts));
     }
-    let is_none = |seconds: f64| seconds == 0.0;
-    if is_none(asked.certify_seconds) && is_none(asked.completeness.seconds) {
-        less.push("no proofs (--certify-seconds, --complete-seconds)".to_owned());
+    if asked.certify.is_none() && asked.completeness.allowed.is_none() {
+        less.push("no proofs (--certify-work, --complete-work)".to_owned());
     }
     tell(format!(
         "note: {pairs} pairs of magnets, {bond} where the target faces meet; so many take long: \

@@ -19,6 +19,7 @@ pub mod ranking;
 
 use serde::{Deserialize, Serialize};
 
+use crate::budget::Allowance;
 use crate::design::{Design, Drawing};
 use crate::dynamics::check::BarrierCheck;
 use crate::landscape::minimum::Known;
@@ -34,7 +35,7 @@ pub use quantity::{Estimate, Quantity};
 
 /// How designs are assessed: all that decides an assessment besides the design and the seed.
 ///
-/// There is no limit of time among it, so that every machine finds the same.
+/// Work is counted, so that every machine finds the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssessmentSettings {
     /// Milestones of the roadmap.
@@ -80,7 +81,7 @@ impl AssessmentSettings {
     }
 
     fn like(settings: Settings) -> Self {
-        let cells = |seconds: f64, usual: usize| if seconds > 0.0 { usual } else { 0 };
+        let cells = |allowed: Allowance, usual: usize| if allowed.is_none() { 0 } else { usual };
         Self {
             milestones: settings.milestones,
             neighbours: settings.neighbours,
@@ -88,14 +89,18 @@ impl AssessmentSettings {
             far_starts: settings.far_starts,
             most_kinds: settings.most_kinds,
             tolerance: settings.tolerance,
-            certify_cells: cells(settings.certify_seconds, 200_000),
-            complete_cells: cells(settings.completeness.seconds, 300_000),
+            certify_cells: cells(settings.certify, 200_000),
+            complete_cells: cells(settings.completeness.allowed, 300_000),
             dynamics_runs: 0,
         }
     }
 
     /// The settings of the main job.
     pub fn settings(&self, seed: u64) -> Settings {
+        let worth = |cells: usize| match cells {
+            0 => Allowance::NONE,
+            _ => Allowance::UNLIMITED,
+        };
         Settings {
             seed,
             milestones: self.milestones,
@@ -105,19 +110,10 @@ impl AssessmentSettings {
             most_kinds: self.most_kinds,
             tolerance: self.tolerance,
             certify_cells: self.certify_cells,
-            certify_seconds: if self.certify_cells > 0 {
-                f64::INFINITY
-            } else {
-                0.0
-            },
-            // Cells, not seconds, so that the same is found on every machine.
+            certify: worth(self.certify_cells),
             completeness: CompletenessSettings {
                 cells: self.complete_cells,
-                seconds: if self.complete_cells > 0 {
-                    f64::INFINITY
-                } else {
-                    0.0
-                },
+                allowed: worth(self.complete_cells),
                 ..Settings::default().completeness
             },
             claims: Claims::BondAndDeepestTrap,

@@ -10,6 +10,7 @@ mod foresight;
 pub mod inventory;
 pub mod map;
 pub mod meeting;
+mod metered;
 pub mod minimum;
 pub mod network;
 mod orientation;

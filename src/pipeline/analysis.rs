@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::Settings;
+use crate::budget::Ended;
 use crate::configuration::Configuration;
 use crate::dynamics::check::BarrierCheck;
 use crate::landscape::{Barrier, Completeness, Inventory, LeftOut, Uncaptured, Uncertified};
@@ -31,6 +32,9 @@ pub struct Analysis {
     pub ring: [f64; 2],
     /// Why the barriers have no certified bounds, where they have none.
     pub uncertified: Option<Uncertified>,
+    /// What ended the certificate before all bounds were as narrow as was asked for; `None` where
+    /// nothing did.
+    pub certificate_ended: Option<Ended>,
     /// What moving tiles say of the barriers; `None` where they were not asked.
     pub dynamics: Option<Vec<BarrierCheck>>,
     /// How much was done.

@@ -15,6 +15,7 @@ use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::dynamics::Body;
 use crate::dynamics::check::{self, BarrierCheck};
+use crate::landscape::certification::Certified;
 use crate::landscape::completeness::Search;
 use crate::landscape::survey::Survey;
 use crate::landscape::{Barrier, Claims, Inventory, Uncertified, capture, certification};
@@ -24,8 +25,8 @@ use crate::potential::{Interaction, MagnetModel};
 use crate::problem::Problem;
 use crate::roadmap::{Roadmap, RoadmapSettings};
 
-/// The main job. The same design and settings give the same result on any number of threads, as
-/// long as the certificate keeps within its time.
+/// The main job. The same design and settings give the same result on any number of threads, unless a
+/// clock that was set ends a proof.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     analyse_problem(design, design.problem(), settings, observer)
 }
@@ -83,10 +84,11 @@ pub fn analyse_problem(
         uncaptured,
         ring: capture::ring(&problem),
         uncertified: certified.err(),
+        certificate_ended: certified.ok().and_then(|certified| certified.ended),
         dynamics,
         counts: Counts {
             energy_evaluations: problem.evaluations(),
-            cells: certified.unwrap_or(0),
+            cells: certified.map_or(0, |certified| certified.cells),
             ..counts
         },
         stages,
@@ -101,14 +103,17 @@ fn certify(
     inventory: &mut Inventory,
     settings: &Settings,
     observer: &dyn Observer,
-) -> Result<usize, Uncertified> {
-    let mut cells = 0;
+) -> Result<Certified, Uncertified> {
+    let asked = settings.certification();
+    let mut all = Certified::default();
     loop {
-        cells += certification::certify(problem, inventory, &settings.certification(), observer)?;
+        let certified = certification::certify(problem, inventory, &asked, observer)?;
+        all.cells += certified.cells;
+        all.ended = all.ended.or(certified.ended);
         let count = inventory.states.len();
         inventory.leave_out_shallow(problem, settings.least_depth);
         if settings.claims == Claims::All || inventory.states.len() == count {
-            return Ok(cells);
+            return Ok(all);
         }
     }
 }

@@ -3,8 +3,7 @@
 pub mod poses;
 mod ways;
 
-use std::time::{Duration, Instant};
-
+use crate::budget::Ended;
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::landscape::certificate::{Certifier, Effort, End};
@@ -25,13 +24,12 @@ pub struct Query {
     pub from: Configuration,
     /// Where it ends.
     pub to: End,
-    /// Settings of the roadmap from which the way is found.
+    /// Settings of the roadmap from which the way is found, and what may be spent on the
+    /// certificate.
     pub settings: Settings,
     /// The certificate's bounds are narrowed to this width (J); a hundredth of the bond's depth
     /// where `None`.
     pub tolerance: Option<f64>,
-    /// Time after which the certificate stops with the bounds it has; none is made for zero.
-    pub certify: Duration,
 }
 
 /// The answer.
@@ -41,6 +39,8 @@ pub struct Answer {
     pub barrier: Barrier,
     /// Why there are no bounds, where there are none.
     pub uncertified: Option<Uncertified>,
+    /// What ended the certificate before the bounds were as narrow as was asked for.
+    pub ended: Option<Ended>,
 }
 
 /// Why there is no answer.
@@ -88,6 +88,7 @@ pub fn barrier(
     let search = Search::new(&problem, query);
     let certificate = Certificate::new(&problem, query, &search);
     let uncertified = certificate.as_ref().err().copied();
+    let mut ended = None;
     match certificate {
         Ok(mut certificate) => {
             observer.stage("certificate", 0.0);
@@ -106,6 +107,7 @@ pub fn barrier(
                 }
                 certificate.narrow(&mut barrier, width, usize::MAX);
                 if barrier.bounds.width() > width {
+                    ended = certificate.certifier.ended();
                     break;
                 }
             }
@@ -118,6 +120,7 @@ pub fn barrier(
     Ok(Answer {
         barrier,
         uncertified,
+        ended,
     })
 }
 
@@ -147,7 +150,6 @@ struct Certificate<'a> {
     query: &'a Query,
     search: &'a Search<'a>,
     tolerance: f64,
-    since: Instant,
 }
 
 impl<'a> Certificate<'a> {
@@ -156,17 +158,13 @@ impl<'a> Certificate<'a> {
         query: &'a Query,
         search: &'a Search<'a>,
     ) -> Result<Self, Uncertified> {
-        if query.certify.is_zero() {
-            return Err(Uncertified::NoTime);
-        }
-        let since = Instant::now();
+        let allowed = query.settings.certify;
         let (contact, space) = (problem.contact.as_ref(), &problem.space);
         Ok(Self {
-            certifier: Certifier::within(problem.bounds()?, contact, space, query.certify)?,
+            certifier: Certifier::within(problem.bounds()?, contact, space, allowed)?,
             query,
             search,
             tolerance: query.tolerance.unwrap_or(0.01 * problem.depth()),
-            since,
         })
     }
 
@@ -177,7 +175,6 @@ impl<'a> Certificate<'a> {
         let effort = Effort {
             tolerance: width,
             cells: cells.saturating_sub(self.certifier.assessed()),
-            time: Some(self.query.certify.saturating_sub(self.since.elapsed())),
         };
         let Query { from, to, .. } = self.query;
         let bracket = self

@@ -6,6 +6,7 @@
 use ordered_float::OrderedFloat;
 use std::fmt::Write;
 
+use crate::budget::{Allowance, Ended};
 use crate::configuration::Configuration;
 use crate::design::Design;
 use crate::inspection;
@@ -64,6 +65,13 @@ pub fn summary(
     if let Some(why) = analysis.uncertified {
         let _ = writeln!(text, "barriers are not certified: {why}");
     }
+    if let Some(ended) = analysis.certificate_ended {
+        let _ = writeln!(
+            text,
+            "some barriers' bounds are wider than asked for: {}",
+            ended_by(ended, "certify", analysis.settings.certify)
+        );
+    }
     text += &dynamics::summary(analysis);
     let _ = writeln!(
         text,
@@ -117,6 +125,20 @@ fn write_completeness(text: &mut String, analysis: &Analysis) {
             pose(&lowest.pose),
         ),
     };
+    if let Some(ended) = known.ended {
+        let allowed = analysis.settings.completeness.allowed;
+        let _ = writeln!(text, "{}", ended_by(ended, "complete", allowed));
+    }
+}
+
+/// That a proof ended, and how it is led on: by which option.
+pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String {
+    let (limit, option, note) = match ended {
+        Ended::Work => (allowed.work, "work", "more of it goes on"),
+        Ended::Clock => (allowed.seconds, "seconds", "another run may differ"),
+    };
+    let limit = limit.unwrap_or(f64::INFINITY);
+    format!("{} (--{stage}-{option} {limit}): {note}", ended.describe())
 }
 
 /// How far the dipoles' energy is off at the state where it is off most.

@@ -76,7 +76,6 @@ fn seconds_per_cell(design: &Design, bounds: &dyn CellBounds, depth: f64) -> f64
     let effort = Effort {
         tolerance: 1e-3 * depth,
         cells: 5_000_000,
-        time: None,
     };
     let from = Configuration::new(0.43, 0.04, 0.0);
     match certifier.bracket(&from, &End::At(design.pair.bound), &[], &effort) {
@@ -120,7 +119,6 @@ fn measure(design: &Design, bounds: &dyn CellBounds, depth: f64) {
             let effort = Effort {
                 tolerance: share * depth,
                 cells: 5_000_000,
-                time: None,
             };
             let found = certifier.bracket(&Configuration::from(from), &to, &[], &effort);
             let time = start.elapsed().as_secs_f64();

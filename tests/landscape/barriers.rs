@@ -1,6 +1,7 @@
 //! Barriers of real tiles: none lower by way of a third state, nor less proved of it than by that way;
 //! and a way out without play.
 
+use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
@@ -11,7 +12,7 @@ use crate::designs;
 /// No search for states that the survey missed.
 fn unsought() -> CompletenessSettings {
     CompletenessSettings {
-        seconds: 0.0,
+        allowed: Allowance::NONE,
         ..Settings::default().completeness
     }
 }
@@ -74,7 +75,7 @@ fn square_teeth() -> Analysis {
     let design = designs::load("shapes/square-teeth-10mm.toml");
     let settings = Settings {
         milestones: 300,
-        certify_seconds: 0.0,
+        certify: Allowance::NONE,
         completeness: unsought(),
         far_starts: 1,
         ..Settings::default()
@@ -110,7 +111,7 @@ fn what_rests_beside_the_way_in_is_no_trap() {
 fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
     let design = designs::load("shapes/square-teeth-10mm.toml");
     let settings = Settings {
-        certify_seconds: 1e9,
+        certify: Allowance::UNLIMITED,
         certify_cells: 50_000,
         claims: Claims::BondAndDeepestTrap,
         completeness: unsought(),
@@ -178,7 +179,7 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     let settings = Settings {
         milestones: 2000,
         far_starts: 4000,
-        certify_seconds: 0.0,
+        certify: Allowance::NONE,
         completeness: unsought(),
         ..Settings::default()
     };

@@ -3,6 +3,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use tilebind::budget::Allowance;
 use tilebind::landscape::completeness::Search;
 use tilebind::landscape::constrained::Point;
 use tilebind::landscape::minimum::{Outcome, descend};
@@ -20,7 +21,7 @@ const USUAL: CompletenessSettings = CompletenessSettings {
     below: 0.01,
     escape: 0.005,
     cells: 1_000_000,
-    seconds: f64::INFINITY,
+    allowed: Allowance::UNLIMITED,
 };
 
 fn survey(problem: &Problem, milestones: usize) -> (Survey, SurveySettings) {
@@ -181,12 +182,12 @@ fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
 }
 
 #[test]
-fn an_energy_without_bounds_or_no_time_proves_nothing() {
+fn an_energy_without_bounds_or_no_work_proves_nothing() {
     let problem = load("shapes/shielded-nearest-face.toml").problem();
     let (survey, _) = survey(&problem, 100);
     assert!(Search::run(&problem, &survey, &USUAL, &Silent).is_err());
     let none = CompletenessSettings {
-        seconds: 0.0,
+        allowed: Allowance::NONE,
         ..USUAL
     };
     let problem = load("shapes/paper-tile.toml").problem();

@@ -88,7 +88,6 @@ fn cells_of_a_certificate() {
     let effort = Effort {
         tolerance: 0.65e-3,
         cells: usize::MAX,
-        time: None,
     };
     let slid = Configuration::new(0.43, 0.04, 0.0);
     let found = certifier

@@ -1,5 +1,6 @@
 //! Tiles with so many magnets that as little as possible is asked of their energy.
 
+use tilebind::budget::Allowance;
 use tilebind::design::Design;
 use tilebind::landscape::{Barrier, CompletenessSettings, Place};
 use tilebind::observer::Silent;
@@ -31,9 +32,9 @@ fn squares(pitch: f64, [fixed, moving]: &[String; 2]) -> Design {
 
 fn without_proofs(settings: Settings) -> Settings {
     Settings {
-        certify_seconds: 0.0,
+        certify: Allowance::NONE,
         completeness: CompletenessSettings {
-            seconds: 0.0,
+            allowed: Allowance::NONE,
             ..settings.completeness
         },
         ..settings
@@ -58,7 +59,7 @@ fn of_very_many_magnets_less_is_asked_for() {
     // Four times the pairs are asked for 4^(2/3) times less.
     let ratio = Settings::default().milestones as f64 / of_many.milestones as f64;
     assert!((ratio / 4f64.powf(2.0 / 3.0) - 1.0).abs() < 1e-3, "{ratio}");
-    assert!(of_many.certify_seconds > 0.0 && of_most.certify_seconds == 0.0);
+    assert!(!of_many.certify.is_none() && of_most.certify.is_none());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! theta, theta the short way) they are free and rise nowhere above the stated peak. And tiles dock
 //! the natural way.
 
+use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, CompletenessSettings, highest_point, work};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
@@ -20,10 +21,10 @@ fn analysis(file: &str) -> Analysis {
     let settings = Settings {
         milestones: 600,
         far_starts: 60,
-        certify_seconds: 1e9,
+        certify: Allowance::UNLIMITED,
         certify_cells: 2000,
         completeness: CompletenessSettings {
-            seconds: 0.0,
+            allowed: Allowance::NONE,
             ..Settings::default().completeness
         },
         ..Settings::default()
@@ -118,7 +119,7 @@ fn a_smaller_tolerance_never_gives_a_wider_bracket() {
         let settings = Settings {
             milestones: 1000,
             far_starts: 50,
-            certify_seconds: 1e9,
+            certify: Allowance::UNLIMITED,
             certify_cells: cells,
             tolerance: Some(tolerance),
             ..Settings::default()
@@ -145,10 +146,10 @@ fn ways_are_the_same_on_any_number_of_threads() {
     let design = designs::load("shapes/square-teeth-10mm.toml");
     let mut settings = Settings {
         far_starts: 60,
-        certify_seconds: 0.0,
+        certify: Allowance::NONE,
         ..Settings::default()
     };
-    settings.completeness.seconds = 0.0;
+    settings.completeness.allowed = Allowance::NONE;
     let [one, two] = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap()

@@ -1,7 +1,6 @@
 //! One barrier, asked for: what its answer says of itself holds, and what has no answer says why.
 
-use std::time::Duration;
-
+use tilebind::budget::Allowance;
 use tilebind::landscape::Uncertified;
 use tilebind::landscape::certificate::End;
 use tilebind::observer::Silent;
@@ -24,7 +23,6 @@ fn query(from: Configuration, to: End) -> Query {
             ..Settings::default()
         },
         tolerance: None,
-        certify: Duration::from_secs(600),
     }
 }
 
@@ -87,16 +85,19 @@ fn a_tolerance_is_kept() {
 }
 
 #[test]
-fn without_time_for_the_certificate_the_roadmap_answers() {
+fn without_work_for_the_certificate_the_roadmap_answers() {
     let design = design();
     let certified = query(design.pair.bound, End::Free);
     let uncertified = Query {
-        certify: Duration::ZERO,
+        settings: Settings {
+            certify: Allowance::NONE,
+            ..certified.settings.clone()
+        },
         ..certified.clone()
     };
     let answer = barrier(&design, &uncertified, &Silent).unwrap();
     check(&design, &uncertified, &answer);
-    assert_eq!(answer.uncertified, Some(Uncertified::NoTime));
+    assert_eq!(answer.uncertified, Some(Uncertified::Unasked));
     assert_eq!(answer.barrier.bounds.lower, None);
     // It is an upper estimate of what the certificate encloses.
     let proved = barrier(&design, &certified, &Silent).unwrap();

@@ -187,7 +187,6 @@ fn the_certificate_brackets_the_saddle_from_both_sides() {
         let effort = Effort {
             tolerance: 1e-5,
             cells: 300_000,
-            time: None,
         };
         let bracket = certifier
             .bracket(&from, &End::At(to), &[], &effort)

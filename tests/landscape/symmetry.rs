@@ -1,5 +1,6 @@
 //! Answers that symmetries demand: of two tiles exchanged, of their mirror image, of more threads.
 
+use tilebind::budget::Allowance;
 use tilebind::configuration::Configuration;
 use tilebind::design::Design;
 use tilebind::observer::Silent;
@@ -24,7 +25,7 @@ fn analyse(design: &Design, seed: u64) -> Analysis {
         seed,
         milestones: 3000,
         far_starts: 20,
-        certify_seconds: 0.0,
+        certify: Allowance::NONE,
         ..Settings::default()
     };
     pipeline::analyse(design, &settings, &Silent)

@@ -14,8 +14,8 @@ from tilebind import _progress
 MANY = 10_000_000
 JOBS = {
     "roadmap": lambda d: d.analyse(milestones=400_000),
-    "certificate": lambda d: d.barrier(d.bound, tolerance=1e-12, certify_seconds=3600, milestones=4000),
-    "states": lambda d: d.analyse(milestones=2000, complete_seconds=3600, complete_below=1e-4),
+    "certificate": lambda d: d.barrier(d.bound, tolerance=1e-12, certify_work=3600, milestones=4000),
+    "states": lambda d: d.analyse(milestones=2000, complete_work=3600, complete_below=1e-4),
     "docking": lambda d: d.dock(runs=MANY),
     "sweep": lambda d: tilebind.sweep(d, {"magnet.pitch": np.linspace(0.03, 0.05, 1000)}),
     "energies": lambda d: d.energy(np.full((MANY, 3), 0.5), model="cuboid"),

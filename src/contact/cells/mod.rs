@@ -105,6 +105,12 @@ impl ContactCells {
         }
     }
 
+    /// How many edges the two outlines have.
+    pub fn edges(&self) -> usize {
+        let of = |side: &Side| side.outline.vertices().len();
+        of(&self.fixed) + of(&self.moving)
+    }
+
     /// What contact says about a cell.
     pub fn classify(&self, cell: &Cell) -> CellContact {
         let q = &cell.centre;

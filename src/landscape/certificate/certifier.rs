@@ -1,7 +1,5 @@
 //! The certifier: one subdivision of the configuration space that serves many queries.
 
-use std::time::{Duration, Instant};
-
 use super::ends::Ends;
 use super::landscape::Landscape;
 use super::lower::Assessment;
@@ -11,6 +9,7 @@ use super::store::{Key, Store};
 use super::upper::ProvedPath;
 use super::ways::Ways;
 use super::{Bracket, CertifyError, Effort, End, Progress};
+use crate::budget::{Allowance, Budget, Ended};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::interruption;
@@ -21,6 +20,10 @@ use crate::potential::bounds::CellBounds;
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: usize = 3;
 
+/// First cells and known pathways that are dealt with between two looks at what is left of the work: not
+/// by how many threads, so that these decide nothing.
+const AT_ONCE: usize = 64;
+
 /// Certifies barriers of one landscape. What one query finds out about the landscape serves the
 /// next ones.
 pub struct Certifier<'a> {
@@ -28,6 +31,7 @@ pub struct Certifier<'a> {
     pub(super) store: Store,
     pub(super) ends: Ends,
     pub(super) assessed: usize,
+    budget: Budget,
     /// Pathways that were proved ahead, or that it is known cannot be.
     foreseen: Vec<Foreseen>,
     pub(super) proofs: Proofs,
@@ -49,76 +53,101 @@ impl<'a> Certifier<'a> {
         contact: Option<&'a Contact>,
         space: &'a ConfigurationSpace,
     ) -> Self {
-        Self::started(bounds, contact, space, || false)
+        let mut certifier = Self::untried(bounds, contact, space, Allowance::UNLIMITED);
+        certifier.assess_first(usize::MAX);
+        certifier
     }
 
-    /// The same, unless it takes longer than a time: of very many magnets bounds over the first,
-    /// large cells may.
+    /// The same, for all of whose queries together so much may be spent: no less than the bounds over
+    /// the first, large cells take, which of very many magnets may be much.
     ///
     /// # Errors
-    /// [`Uncertified::TimeOver`].
+    /// [`Uncertified::Unasked`] and [`Uncertified::Ended`].
     pub fn within(
         bounds: &'a dyn CellBounds,
         contact: Option<&'a Contact>,
         space: &'a ConfigurationSpace,
-        time: Duration,
+        allowed: Allowance,
     ) -> Result<Self, Uncertified> {
-        let since = Instant::now();
-        let certifier = Self::started(bounds, contact, space, || since.elapsed() >= time);
-        if since.elapsed() >= time {
-            return Err(Uncertified::TimeOver);
+        if allowed.is_none() {
+            return Err(Uncertified::Unasked);
         }
-        Ok(certifier)
+        let mut certifier = Self::untried(bounds, contact, space, allowed);
+        certifier.assess_first(AT_ONCE);
+        match certifier.ended() {
+            Some(ended) => Err(Uncertified::Ended(ended)),
+            None => Ok(certifier),
+        }
     }
 
-    /// With bounds over the first cells, unless it is to give up, when it is good for nothing.
-    fn started(
+    fn untried(
         bounds: &'a dyn CellBounds,
         contact: Option<&'a Contact>,
         space: &'a ConfigurationSpace,
-        gives_up: impl Fn() -> bool + Sync,
+        allowed: Allowance,
     ) -> Self {
-        let landscape = Landscape::new(bounds, contact, space);
-        let mut store = Store::new(space);
-        let keys = Store::first_keys();
-        let assessed = keys.len();
-        let first = parallel::flat_map(&Vec::from_iter(keys), |key| {
-            interruption::check();
-            if gives_up() {
-                return None;
-            }
-            Some((*key, landscape.assess(&store.cell(key))?))
-        });
-        store.fill(&first);
         Self {
-            landscape,
-            store,
+            landscape: Landscape::new(bounds, contact, space),
+            store: Store::new(space),
             ends: Ends::default(),
-            assessed,
+            assessed: 0,
+            budget: Budget::new(allowed),
             foreseen: Vec::new(),
             proofs: Proofs::default(),
             ways: Ways::default(),
         }
     }
 
+    /// Assesses the first cells, so many at once, unless the work ends before: then it is good for
+    /// nothing.
+    fn assess_first(&mut self, at_once: usize) {
+        let keys = Store::first_keys();
+        let mut first = Vec::new();
+        for keys in keys.chunks(at_once.min(keys.len())) {
+            let (landscape, store) = (&self.landscape, &self.store);
+            first.extend(parallel::flat_map(keys, |key| {
+                interruption::check();
+                Some((*key, landscape.assess(&store.cell(key))?))
+            }));
+            self.assessed += keys.len();
+            if self.ended().is_some() {
+                return;
+            }
+        }
+        self.store.fill(&first);
+    }
+
+    /// Counts work besides that on bounds.
+    pub(super) fn spend(&mut self, units: u64) {
+        self.budget.spend(units);
+    }
+
+    /// What ends the work here, if anything does.
+    pub fn ended(&mut self) -> Option<Ended> {
+        self.landscape.bounds.pay(&mut self.budget);
+        self.budget.ended()
+    }
+
     /// Proves known pathways from their starts on, each to the tolerance (J) with which it is going to
     /// be asked for: side by side, which queries one after the other cannot. What was proved so
-    /// before is forgotten; what comes after it is to give up is left to the queries.
-    pub fn foresee(
-        &mut self,
-        paths: Vec<(Configuration, Vec<Configuration>, f64)>,
-        gives_up: impl Fn() -> bool + Sync,
-    ) {
-        let landscape = &self.landscape;
-        let foreseen = |(from, known, tolerance): &(Configuration, Vec<Configuration>, f64)| {
-            let path = from_its_start(*from, known);
-            (!gives_up()).then(|| Foreseen {
-                proved: known_path(landscape, &path, *tolerance),
-                path,
-                tolerance: *tolerance,
-            })
-        };
-        self.foreseen = parallel::flat_map(&paths, foreseen);
+    /// before is forgotten; what comes after the work has ended is left to the queries.
+    pub fn foresee(&mut self, paths: &[(Configuration, Vec<Configuration>, f64)]) {
+        self.foreseen.clear();
+        for paths in paths.chunks(AT_ONCE) {
+            if self.ended().is_some() {
+                return;
+            }
+            let landscape = &self.landscape;
+            let foreseen = parallel::map(paths, |(from, known, tolerance)| {
+                let path = from_its_start(*from, known);
+                Foreseen {
+                    proved: known_path(landscape, &path, *tolerance),
+                    path,
+                    tolerance: *tolerance,
+                }
+            });
+            self.foreseen.extend(foreseen);
+        }
     }
 
     /// What comes of proving a known pathway for a query with a tolerance (J).

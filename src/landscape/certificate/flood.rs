@@ -20,6 +20,8 @@ pub(super) struct Watershed {
     pub divide: Vec<u32>,
     /// The chain of leaves over the lowest pass, from end to end, and its highest estimate (J).
     pub pass: Option<(f64, Vec<u32>)>,
+    /// Leaves flooded, those that were taken back too.
+    pub flooded: usize,
 }
 
 /// What a flood knows of a leaf: whether it is joined to the other end below the divide,
@@ -128,6 +130,7 @@ impl<'a> Flood<'a> {
             found: Watershed {
                 divide: Vec::new(),
                 pass: None,
+                flooded: 0,
             },
         };
         flood
@@ -151,6 +154,7 @@ impl<'a> Flood<'a> {
             (self.top, self.summit) = (rank, self.steps.len());
         }
         self.steps.push(id);
+        self.found.flooded += 1;
         if self.state(id) & GOAL != 0 {
             self.divide(id, None);
         } else if let Some(beyond) = self.beyond(id) {

@@ -7,6 +7,7 @@ use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::contact::cells::ContactCells;
+use crate::landscape::metered::Metered;
 use crate::potential::bounds::CellBounds;
 
 /// The tiles' contact, in the forms that the two bounds need.
@@ -16,7 +17,7 @@ struct Obstacles<'a> {
 }
 
 pub(super) struct Landscape<'a> {
-    bounds: &'a dyn CellBounds,
+    pub bounds: Metered<'a>,
     obstacles: Option<Obstacles<'a>>,
     pub space: &'a ConfigurationSpace,
     /// How far (m) a turn by one radian moves the tile's farthest point.
@@ -30,7 +31,7 @@ impl<'a> Landscape<'a> {
         space: &'a ConfigurationSpace,
     ) -> Self {
         Self {
-            bounds,
+            bounds: Metered::new(bounds),
             obstacles: contact.map(|contact| Obstacles {
                 contact,
                 cells: ContactCells::new(contact),
@@ -54,12 +55,12 @@ impl<'a> Landscape<'a> {
     /// Assesses a cell; `None` where it is proved blocked.
     pub fn assess(&self, cell: &Cell) -> Option<Assessment> {
         let contact = self.obstacles.as_ref().map(|obstacles| &obstacles.cells);
-        assess(self.bounds, contact, self.lever, cell)
+        assess(&self.bounds, contact, self.lever, cell)
     }
 
     pub fn proof(&self) -> PathProof<'_> {
         PathProof {
-            bounds: self.bounds,
+            bounds: &self.bounds,
             contact: self.obstacles.as_ref().map(|obstacles| obstacles.contact),
             space: self.space,
         }

@@ -34,7 +34,7 @@
 //!   platform's sine, cosine, arc and exponential functions are right to 8 units in the last place.
 //!
 //! The same query to the same certifier gives the same bracket on any number of threads, unless
-//! the limit of time cuts it short. A bracket that was cut short is as true, only wider.
+//! a clock cuts it short. A bracket that was cut short is as true, only wider.
 
 mod certifier;
 mod ends;
@@ -47,8 +47,6 @@ mod query;
 mod store;
 pub(super) mod upper;
 mod ways;
-
-use std::time::Duration;
 
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
@@ -81,8 +79,6 @@ pub struct Effort {
     pub tolerance: f64,
     /// Cells assessed in this query, about, at which to stop with what is known.
     pub cells: usize,
-    /// Time after which to stop with what is known; makes the result depend on the machine.
-    pub time: Option<Duration>,
 }
 
 /// How far a query is.

@@ -1,7 +1,5 @@
 //! One query: the search for a pathway and for the proof that none lies much lower.
 
-use std::time::Instant;
-
 use super::certifier::{Certifier, from_its_start};
 use super::flood::{Seeds, watershed};
 use super::level::least_level;
@@ -16,8 +14,12 @@ use crate::landscape::results::SaddleBounds;
 const SPLITS: usize = 256;
 const SPLIT_SHARE: usize = 16;
 
-/// Leaves subdivided between two looks at the clock.
+/// Leaves subdivided between two looks at what is left of the work.
 const BATCH: usize = 512;
+
+/// Units of work that a flood takes for each leaf there is, and for each that it floods.
+const LEAF: u64 = 2;
+const FLOODED: u64 = 50;
 
 /// A pathway's energy is bounded to this share of the tolerance.
 pub(super) const SHARPNESS: f64 = 0.05;
@@ -49,7 +51,6 @@ pub(super) struct Query<'q, 'a> {
     from: Configuration,
     to: &'q Goal<'q>,
     effort: Effort,
-    started: Instant,
     assessed_before: usize,
     leaves_before: usize,
     /// Energy (J) that every path reaches: the ends do, which are on it, and what was proved before
@@ -87,7 +88,6 @@ impl<'q, 'a> Query<'q, 'a> {
             from,
             to,
             effort: *effort,
-            started: Instant::now(),
             assessed_before: certifier.assessed,
             leaves_before: certifier.store.len(),
             floor,
@@ -118,6 +118,8 @@ impl<'q, 'a> Query<'q, 'a> {
             let store = &self.certifier.store;
             let most = SPLITS.max((store.len() - self.leaves_before) / SPLIT_SHARE);
             let found = watershed(store, &seeds, (level, &known), most);
+            let (leaves, flooded) = (store.len() as u64, found.flooded as u64);
+            self.certifier.spend(leaves * LEAF + flooded * FLOODED);
             let going_on = watch(&Progress {
                 cells: self.cells(),
                 rounds: self.rounds,
@@ -161,13 +163,9 @@ impl<'q, 'a> Query<'q, 'a> {
         self.certifier.assessed - self.assessed_before
     }
 
-    fn spent(&self) -> bool {
+    fn spent(&mut self) -> bool {
         crate::interruption::check();
-        self.cells() >= self.effort.cells
-            || self
-                .effort
-                .time
-                .is_some_and(|limit| self.started.elapsed() >= limit)
+        self.cells() >= self.effort.cells || self.certifier.ended().is_some()
     }
 
     fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {

@@ -5,12 +5,12 @@ mod joined;
 mod schedule;
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
 
 use super::certificate::{Bracket, Certifier, Effort, End};
 use super::inventory::{Inventory, LEAST_GAIN};
 use super::pathway::{self, Limits};
 use super::results::{Barrier, Pathway, Place, StateKind, highest_point};
+use crate::budget::{Allowance, Ended};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
 use crate::potential::Unbounded;
@@ -30,8 +30,8 @@ pub struct CertificationSettings {
     /// Width (J) to which bounds are narrowed; where `None`, a hundredth of the bond or a twentieth
     /// of the barrier, whichever is less.
     pub tolerance: Option<f64>,
-    /// Time (s) after which the bounds known by then are kept; 0 for no certificate.
-    pub seconds: f64,
+    /// What may be spent on all of it; where it ends the bounds known by then are kept.
+    pub allowed: Allowance,
     /// Cells spent on the bounds of one barrier at most.
     pub cells: usize,
     /// Which barriers are certified.
@@ -66,24 +66,34 @@ impl Claims {
 )]
 pub enum Uncertified {
     /// None was asked for.
-    #[error("no time was given to the proof")]
-    NoTime,
-    /// It took longer.
-    #[error("the time given to the proof ended before the first bounds")]
-    TimeOver,
+    #[error("no proof was asked for")]
+    Unasked,
+    /// It took more.
+    #[error("{} before the first bounds", .0.describe())]
+    Ended(Ended),
     /// None can be.
     #[error(transparent)]
     Unbounded(#[from] Unbounded),
 }
 
+/// What certifying took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certified {
+    /// Cells assessed.
+    pub cells: usize,
+    /// What ended it before all bounds were as narrow as was asked for; `None` where nothing did but
+    /// the cells that one barrier is worth.
+    pub ended: Option<Ended>,
+}
+
 /// Brackets every barrier of an inventory between two bounds that hold for the model, and takes
 /// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
-/// proof is tried that there is none. Returns the number of cells assessed.
+/// proof is tried that there is none.
 ///
-/// Brackets are narrowed [step by step](widths), and the best bounds seen are kept: more time never
+/// Brackets are narrowed [step by step](widths), and the best bounds seen are kept: more work never
 /// makes one wider, and where one width is asked for of all, neither does a smaller width.
 ///
-/// Only results within the time limit are the same on every machine.
+/// The results are the same on every machine, unless a clock ends the work.
 ///
 /// # Errors
 /// Where nothing is certified; the inventory is then left as it is.
@@ -92,16 +102,12 @@ pub fn certify(
     inventory: &mut Inventory,
     settings: &CertificationSettings,
     observer: &dyn Observer,
-) -> Result<usize, Uncertified> {
+) -> Result<Certified, Uncertified> {
     let bounds = problem.bounds()?;
-    let limit = Duration::from_secs_f64(settings.seconds.clamp(0.0, 1e9));
-    if limit.is_zero() {
-        return Err(Uncertified::NoTime);
-    }
     let depth = problem.depth();
-    let since = Instant::now();
     let contact = problem.contact.as_ref();
-    let mut certifier = Certifier::within(bounds, contact, &problem.space, limit)?;
+    let mut certifier = Certifier::within(bounds, contact, &problem.space, settings.allowed)?;
+    let mut ended = None;
     let mut left: Vec<usize> = vec![settings.cells; inventory.barriers.len()];
     let mut most = vec![f64::INFINITY; inventory.barriers.len()];
     let mut rounds = VecDeque::from(schedule::rounds(inventory, settings, depth));
@@ -120,23 +126,27 @@ pub fn certify(
             let (start, _, known) = ends(inventory, &inventory.barriers[number])?;
             Some((start, known, tolerance))
         });
-        certifier.foresee(foreseen.collect(), || since.elapsed() >= limit);
+        certifier.foresee(&foreseen.collect::<Vec<_>>());
         // Barriers that turned out so much lower that more is wanted of their bounds.
         let mut lowered = Vec::new();
         for number in numbers {
             observer.part("certificate", done, count);
             done += 1;
-            let time = limit.saturating_sub(since.elapsed());
-            let tolerance = open(inventory, &left, number);
-            let Some(tolerance) = tolerance.filter(|_| !time.is_zero()) else {
+            let Some(tolerance) = open(inventory, &left, number) else {
                 continue;
             };
+            ended = certifier.ended();
+            if ended.is_some() {
+                continue;
+            }
             let effort = Effort {
                 tolerance,
                 cells: left[number],
-                time: Some(time),
             };
             let narrowed = narrow(problem, &mut certifier, inventory, number, &effort);
+            if inventory.barriers[number].bounds.width() > tolerance {
+                ended = certifier.ended();
+            }
             most[number] = narrowed.most;
             left[number] = schedule::cells_left(
                 left[number].saturating_sub(narrowed.cells),
@@ -168,7 +178,10 @@ pub fn certify(
     raise(&certifier, inventory, &most);
     // What was found beside a barrier stands beside it.
     inventory.barriers.sort_by_key(|barrier| barrier.from);
-    Ok(certifier.assessed())
+    Ok(Certified {
+        cells: certifier.assessed(),
+        ended,
+    })
 }
 
 /// Raises lower bounds to what follows from all that was proved, after they were narrowed too, but none
@@ -214,7 +227,6 @@ fn narrow(
     else {
         return narrowed;
     };
-    let since = Instant::now();
     let escape = escapes::bracket(problem, certifier, inventory, (barrier, &known), effort);
     let barrier = &mut inventory.barriers[number];
     if let Some((escape, found)) = escape {
@@ -237,9 +249,7 @@ fn narrow(
             way => narrowed.beside = way,
         }
     }
-    let time = effort.time.map(|time| time.saturating_sub(since.elapsed()));
-    let rest = Effort { time, ..*effort };
-    if let Ok(bracket) = certifier.bracket(&start, &to, &known, &rest) {
+    if let Ok(bracket) = certifier.bracket(&start, &to, &known, effort) {
         narrowed.cells += bracket.cells;
         take_over(problem, barrier, &bracket, bend);
     }

@@ -128,7 +128,7 @@ mod tests {
     fn settings(tolerance: Option<f64>) -> CertificationSettings {
         CertificationSettings {
             tolerance,
-            seconds: 1.0,
+            allowed: crate::budget::Allowance::UNLIMITED,
             cells: 1_000_000,
             claims: crate::landscape::certification::Claims::All,
         }

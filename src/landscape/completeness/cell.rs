@@ -7,11 +7,14 @@ use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells, Cut, PossibleContact};
 use crate::contact::{Constraint, EdgeOf, Touch, closest_admissible};
-use crate::landscape::certificate::lower::Lagrangian;
+use crate::landscape::certificate::lower::{Lagrangian, work};
+use crate::landscape::metered::Metered;
 use crate::potential::bounds::{CellBounds, Enclosure};
 
 /// Cells in which more contacts than these may be made are subdivided first.
 const MOST_CONTACTS: usize = 600;
+/// Units of work that is done for a contact that may be made.
+const A_CONTACT: u64 = 400;
 /// Longest component of a step downhill, in units of the cell's half size along it: of one that is
 /// judged by the energy's values, and of one that is judged by its slopes.
 const FALL: f64 = 1.0;
@@ -41,7 +44,7 @@ pub(super) enum Verdict {
 
 /// Proves cells.
 pub(super) struct CellProof<'a> {
-    pub bounds: &'a dyn CellBounds,
+    pub bounds: &'a Metered<'a>,
     pub contact: Option<&'a ContactCells>,
     /// How far (m) a turn by one radian counts as moving the tile.
     pub lever: f64,
@@ -56,6 +59,7 @@ impl CellProof<'_> {
         let contact = self
             .contact
             .map_or_else(CellContact::open, |contact| contact.classify(cell));
+        self.bounds.count(work(self.contact, &contact));
         let CellContact::Open { cuts, corners, .. } = contact else {
             return Verdict::Nothing;
         };
@@ -84,9 +88,13 @@ impl CellProof<'_> {
     }
 
     fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
-        self.contact.map_or(Some(Vec::new()), |contact| {
-            contact.possible(cell, MOST_CONTACTS)
-        })
+        let Some(contact) = self.contact else {
+            return Some(Vec::new());
+        };
+        let found = contact.possible(cell, MOST_CONTACTS);
+        let count = found.as_ref().map_or(MOST_CONTACTS, Vec::len);
+        self.bounds.count(A_CONTACT * count as u64);
+        found
     }
 
     /// Weights of a step's squared components.

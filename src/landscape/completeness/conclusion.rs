@@ -47,9 +47,10 @@ impl Search<'_> {
                     again.push(cell, lowest);
                 }
             }
-            if again.is_empty() || self.look_through(again, &Silent).is_err() {
+            if again.is_empty() {
                 break;
             }
+            self.look_through(again, &Silent);
         }
         let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
         let mut open = regions::of_cells(&self.problem.space, &self.open);
@@ -61,6 +62,7 @@ impl Search<'_> {
             escape: self.exits.rise,
             open,
             cells: self.cells,
+            ended: self.ended,
         }
     }
 
@@ -79,7 +81,6 @@ impl Search<'_> {
             let effort = Effort {
                 tolerance: SHARP * self.exits.rise,
                 cells: CELLS,
-                time: None,
             };
             let way = certifier.escape(&minimum.q, &goals, &known, &effort).ok()?;
             way.bounds.upper.filter(|upper| *upper <= allowed)

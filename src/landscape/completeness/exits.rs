@@ -1,11 +1,14 @@
 //! Ways out of the places where no step leads downhill from everywhere: proved pathways to minima.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
 use crate::landscape::certificate::upper::PathProof;
+use crate::landscape::metered::Metered;
 use crate::landscape::minimum::{Outcome, descend};
 use crate::landscape::stationary::Stationary;
 use crate::problem::Problem;
@@ -52,7 +55,8 @@ struct Exit {
 /// The exits known so far, and the minima in which they end.
 pub(super) struct Exits<'a> {
     problem: &'a Problem,
-    proof: PathProof<'a>,
+    /// Of the energy over cells.
+    pub bounds: Arc<Metered<'a>>,
     pub rise: f64,
     exits: Vec<Exit>,
     pub endings: Vec<Ending>,
@@ -61,7 +65,7 @@ pub(super) struct Exits<'a> {
 impl<'a> Exits<'a> {
     pub fn new(
         problem: &'a Problem,
-        proof: PathProof<'a>,
+        bounds: Arc<Metered<'a>>,
         rise: f64,
         known: impl Iterator<Item = Stationary>,
     ) -> Self {
@@ -72,7 +76,7 @@ impl<'a> Exits<'a> {
         };
         Self {
             problem,
-            proof,
+            bounds,
             rise,
             exits: Vec::new(),
             endings: known.map(ending).collect(),
@@ -160,7 +164,12 @@ impl<'a> Exits<'a> {
 
     /// The proved highest energy (J) of a pathway, where it is not above `allowed`.
     pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
-        let proved = self.proof.prove(way, SHARP * self.rise, allowed);
+        let proof = PathProof {
+            bounds: &*self.bounds,
+            contact: self.problem.contact.as_ref(),
+            space: &self.problem.space,
+        };
+        let proved = proof.prove(way, SHARP * self.rise, allowed);
         proved.ok().map(|proved| proved.upper)
     }
 

@@ -41,10 +41,12 @@ mod exits;
 mod regions;
 mod search;
 
+use crate::budget::{Allowance, Ended};
+
 pub use regions::OpenRegion;
 pub use search::Search;
 
-/// What is to be proved, and how much time it is worth.
+/// What is to be proved, and how much work it is worth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CompletenessSettings {
     /// Configurations deeper than this share of the depth are looked at.
@@ -53,8 +55,8 @@ pub struct CompletenessSettings {
     pub escape: f64,
     /// Cells assessed, about, after which those that are left stay open.
     pub cells: usize,
-    /// Time (s) after which they do; 0 for no search.
-    pub seconds: f64,
+    /// What may be spent on the search, after which they do too.
+    pub allowed: Allowance,
 }
 
 /// What is known of the states that a list may lack.
@@ -71,6 +73,9 @@ pub struct Completeness {
     pub share: f64,
     /// Cells assessed.
     pub cells: usize,
+    /// What ended the search before all cells were looked at; `None` where nothing did but the number
+    /// of cells.
+    pub ended: Option<Ended>,
 }
 
 impl Completeness {

@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
@@ -12,12 +12,13 @@ use super::CompletenessSettings;
 use super::cell::{CellProof, Verdict};
 use super::domain::Domain;
 use super::exits::{Exits, Opened};
+use crate::budget::{Budget, Ended};
 use crate::cell::Cell;
 use crate::contact::Contact;
 use crate::contact::cells::ContactCells;
 use crate::interruption;
-use crate::landscape::certificate::upper::PathProof;
 use crate::landscape::certification::Uncertified;
+use crate::landscape::metered::Metered;
 use crate::landscape::stationary::Stationary;
 use crate::landscape::survey::Survey;
 use crate::observer::Observer;
@@ -26,13 +27,14 @@ use crate::tile::Outline;
 
 /// Sides smaller than this (m or rad, half a side) are not halved: below it rounding rules.
 const SMALLEST: f64 = 1e-9;
-/// Cells assessed between two looks at the clock.
+/// Cells assessed between two looks at what is left of the work.
 const BATCH: usize = 4096;
 
 /// A search for states that may be missing.
 pub struct Search<'a> {
     pub(super) problem: &'a Problem,
     settings: CompletenessSettings,
+    budget: Budget,
     pub(super) exits: Exits<'a>,
     pub(super) below: f64,
     /// Cells of which nothing is proved, with the least energy (J) that each may hold.
@@ -42,6 +44,8 @@ pub struct Search<'a> {
     /// Of the part of the space that is searched (m^2 rad).
     pub(super) volume: f64,
     pub(super) cells: usize,
+    /// What has ended the search.
+    pub(super) ended: Option<Ended>,
 }
 
 /// Cells to be looked at: those halved least before the others, as there is no end of small ones
@@ -78,60 +82,52 @@ impl Waiting {
 impl<'a> Search<'a> {
     /// Searches the whole space, besides the minima of a survey.
     ///
-    /// Only a search within its time is the same on every machine.
+    /// It is the same on every machine, unless a clock ends it.
     ///
     /// # Errors
-    /// Where the energy has no bounds over cells, or no time is given.
+    /// Where the energy has no bounds over cells, or nothing may be spent.
     pub fn run(
         problem: &'a Problem,
         survey: &Survey,
         settings: &CompletenessSettings,
         observer: &dyn Observer,
     ) -> Result<Self, Uncertified> {
-        let bounds = problem.bounds()?;
-        if settings.seconds <= 0.0 {
-            return Err(Uncertified::NoTime);
+        let bounds = Arc::new(Metered::new(problem.bounds()?));
+        if settings.allowed.is_none() || settings.cells == 0 {
+            return Err(Uncertified::Unasked);
         }
         let depth = problem.depth();
-        let paths = PathProof {
-            bounds,
-            contact: problem.contact.as_ref(),
-            space: &problem.space,
-        };
         let known = survey.states.iter().map(|state| state.minimum.clone());
         let mut search = Self {
             problem,
             settings: *settings,
-            exits: Exits::new(problem, paths, settings.escape * depth, known),
+            budget: Budget::new(settings.allowed),
+            exits: Exits::new(problem, bounds, settings.escape * depth, known),
             below: -settings.below * depth,
             open: Vec::new(),
             explained: Vec::new(),
             volume: 0.0,
             cells: 0,
+            ended: None,
         };
         let mut waiting = Waiting::default();
         for cell in Domain::new(problem).first_cells() {
             search.volume += cell.volume();
             waiting.push(cell, f64::NEG_INFINITY);
         }
-        search.look_through(waiting, observer)?;
+        search.look_through(waiting, observer);
         Ok(search)
     }
 
     /// Proves cells and their parts, until there are none left or the work is done that was allowed.
-    pub(super) fn look_through(
-        &mut self,
-        mut waiting: Waiting,
-        observer: &dyn Observer,
-    ) -> Result<(), Uncertified> {
-        let limit = Duration::from_secs_f64(self.settings.seconds.clamp(0.0, 1e9));
-        let since = Instant::now();
+    pub(super) fn look_through(&mut self, mut waiting: Waiting, observer: &dyn Observer) {
         let problem = self.problem;
+        let bounds = self.exits.bounds.clone();
         let contact = problem.contact.as_ref().map(ContactCells::new);
         let moving = problem.contact.as_ref().map(Contact::moving);
         let lever = moving.map_or(problem.space.rho, Outline::circumradius);
         let proof = CellProof {
-            bounds: problem.bounds()?,
+            bounds: &bounds,
             contact: contact.as_ref(),
             level: self.below,
             rise: self.exits.rise,
@@ -141,12 +137,14 @@ impl<'a> Search<'a> {
         loop {
             let batch = waiting.next(BATCH);
             if batch.is_empty() {
-                return Ok(());
+                return;
             }
-            if since.elapsed() >= limit || self.cells >= self.settings.cells {
+            bounds.pay(&mut self.budget);
+            self.ended = self.budget.ended();
+            if self.ended.is_some() || self.cells >= self.settings.cells {
                 self.open.extend(batch);
                 self.open.extend(waiting.next(usize::MAX));
-                return Ok(());
+                return;
             }
             self.look_at(&batch, &proof, |cell, lowest| {
                 if domain.meets(&cell) {

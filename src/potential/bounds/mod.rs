@@ -99,4 +99,12 @@ pub trait CellBounds: Sync {
     /// Encloses U over the free configurations of a cell. Where nothing is known `low` is minus
     /// infinity and `high` plus infinity; no entry is ever NaN.
     fn enclose(&self, cell: &Cell) -> Enclosure;
+
+    /// Units of work, as [budgets](crate::budget) count it, that enclosing a cell takes about.
+    fn work(&self) -> u64 {
+        FEW_UNITS
+    }
 }
+
+/// What enclosing an energy without magnets takes.
+const FEW_UNITS: u64 = 100;

@@ -147,4 +147,8 @@ impl CellBounds for ShieldedBounds {
         }
         out
     }
+
+    fn work(&self) -> u64 {
+        200 + 4 * self.fixed.len() as u64 * self.moving.len() as u64
+    }
 }

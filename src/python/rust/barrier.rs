@@ -1,10 +1,9 @@
 //! One barrier, asked for.
 
-use std::time::Duration;
-
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
+use tilebind::budget::Ended;
 use tilebind::design::Design;
 use tilebind::landscape::certificate::End;
 use tilebind::query::{self, Query, QueryError};
@@ -32,7 +31,7 @@ pub fn pose(value: &Bound<'_, PyAny>) -> PyResult<Configuration> {
 pub fn query(
     [start, end]: [Option<&Bound<'_, PyAny>>; 2],
     tolerance: Option<f64>,
-    certify_seconds: Option<f64>,
+    [certify_work, certify_seconds]: [Option<f64>; 2],
     milestones: Option<usize>,
     seed: Option<u64>,
     design: &tilebind::Design,
@@ -50,10 +49,11 @@ pub fn query(
         Some(start) => pose(start)?,
         None => return Err(fault::value("a way needs a start")),
     };
-    let seconds = certify_seconds.unwrap_or(Settings::default().certify_seconds);
+    let usual = Settings::default().certify;
     let milestones = milestones.unwrap_or(default.milestones);
     fault::positive("tolerance", tolerance)?;
-    fault::not_negative("certify_seconds", seconds)?;
+    fault::not_negative("certify_work", certify_work)?;
+    fault::not_negative("certify_seconds", certify_seconds)?;
     fault::count("milestones", milestones)?;
     Ok(Query {
         from,
@@ -62,10 +62,10 @@ pub fn query(
             seed: seed.unwrap_or(default.seed),
             milestones,
             most_kinds: None,
+            certify: usual.or(certify_work, certify_seconds, usual),
             ..default
         },
         tolerance,
-        certify: Duration::from_secs_f64(seconds.min(1e9)),
     })
 }
 
@@ -94,5 +94,6 @@ pub fn ask<'py>(
     fields.set_item("caged", barrier.bounds.caged)?;
     let why = answer.uncertified.map(|why| why.to_string());
     fields.set_item("uncertified", why)?;
+    fields.set_item("ended_by", answer.ended.map(Ended::name))?;
     convert::named(py, "Barrier", &fields)
 }

@@ -68,7 +68,7 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
         ("aim", settings.starts.aim),
         ("spin", settings.starts.spin),
     ] {
-        fault::not_negative(name, number)?;
+        fault::not_negative(name, Some(number))?;
         if number.is_infinite() {
             return Err(fault::value(format!("{name} must be finite")));
         }

@@ -60,11 +60,13 @@ pub fn positive(name: &str, number: Option<f64>) -> PyResult<()> {
 }
 
 /// A `ValueError` where a number is negative or none.
-pub fn not_negative(name: &str, number: f64) -> PyResult<()> {
-    if number >= 0.0 {
-        return Ok(());
+pub fn not_negative(name: &str, number: Option<f64>) -> PyResult<()> {
+    match number {
+        Some(number) if number.is_nan() || number < 0.0 => {
+            Err(value(format!("{name} must be 0 or more, not {number}")))
+        }
+        _ => Ok(()),
     }
-    Err(value(format!("{name} must be 0 or more, not {number}")))
 }
 
 /// A `ValueError` unless a share is above 0 and below 1.

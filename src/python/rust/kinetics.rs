@@ -149,7 +149,7 @@ pub fn yielded<'py>(
     fault::positive("time", Some(question.time))?;
     fault::positive("duration", Some(question.effort.duration))?;
     fault::positive("drag", Some(question.effort.motion.drag))?;
-    fault::not_negative("restitution", question.effort.motion.restitution)?;
+    fault::not_negative("restitution", Some(question.effort.motion.restitution))?;
     fault::fraction("coverage", question.coverage)?;
     fault::count("runs", question.effort.runs)?;
     if !(2..=MOST_TILES).contains(&question.tiles) || question.tiles % 2 == 1 {

@@ -28,6 +28,8 @@ class Barrier(NamedTuple):
     """Proved that there is no free way at all."""
     uncertified: str | None
     """Why there are no bounds, where there are none."""
+    ended_by: str | None
+    """What ended the narrowing before it was done: "work" or "clock"."""
 
 
 class LandscapeMap(NamedTuple):

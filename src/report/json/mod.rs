@@ -18,6 +18,7 @@ use super::dynamics;
 use super::files::Files;
 use super::names::{self, alternative_file, place};
 use super::values::{pose, proportion};
+use crate::budget::Ended;
 use crate::checksum::sha256;
 use crate::design::Design;
 use crate::landscape::{Alternative, Barrier, PathwayCost};
@@ -64,6 +65,9 @@ impl Report {
             "barriers": entries(&barriers(Output::Json), &analysis.inventory.barriers),
             // Why the bounds of all barriers are null; itself null where they are certified.
             "uncertified": analysis.uncertified.map(|why| why.to_string()),
+            // What ended the certificate before all bounds were as narrow as was asked for: "work" or
+            // "clock", of which only the latter makes another run differ; null where nothing did.
+            "certificate_ended_by": analysis.certificate_ended.map(Ended::name),
             "dynamics": dynamics::json(analysis),
             "alternatives": analysis.inventory.alternatives.iter().map(alternative).collect::<Value>(),
             "counts": {
@@ -147,15 +151,19 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
         // Width to which certified bounds are narrowed; null for a hundredth of the bond or a
         // twentieth of the barrier, whichever is less.
         "tolerance_J": settings.tolerance,
-        "certify_s": settings.certify_seconds,
+        // Work, counted as what takes about so many seconds of a core, and seconds by the clock, at
+        // which the certificate ends; null for no limit. Cells of one barrier at most.
+        "certify_work": settings.certify.work,
+        "certify_s": settings.certify.seconds,
         "certify_cells": settings.certify_cells,
         // Which barriers are certified, and checked by moving tiles.
         "claims": names::claims(settings.claims),
-        // Shares of the depth, cells and time of the proof that no state is missing.
+        // The proof that no state is missing: shares of the depth, and its limits.
         "complete_below": settings.completeness.below,
         "complete_escape": settings.completeness.escape,
         "complete_cells": settings.completeness.cells,
-        "complete_s": settings.completeness.seconds,
+        "complete_work": settings.completeness.allowed.work,
+        "complete_s": settings.completeness.allowed.seconds,
     })
 }
 
@@ -176,6 +184,8 @@ fn inventory(analysis: &Analysis) -> Value {
             })).collect::<Value>(),
             "share": known.share,
             "cells": known.cells,
+            // What ended the proof before it was done; null where nothing did.
+            "ended_by": known.ended.map(Ended::name),
             "unproved": null,
         }),
         Err(why) => json!({
@@ -185,6 +195,7 @@ fn inventory(analysis: &Analysis) -> Value {
             "open": [],
             "share": 1.0,
             "cells": 0,
+            "ended_by": null,
             "unproved": why.to_string(),
         }),
     };

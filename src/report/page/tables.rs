@@ -13,7 +13,7 @@ use crate::report::columns::{self, Cell, Output, StateRow};
 use crate::report::figures::percent;
 use crate::report::plots::Scene;
 use crate::report::plots::scale::minus;
-use crate::report::summary::left_out;
+use crate::report::summary::{ended_by, left_out};
 use crate::units::{si, si_range};
 
 /// Significant digits of numbers in tables.
@@ -97,6 +97,14 @@ pub fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Vec<Fact> {
         }
     }
     facts.push(completeness(analysis));
+    if let Some(ended) = analysis.certificate_ended {
+        let note = ended_by(ended, "certify", analysis.settings.certify);
+        facts.push(fact(
+            "certified bounds",
+            "wider than asked for".to_owned(),
+            note,
+        ));
+    }
     facts
 }
 
@@ -122,12 +130,16 @@ fn completeness(analysis: &Analysis) -> Fact {
             let [below, escape, lowest] =
                 [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
             let claim = format!("no other below {below} takes more than {escape} to leave");
+            let ended = known.ended.map_or(String::new(), |ended| {
+                let allowed = analysis.settings.completeness.allowed;
+                format!("; {}", ended_by(ended, "complete", allowed))
+            });
             match known.open.len() {
                 0 => ("complete, proved", claim),
                 count => (
                     "proved in part",
                     format!(
-                        "{claim}, but for {count} {} down to {lowest}",
+                        "{claim}, but for {count} {} down to {lowest}{ended}",
                         if count == 1 { "region" } else { "regions" }
                     ),
                 ),

@@ -23,11 +23,7 @@ pub struct Scene {
 }
 
 pub fn effort(tolerance: f64, cells: usize) -> Effort {
-    Effort {
-        tolerance,
-        cells,
-        time: None,
-    }
+    Effort { tolerance, cells }
 }
 
 impl Scene {

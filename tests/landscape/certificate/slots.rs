@@ -1,5 +1,6 @@
 //! Slots: deep ones without play, in which almost every configuration overlaps, and one with little play.
 
+use tilebind::budget::Allowance;
 use tilebind::design::Design;
 use tilebind::observer::Silent;
 use tilebind::pipeline::{Settings, analyse};
@@ -24,7 +25,7 @@ fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
         far_starts: 100,
         ..Settings::default()
     };
-    settings.completeness.seconds = 0.0;
+    settings.completeness.allowed = Allowance::NONE;
     let analysis = analyse(&teeth(0.05), &settings, &Silent);
     // Three of them are narrowed to no width that is worth while, for 20,000 to 50,000 cells each.
     let cells = analysis.counts.cells;
@@ -39,7 +40,7 @@ fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
         far_starts: 100,
         ..Settings::default()
     };
-    settings.completeness.seconds = 0.0;
+    settings.completeness.allowed = Allowance::NONE;
     let design = designs::load("shapes/dovetail.toml");
     let analysis = analyse(&design, &settings, &Silent);
     let told = analysis.inventory.barriers.iter().filter(|b| b.has_way());

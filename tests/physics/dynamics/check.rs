@@ -29,7 +29,7 @@ fn analysis(design: Design, milestones: usize) -> (Design, Analysis) {
         milestones,
         ..Settings::default()
     };
-    settings.completeness.seconds = 0.0;
+    settings.completeness.allowed = tilebind::budget::Allowance::NONE;
     let analysis = pipeline::analyse(&design, &settings, &Silent);
     (design, analysis)
 }

@@ -27,7 +27,7 @@ fn analyse(out: &Path, more: &[&str]) -> std::process::Output {
         "50",
     ];
     arguments.extend(more);
-    if !more.contains(&PROVED[0]) {
+    if !more.iter().any(|option| option.starts_with("--complete")) {
         arguments.extend(["--complete-seconds", "0"]);
     }
     let output = tilebind(&arguments);
@@ -64,6 +64,147 @@ fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     for (name, content) in a {
         assert!(b[&name] == content, "{name} differs");
     }
+}
+
+/// As many magnets as far groups are replaced for, and slides enough that several ways are looked for
+/// at once.
+const MANY: &str = r#"
+name = "many"
+[table]
+size = [2.0, 2.0]
+[magnet]
+size = [0.002, 0.0075, 0.003]
+remanence = 1.2
+pitch = 0.0125
+inset = 0.0
+[fixed]
+side = 0.43
+thickness = 0.013
+mass = 0.1
+[fixed.faces]
+all = { code = "NSSNNSSNNSSNNSSNNSSNNSSNNSSNNSSN" }
+[moving]
+side = 0.43
+thickness = 0.013
+mass = 0.1
+[moving.faces]
+all = { code = "SNNSSNNSSNNSSNNSSNNSSNNSSNNSSNNS" }
+west = { mates = "east" }
+[target]
+fixed = "east"
+moving = "west"
+"#;
+
+#[test]
+fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("many.toml");
+    std::fs::write(&design, MANY).unwrap();
+    let on = |threads: &str| {
+        let out = folder.path().join(threads);
+        let few = "--milestones 400 --far-starts 10 --kinds 4 --certify-work 0 --complete-work 0";
+        let mut arguments = vec!["analyse", design.to_str().unwrap(), "--compact", "--quiet"];
+        arguments.extend(["--out", out.to_str().unwrap(), "--threads", threads]);
+        arguments.extend(few.split(' '));
+        let output = tilebind(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let report = report(&out);
+        let stages = report["timing"]["stages"].as_array().unwrap().iter();
+        let of_stages: Vec<Value> = stages.map(|it| it["energy_evaluations"].clone()).collect();
+        (untimed(report), of_stages)
+    };
+    let one = on("1");
+    assert!(one.1.iter().all(Value::is_u64));
+    for threads in ["2", "3"] {
+        assert_eq!(on(threads), one, "{threads} threads");
+    }
+}
+
+/// Does work while every core is busy with something else, twice over.
+fn beside_busy_loops<T>(work: impl FnOnce() -> T) -> T {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let is_done = AtomicBool::new(false);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..2 * cores {
+            scope.spawn(|| {
+                while !is_done.load(Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+        let done = work();
+        is_done.store(true, Ordering::Relaxed);
+        done
+    })
+}
+
+/// With proofs that are done, and with such whose work ends before.
+#[test]
+fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, proofs) in [
+        ("done", ["--certify-work", "20", "--complete-work", "20"]),
+        (
+            "ended",
+            ["--certify-work", "0.05", "--complete-work", "0.1"],
+        ),
+    ] {
+        let run = |on: &str| {
+            let out = folder.path().join(name).join(on);
+            let output = analyse(&out, &[&proofs[..], &["--threads", on]].concat());
+            let text = stdout(&output).replace(out.to_str().unwrap(), "out");
+            (untimed(report(&out)), contents_but_the_report(&out), text)
+        };
+        let alone = run("1");
+        let ended = if name == "done" {
+            Value::Null
+        } else {
+            "work".into()
+        };
+        assert_eq!(alone.0["certificate_ended_by"], ended);
+        assert_eq!(alone.0["inventory"]["ended_by"], ended);
+        assert_eq!(alone.0["inventory"]["complete"], name == "done");
+        let told = alone
+            .2
+            .contains("(--complete-work 0.1): more of it goes on");
+        assert_eq!(told, name == "ended", "{}", alone.2);
+        let busy = beside_busy_loops(|| run("2"));
+        assert_eq!(busy.0, alone.0);
+        assert_eq!(
+            busy.1.keys().collect::<Vec<_>>(),
+            alone.1.keys().collect::<Vec<_>>()
+        );
+        for (file, content) in &busy.1 {
+            assert!(content == &alone.1[file], "{name}: {file} differs");
+        }
+        assert_eq!(busy.2, alone.2);
+    }
+}
+
+#[test]
+fn a_clock_that_ends_a_proof_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    // A clock that has gone on before the first cells are looked at.
+    let soon = [
+        "--certify-seconds",
+        "0.02",
+        "--complete-seconds",
+        "0.01",
+        "--tolerance",
+        "1e-9",
+    ];
+    let output = analyse(&out, &soon);
+    let report = report(&out);
+    assert_eq!(report["settings"]["complete_s"], 0.01);
+    assert_eq!(report["settings"]["complete_work"], 180.0);
+    assert_eq!(report["inventory"]["ended_by"], "clock");
+    let text = stdout(&output);
+    let told = "the clock ended the proof (--complete-seconds 0.01): another run may differ";
+    assert!(text.contains(told), "{text}");
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains(told));
 }
 
 #[test]

@@ -101,6 +101,9 @@ use nodes::{Nodes, Sum, Totals};
 /// Blocks closer than this many sums of their radii are taken by their pole faces.
 const CLOSE: f64 = 3.0;
 
+/// A cell of blocks takes as long as about this many of dipoles.
+const CELLS_OF_DIPOLES: u64 = 30;
+
 /// The error of the multipole series, in value and in what its gradient and turn do over a cell, as
 /// a share of `mu0 m1 m2 / (4 pi r^3)`.
 const SERIES: f64 = 1e-7;
@@ -278,6 +281,10 @@ impl CellBounds for CuboidBounds {
             self.add_near(&mut out, cell, i, j, nodes);
         }
         out
+    }
+
+    fn work(&self) -> u64 {
+        CELLS_OF_DIPOLES * self.dipoles.work()
     }
 }
 

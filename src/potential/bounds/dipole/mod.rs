@@ -224,6 +224,10 @@ impl CellBounds for DipoleBounds {
         }
         out
     }
+
+    fn work(&self) -> u64 {
+        200 + self.fixed.len() as u64 * self.moving.count as u64
+    }
 }
 
 impl DipoleBounds {

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
+use tilebind::budget::Ended;
 use tilebind::dynamics::check::BarrierCheck;
 use tilebind::landscape::{Completeness, Inventory, Uncaptured, Uncertified};
 use tilebind::pipeline::{Counts, Stage};
@@ -26,6 +27,7 @@ struct Kept {
     uncaptured: Uncaptured,
     ring: [f64; 2],
     uncertified: Option<Uncertified>,
+    certificate_ended: Option<Ended>,
     dynamics: Option<Vec<BarrierCheck>>,
     counts: Counts,
     stages: Vec<Stage>,
@@ -50,6 +52,7 @@ impl Analysis {
             uncaptured: found.uncaptured,
             ring: found.ring,
             uncertified: found.uncertified,
+            certificate_ended: found.certificate_ended,
             dynamics: found.dynamics.clone(),
             counts: found.counts,
             stages: found.stages.clone(),
@@ -73,6 +76,7 @@ impl Analysis {
             uncaptured: kept.uncaptured,
             ring: kept.ring,
             uncertified: kept.uncertified,
+            certificate_ended: kept.certificate_ended,
             dynamics: kept.dynamics,
             counts: kept.counts,
             stages: kept.stages,

@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
+use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, CompletenessSettings, Place, pathway};
 use tilebind::pipeline;
 use tilebind::report::plots::{self, Scene, Sheet};
@@ -23,7 +24,7 @@ use crate::{fault, job};
 fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyResult<Settings> {
     let given = Keywords::new(given);
     let default = Settings::of([design]);
-    let complete = default.completeness;
+    let (complete, usual) = (default.completeness, Settings::default());
     let settings = Settings {
         seed: given.or("seed", default.seed)?,
         milestones: given.or("milestones", default.milestones)?,
@@ -35,10 +36,18 @@ fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyR
         most_kinds: given.get("kinds")?.or(default.most_kinds),
         repeats: given.or("repeats", default.repeats)?,
         tolerance: given.get("tolerance")?,
-        certify_seconds: given.or("certify_seconds", default.certify_seconds)?,
+        certify: default.certify.or(
+            given.get("certify_work")?,
+            given.get("certify_seconds")?,
+            usual.certify,
+        ),
         certify_cells: given.or("certify_cells", default.certify_cells)?,
         completeness: CompletenessSettings {
-            seconds: given.or("complete_seconds", complete.seconds)?,
+            allowed: complete.allowed.or(
+                given.get("complete_work")?,
+                given.get("complete_seconds")?,
+                usual.completeness.allowed,
+            ),
             cells: given.or("complete_cells", complete.cells)?,
             below: given.or("complete_below", complete.below)?,
             escape: given.or("complete_escape", complete.escape)?,
@@ -57,8 +66,12 @@ fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyR
     fault::fraction("settled", settings.settled)?;
     fault::fraction("complete_below", settings.completeness.below)?;
     fault::fraction("complete_escape", settings.completeness.escape)?;
-    fault::not_negative("certify_seconds", settings.certify_seconds)?;
-    fault::not_negative("complete_seconds", settings.completeness.seconds)?;
+    let Allowance { work, seconds } = settings.certify;
+    fault::not_negative("certify_work", work)?;
+    fault::not_negative("certify_seconds", seconds)?;
+    let Allowance { work, seconds } = settings.completeness.allowed;
+    fault::not_negative("complete_work", work)?;
+    fault::not_negative("complete_seconds", seconds)?;
     job::check_memory(settings.milestones, settings.neighbours)?;
     Ok(settings)
 }

@@ -33,9 +33,12 @@ impl Design {
     ///     Runs, each with the next seed, whose spread is reported.
     /// tolerance : float, optional
     ///     Width (J) to which certified bounds are narrowed.
+    /// certify_work, complete_work : float, optional
+    ///     Work given to the bounds of barriers, and to the proof that no state is missing, as what
+    ///     takes about so many seconds of a core; it is counted. 0 for none.
     /// certify_seconds, complete_seconds : float, optional
-    ///     Time (s) after which the bounds of barriers, and the proof that no state is missing, are
-    ///     left as they are; 0 for none.
+    ///     Time (s) by the clock after which they are left as they are, so that another run may
+    ///     differ; no limit by default, 0 for none.
     /// complete_below, complete_escape : float, optional
     ///     Shares of the bond's depth: traps below the one that need more than the other to leave
     ///     are to be listed.
@@ -74,8 +77,11 @@ impl Design {
     ///     Pose at which it ends; "free" for anywhere with the tiles far apart.
     /// tolerance : float, optional
     ///     Width (J) to which the bounds are narrowed; a hundredth of the bond's depth by default.
+    /// certify_work : float, optional
+    ///     Work given to them, as what takes about so many seconds of a core; 0 for no bounds.
     /// certify_seconds : float, optional
-    ///     Time (s) after which they are left as they are; 0 for no bounds.
+    ///     Time (s) by the clock after which they are left as they are, so that another run may
+    ///     differ; no limit by default, 0 for no bounds.
     /// milestones, seed : int, optional
     /// progress : bool, optional
     ///
@@ -84,9 +90,9 @@ impl Design {
     /// Barrier
     ///     A named tuple: `lower`, `upper` (J, bounds of the saddle's energy), `path` (structured
     ///     array), `saddle_energy` (J), `saddle_pose`, `forward`, `reverse` (J), `caged`,
-    ///     `uncertified`.
-    #[pyo3(signature = (start, end = None, *, tolerance = None, certify_seconds = None,
-                        milestones = None, seed = None, progress = None))]
+    ///     `uncertified`, `ended_by` ("work" or "clock" where one of these ended the narrowing).
+    #[pyo3(signature = (start, end = None, *, tolerance = None, certify_work = None,
+                        certify_seconds = None, milestones = None, seed = None, progress = None))]
     #[allow(clippy::too_many_arguments)]
     fn barrier<'py>(
         &self,
@@ -94,6 +100,7 @@ impl Design {
         start: &Bound<'py, PyAny>,
         end: Option<&Bound<'py, PyAny>>,
         tolerance: Option<f64>,
+        certify_work: Option<f64>,
         certify_seconds: Option<f64>,
         milestones: Option<usize>,
         seed: Option<u64>,
@@ -102,7 +109,7 @@ impl Design {
         let query = barrier::query(
             [Some(start), end],
             tolerance,
-            certify_seconds,
+            [certify_work, certify_seconds],
             milestones,
             seed,
             &self.content.design,
