@@ -180,7 +180,7 @@ impl Edge {
         if most <= 0.0 {
             return Ok(None);
         }
-        let reach = |[length, shift]: &[f64; 2]| length * (theta.value + shift).cos();
+        let reach = |[length, shift]: &[f64; 2]| length * libm::cos(theta.value + shift);
         let by_reach = |a: &&[f64; 2], b: &&[f64; 2]| reach(a).total_cmp(&reach(b));
         let farthest = *self.arms.iter().max_by(by_reach).ok_or(0.0)?;
         let part = |[length, shift]: [f64; 2]| {
