@@ -92,6 +92,16 @@ impl Ended {
 }
 
 /// Work left to do.
+///
+/// ```
+/// use tilebind::budget::{Allowance, Budget, Ended};
+/// let mut budget = Budget::new(Allowance::of(1.0));
+/// let part = budget.share(0.25);
+/// budget.spend(budget.left());
+/// assert_eq!(budget.ended(), Some(Ended::Work));
+/// budget.give_back(&part);
+/// assert_eq!(budget.ended(), None);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Budget {
     left: i64,

@@ -19,7 +19,7 @@
 //!
 //! | floor, from the ground up | what it holds |
 //! |---|---|
-//! | [`units`], [`configuration`], [`cell`], [`observer`], [`interruption`] | SI prefixes; (x, y, theta), its space and metric; boxes of configurations; who is told of progress; work that is given up |
+//! | [`units`], [`configuration`], [`cell`], [`observer`], [`interruption`], [`budget`] | SI prefixes; (x, y, theta), its space and metric; boxes of configurations; who is told of progress; work that is given up; work that is counted |
 //! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; two tiles and how they are meant to bind |
 //! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the one place where an energy is chosen |
 //! | [`problem`] | the three above, put together once, with the symmetries of the pair |

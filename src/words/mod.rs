@@ -45,7 +45,7 @@ pub use set::Judgement;
 pub use word::Word;
 
 /// Products of energies and correlations that take a unit of work.
-const WEIGHED_A_UNIT: u64 = 24;
+const WEIGHED_A_UNIT: u64 = 12;
 
 /// What words are wanted.
 #[derive(Clone, Debug)]
@@ -78,12 +78,21 @@ impl Task {
 
     /// Units of work that finding the strongest wrong meetings of so many words counts as.
     fn weighing(&self, words: usize) -> u64 {
+        (words * words / 2) as u64 * self.weighing_two()
+    }
+
+    /// How many words can be weighed with so much work.
+    fn weighed_with(&self, work: u64) -> usize {
+        (2 * work / self.weighing_two()).isqrt() as usize
+    }
+
+    fn weighing_two(&self) -> u64 {
         let lags = 2 * self.places as u64;
         let each = match self.rules.fault {
             Some(_) => self.rules.meetings(self.places) as u64 * lags * lags,
             None => self.rules.ways_of_meeting() as u64 * lags * lags / WEIGHED_A_UNIT,
         };
-        (words * words / 2) as u64 * (20 + each)
+        20 + each
     }
 
     /// Units of work that finding out whether two words go together counts as.

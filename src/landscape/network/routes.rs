@@ -79,8 +79,7 @@ impl Network {
         if ends.goals.is_empty() {
             return None;
         }
-        // What it costs to reach a node, and the link that was gone last.
-        let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
+        let mut reached: Vec<Reached> = vec![None; self.nodes.len()];
         reached[ends.from] = Some((0.0, None));
         let mut waiting = BinaryHeap::new();
         let mut ahead = Ahead::new(self, ends, cost, gone);
@@ -129,7 +128,7 @@ impl Network {
         &self,
         problem: &Problem,
         waiting: &mut BinaryHeap<Waiting>,
-        (weighed, reached): (&mut FixedBitSet, &mut [Option<(f64, Option<u32>)>]),
+        (weighed, reached): (&mut FixedBitSet, &mut [Reached]),
         (ends, ahead): (Ends, &mut Ahead),
     ) -> Option<usize> {
         let (cost, gone) = (ahead.cost, ahead.gone);
@@ -216,6 +215,9 @@ impl Network {
 /// What a route costs at least that goes on by a link, to its end and to the link's, the link, and
 /// the node it is gone from.
 type Waiting = Reverse<([OrderedFloat<f64>; 2], u32, u32)>;
+
+/// What it costs to reach a node, and the link that was gone last, once it is reached.
+type Reached = Option<(f64, Option<u32>)>;
 
 /// Between which nodes a search goes.
 #[derive(Clone, Copy)]

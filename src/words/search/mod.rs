@@ -65,6 +65,8 @@ const WITHIN_REACH: f64 = 1.5;
 /// Share of the work left for sets that have a symmetry, of large graphs.
 const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
+/// Share of the work that judging a set may take, of words that are too many to look at all.
+const FOR_JUDGING: f64 = 0.25;
 /// Units of work that finding a bond's depth takes.
 const BOND: u64 = 100;
 /// Weakest bonds tried where nothing is proved of the whole range.
@@ -105,6 +107,12 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         true => 0,
         false => task.code_bound(limit(deepest)),
     };
+    let mut enough = enough;
+    if enough == usize::MAX && !first.complete {
+        // Nothing is proved of these, and what is found has to be judged.
+        let work = effort.budget.left() as f64 * FOR_JUDGING;
+        enough = task.weighed_with(work as u64).max(1);
+    }
     let mut search = Search {
         task,
         gap,
