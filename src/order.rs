@@ -70,7 +70,7 @@ mod tests {
             expected.sort_by_key(|(key, _)| *key);
             items.order_by_key(|(key, _)| *key);
             assert_eq!(items, expected);
-            expected.sort_by(|a, b| b.0.cmp(&a.0));
+            expected.sort_by_key(|item| std::cmp::Reverse(item.0));
             items.order_by(|a, b| b.0.cmp(&a.0));
             assert_eq!(items, expected);
         }
