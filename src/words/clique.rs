@@ -8,6 +8,7 @@
 use fixedbitset::FixedBitSet;
 
 use crate::budget::Budget;
+use crate::order::Order;
 
 use super::graph::Graph;
 
@@ -54,7 +55,7 @@ fn order(graph: &Graph) -> Vec<usize> {
     let mut degrees: Vec<usize> = (0..n).map(|v| graph.neighbours(v).count_ones(..)).collect();
     let mut left: Vec<usize> = (0..n).collect();
     if n > MOST_ORDERED {
-        left.sort_by_key(|v| (std::cmp::Reverse(degrees[*v]), *v));
+        left.order_by_key(|v| (std::cmp::Reverse(degrees[*v]), *v));
         return left;
     }
     let mut order = Vec::with_capacity(n);

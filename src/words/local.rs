@@ -11,9 +11,9 @@ use std::borrow::Cow;
 use fixedbitset::FixedBitSet;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use crate::budget::Budget;
+use crate::parallel;
 
 use super::graph::Graph;
 
@@ -47,10 +47,8 @@ pub fn search(
     }
     while best.len() < enough && !budget.is_spent() {
         let mut parts: Vec<Budget> = walks.iter().map(|_| budget.part(ROUND)).collect();
-        walks
-            .par_iter_mut()
-            .zip(&mut parts)
-            .for_each(|(walk, part)| walk.go(enough, part));
+        let mut each: Vec<_> = walks.iter_mut().zip(&mut parts).collect();
+        parallel::for_each(&mut each, |(walk, part)| walk.go(enough, part));
         for (walk, part) in walks.iter().zip(&parts) {
             budget.give_back(part);
             if walk.best.len() > best.len() {

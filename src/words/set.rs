@@ -1,11 +1,10 @@
 //! Sets of words, judged.
 
-use rayon::prelude::*;
-
 use super::Task;
 use super::lag::Lags;
 use super::rules::{Meeting, Rules};
 use super::word::Word;
+use crate::parallel;
 
 /// What a set of words is worth: all of it worked out again from the words alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,15 +22,14 @@ impl Judgement {
     pub fn of(words: &[Word], lags: &Lags, rules: &Rules) -> Option<Self> {
         let bonds = words.iter().map(|word| rules.bond(lags, *word));
         let bond = bonds.reduce(f64::min)?;
-        let strongest_from = |(i, u): (usize, &Word)| {
+        let strongest_from = |i: usize| {
             let found = words[i..]
                 .iter()
-                .filter_map(|v| rules.strongest(lags, *u, *v));
+                .filter_map(|v| rules.strongest(lags, words[i], *v));
             found.reduce(Meeting::stronger)
         };
-        let strongest: Vec<Option<Meeting>> =
-            words.par_iter().enumerate().map(strongest_from).collect();
-        let worst = strongest.into_iter().flatten().reduce(Meeting::stronger);
+        let strongest = parallel::flat_map(0..words.len(), strongest_from);
+        let worst = strongest.into_iter().reduce(Meeting::stronger);
         let energy = worst.map_or(f64::INFINITY, |worst| worst.energy);
         Some(Self {
             bond,
@@ -58,10 +56,10 @@ impl<'a> Weighed<'a> {
             let worst = rules.strongest(lags, *u, *v);
             worst.map_or(f64::INFINITY, |worst| worst.energy)
         };
-        let from = |(i, u): (usize, &Word)| words[i..].iter().map(|v| energy(u, v)).collect();
+        let from = |i: usize| words[i..].iter().map(|v| energy(&words[i], v)).collect();
         Self {
             bonds: words.iter().map(|word| rules.bond(lags, *word)).collect(),
-            wrong: words.par_iter().enumerate().map(from).collect(),
+            wrong: parallel::map(0..words.len(), from),
             task,
             words,
         }

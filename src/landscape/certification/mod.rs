@@ -13,6 +13,7 @@ use super::results::{Barrier, Pathway, Place, StateKind, highest_point};
 use crate::budget::{Allowance, Ended};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
+use crate::order::Order;
 use crate::potential::Unbounded;
 use crate::problem::Problem;
 
@@ -177,7 +178,7 @@ pub fn certify(
     }
     raise(&certifier, inventory, &most);
     // What was found beside a barrier stands beside it.
-    inventory.barriers.sort_by_key(|barrier| barrier.from);
+    inventory.barriers.order_by_key(|barrier| barrier.from);
     Ok(Certified {
         cells: certifier.assessed(),
         ended,

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
@@ -11,6 +9,8 @@ use crate::landscape::certificate::upper::PathProof;
 use crate::landscape::metered::Metered;
 use crate::landscape::minimum::{Outcome, descend};
 use crate::landscape::stationary::Stationary;
+use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 
 /// Two minima closer than this (m, metric of the space) are the same.
@@ -89,19 +89,15 @@ impl<'a> Exits<'a> {
         let mut left: Vec<usize> = (0..places.len()).collect();
         let mut first = 0;
         while !left.is_empty() {
-            let joined: Vec<Option<usize>> = left
-                .par_iter()
-                .with_max_len(1)
-                .map(|&k| self.join(&places[k], first))
-                .collect();
+            let joined: Vec<Option<usize>> =
+                parallel::map(&left, |&k| self.join(&places[k], first));
             for (&k, ending) in left.iter().zip(joined) {
                 found[k] = ending;
             }
             left.retain(|&k| found[k].is_none());
             first = self.exits.len();
             let rest = left.split_off(left.len().min(TOGETHER));
-            let each = left.par_iter().with_max_len(1);
-            let ways: Vec<_> = each.map(|&k| self.descent(&places[k])).collect();
+            let ways = parallel::map(&left, |&k| self.descent(&places[k]));
             for (&k, way) in left.iter().zip(ways) {
                 let Some((minimum, highest)) = way else {
                     continue;
@@ -138,7 +134,7 @@ impl<'a> Exits<'a> {
             .filter(|exit| exit.highest <= highest)
             .map(|exit| (self.problem.space.distance(&place.at, &exit.at), exit))
             .collect();
-        near.sort_by_key(|(distance, _)| OrderedFloat(*distance));
+        near.order_by_key(|(distance, _)| OrderedFloat(*distance));
         near.truncate(TRIED);
         let leads_there = |exit: &&Exit| self.prove(&[place.at, exit.at], highest).is_some();
         let exit = near.into_iter().map(|(_, exit)| exit).find(leads_there);

@@ -8,6 +8,7 @@ use petgraph::unionfind::UnionFind;
 
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::order::Order;
 
 /// A part of the space of which nothing is proved.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -100,7 +101,7 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
         }
     }
     let mut regions: Vec<OpenRegion> = regions.into_values().map(|part| part.region).collect();
-    regions.sort_by_key(|region| OrderedFloat(region.lowest));
+    regions.order_by_key(|region| OrderedFloat(region.lowest));
     regions
 }
 

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
-use rayon::prelude::*;
 
 use super::CompletenessSettings;
 use super::cell::{CellProof, Verdict};
@@ -22,6 +21,7 @@ use crate::landscape::metered::Metered;
 use crate::landscape::stationary::Stationary;
 use crate::landscape::survey::Survey;
 use crate::observer::Observer;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::Outline;
 
@@ -163,13 +163,10 @@ impl<'a> Search<'a> {
         proof: &CellProof,
         mut hand_on: impl FnMut(Cell, f64),
     ) {
-        let verdicts: Vec<Verdict> = batch
-            .par_iter()
-            .map(|(cell, _)| {
-                interruption::check();
-                proof.verdict(cell)
-            })
-            .collect();
+        let verdicts: Vec<Verdict> = parallel::map(batch, |(cell, _)| {
+            interruption::check();
+            proof.verdict(cell)
+        });
         self.cells += batch.len();
         let mut opened = Vec::new();
         let mut left = Vec::new();

@@ -14,6 +14,7 @@ use super::super::graph::Graph;
 use super::super::local;
 use super::Search;
 use crate::budget::Budget;
+use crate::order::Order;
 
 /// Weakest bonds tried first, each leaving this share of the words of the one before, and then
 /// twice those midway between the best one and its neighbours.
@@ -62,7 +63,7 @@ impl Search<'_> {
                 self.accept(&graph, &members);
             }
             trials.push(Trial { at, members });
-            trials.sort_by_key(|trial| trial.at);
+            trials.order_by_key(|trial| trial.at);
         }
         self.effort.budget.give_back(&work);
         if let Some(largest) = largest(&trials) {

@@ -11,10 +11,11 @@ mod symmetric;
 
 use std::ops::RangeInclusive;
 
-use rayon::prelude::*;
 use symmetric::symmetric;
 
 use crate::budget::Budget;
+use crate::order::Order;
+use crate::parallel;
 
 use super::candidates::Candidates;
 use super::clique::{self, Clique};
@@ -81,12 +82,10 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         effort.seed,
         effort.budget.left(),
     );
-    let mut words: Vec<(f64, Word)> = first
-        .words
-        .par_iter()
-        .map(|word| (task.rules.bond(&task.lags, *word), *word))
-        .filter(|(bond, _)| *bond > 0.0)
-        .collect();
+    let mut words: Vec<(f64, Word)> = parallel::flat_map(&first.words, |word| {
+        let bond = task.rules.bond(&task.lags, *word);
+        (bond > 0.0).then_some((bond, *word))
+    });
     // The deepest bond that there is allows less than the deepest one thinkable.
     if let (true, Some(deepest)) = (first.complete, words.iter().map(|it| it.0).reduce(f64::max)) {
         let sound = |word| task.rules.within(&task.lags, word, word, limit(deepest));
@@ -97,7 +96,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     let looked = first.work + candidates as u64 * BOND;
     effort.budget.spend(looked.min(effort.budget.left() / 2));
     let mut bonds: Vec<f64> = words.iter().map(|(bond, _)| *bond).collect();
-    bonds.sort_by(|a, b| b.total_cmp(a));
+    bonds.order_by(|a, b| b.total_cmp(a));
     bonds.dedup_by(|a, b| (*a - *b).abs() <= SAME * b.abs());
     let deepest = match first.complete {
         true => bonds.first().copied().unwrap_or_default(),
@@ -218,9 +217,9 @@ impl<'a> Search<'a> {
         let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
         let limit = self.limit(deepest);
         let sound = |word| task.rules.within(&task.lags, word, word, limit);
-        let words = self.words.par_iter();
-        let words = words.filter(|(bond, word)| *bond >= weakest * (1.0 - SAME) && sound(*word));
-        let words = words.map(|(_, word)| *word).collect();
+        let words = parallel::flat_map(&self.words, |(bond, word)| {
+            (*bond >= weakest * (1.0 - SAME) && sound(*word)).then_some(*word)
+        });
         let budget = &mut self.effort.budget;
         budget.spend(self.words.len() as u64 * task.judgement());
         let graph = Graph::new(task, words, limit, if is_held { budget.left() } else { 0 });
