@@ -1,7 +1,7 @@
 //! How fast the dipole kernel is, and how close to what the core can do.
 //!
 //! The ceiling is measured in the same run: a loop does as many simple and fused vector operations
-//! and `1 / sqrt` in single precision as the pairs take, but none that waits for another. A kernel's share
+//! and guesses of `1 / sqrt` as the pairs take, but none that waits for another. A kernel's share
 //! of it is that loop's time over its own; so what it does besides the pairs (sines and cosines,
 //! rotations, sums) counts as loss. Times are the least, shares the median of many rounds, in each
 //! of which everything is measured once.
@@ -184,19 +184,19 @@ impl<const CHAINS: usize> Task for Mix<CHAINS> {
                 }
             }
             // Each reciprocal below comes with a fused operation.
-            for _ in self.a_pair.singles..self.a_pair.fused {
+            for _ in self.a_pair.guesses..self.a_pair.fused {
                 for x in &mut chains {
                     *x = l.mul_add(*x, a, b);
                 }
             }
-            for _ in 0..self.a_pair.singles {
+            for _ in 0..self.a_pair.guesses {
                 for (i, x) in chains.iter().enumerate() {
-                    let single = if self.reciprocals {
+                    let guess = if self.reciprocals {
                         l.reciprocal_single(*x)
                     } else {
-                        l.reciprocal_sqrt_single(*x)
+                        l.reciprocal_sqrt_guess(*x)
                     };
-                    sums[i % 2] = l.mul_add(single, a, sums[i % 2]);
+                    sums[i % 2] = l.mul_add(guess, a, sums[i % 2]);
                 }
             }
         }
@@ -233,10 +233,10 @@ fn ceilings(level: Level) -> Vec<Work<'static>> {
             })
         },
     };
-    let of = |simple, fused, singles| Operations {
+    let of = |simple, fused, guesses| Operations {
         simple,
         fused,
-        singles,
+        guesses,
     };
     vec![
         work("a pair", Some(false), Operations::per_pair(false), false),

@@ -8,19 +8,19 @@ pub struct Operations {
     pub simple: usize,
     /// Multiplications with an addition or subtraction.
     pub fused: usize,
-    /// `1 / sqrt` and reciprocals in single precision.
-    pub singles: usize,
+    /// First guesses of `1 / sqrt` and of reciprocals.
+    pub guesses: usize,
 }
 
 impl Operations {
     /// What one pair of dipoles takes (as many pairs as there are lanes, to be precise), with or
     /// without the gradient.
     pub const fn per_pair(gradient: bool) -> Self {
-        let (simple, fused) = if gradient { (13, 15) } else { (9, 9) };
+        let (simple, fused) = if gradient { (15, 19) } else { (11, 13) };
         Self {
             simple,
             fused,
-            singles: 1,
+            guesses: 1,
         }
     }
 }

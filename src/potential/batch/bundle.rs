@@ -72,8 +72,8 @@ impl<L: Arithmetic, const N: usize, const M: usize> Arithmetic for Bundle<L, N, 
     }
 
     #[inline(always)]
-    fn reciprocal_sqrt_single(self, a: Self::F) -> Self::F {
-        each!(self.reciprocal_sqrt_single(a))
+    fn reciprocal_sqrt_guess(self, a: Self::F) -> Self::F {
+        each!(self.reciprocal_sqrt_guess(a))
     }
 
     #[inline(always)]

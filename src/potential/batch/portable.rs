@@ -1,6 +1,6 @@
 //! Plain Rust, for every machine.
 
-use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
+use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH};
 
 /// Eight lanes in plain Rust.
 ///
@@ -48,7 +48,7 @@ impl Arithmetic for Portable {
         mul_add(a, b, c) = a.mul_add(b, c);
         neg_mul_add(a, b, c) = (-a).mul_add(b, c);
         min(a, b) = smaller(a, b);
-        reciprocal_sqrt_single(a) = f64::from(1.0 / (a as f32).sqrt());
+        reciprocal_sqrt_guess(a) = f64::from_bits((GUESS as u64).wrapping_sub(a.to_bits() >> 1));
         reciprocal_single(a) = f64::from(1.0 / a as f32);
     }
 }

@@ -22,7 +22,7 @@ fn check<const SLOPE: bool>() {
     let a_pair = Operations {
         simple: (some.simple - none.simple) / TOGETHER,
         fused: (some.fused - none.fused) / TOGETHER,
-        singles: (some.singles - none.singles) / TOGETHER,
+        guesses: (some.guesses - none.guesses) / TOGETHER,
     };
     assert_eq!(a_pair, Operations::per_pair(SLOPE));
 }
@@ -56,9 +56,9 @@ impl Counter<'_> {
         self.0.set(counted);
     }
 
-    fn single(self) {
+    fn guess(self) {
         let mut counted = self.0.get();
-        counted.singles += 1;
+        counted.guesses += 1;
         self.0.set(counted);
     }
 }
@@ -92,11 +92,11 @@ impl Arithmetic for Counter<'_> {
         self.simple();
     }
 
-    fn reciprocal_sqrt_single(self, _: ()) {
-        self.single();
+    fn reciprocal_sqrt_guess(self, _: ()) {
+        self.guess();
     }
 
     fn reciprocal_single(self, _: ()) {
-        self.single();
+        self.guess();
     }
 }

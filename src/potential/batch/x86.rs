@@ -4,7 +4,7 @@
 
 use std::arch::x86_64::*;
 
-use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
+use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH};
 
 /// Eight lanes as two halves. Only [`Avx2::detect`] makes one, so whoever holds one runs on a CPU
 /// that has it.
@@ -104,12 +104,13 @@ impl Arithmetic for Avx2 {
     }
 
     #[inline(always)]
-    fn reciprocal_sqrt_single(self, a: Self::F) -> Self::F {
+    fn reciprocal_sqrt_guess(self, a: Self::F) -> Self::F {
         with!(self: {
-            let singles = _mm256_set_m128(_mm256_cvtpd_ps(a[1]), _mm256_cvtpd_ps(a[0]));
-            let y = _mm256_div_ps(_mm256_set1_ps(1.0), _mm256_sqrt_ps(singles));
-            let upper = _mm256_extractf128_ps(y, 1);
-            [_mm256_cvtps_pd(_mm256_castps256_ps128(y)), _mm256_cvtps_pd(upper)]
+            let guess = |a| {
+                let half = _mm256_srli_epi64(_mm256_castpd_si256(a), 1);
+                _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(GUESS), half))
+            };
+            [guess(a[0]), guess(a[1])]
         })
     }
 
@@ -222,10 +223,10 @@ impl Arithmetic for Avx512 {
     }
 
     #[inline(always)]
-    fn reciprocal_sqrt_single(self, a: __m512d) -> __m512d {
+    fn reciprocal_sqrt_guess(self, a: __m512d) -> __m512d {
         with!(self: {
-            let root = _mm256_sqrt_ps(_mm512_cvtpd_ps(a));
-            _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), root))
+            let half = _mm512_srli_epi64(_mm512_castpd_si512(a), 1);
+            _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64(GUESS), half))
         })
     }
 
