@@ -105,13 +105,7 @@ impl Arithmetic for Avx2 {
 
     #[inline(always)]
     fn reciprocal_sqrt_guess(self, a: Self::F) -> Self::F {
-        with!(self: {
-            let guess = |a| {
-                let half = _mm256_srli_epi64(_mm256_castpd_si256(a), 1);
-                _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(GUESS), half))
-            };
-            [guess(a[0]), guess(a[1])]
-        })
+        with!(self: [guess(a[0]), guess(a[1])])
     }
 
     #[inline(always)]
@@ -150,19 +144,12 @@ impl Lanes for Avx2 {
     intrinsics_on_halves! {
         div(a, b) = _mm256_div_pd;
         sqrt(a) = _mm256_sqrt_pd;
-        select(condition, a, b) = |condition, a, b| _mm256_blendv_pd(a, b, condition);
+        select(condition, a, b) = chosen;
     }
 
     #[inline(always)]
     fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F) {
         with!(self: {
-            let fraction = _mm256_castsi256_pd(_mm256_set1_epi64x(FRACTION));
-            let mantissa = |a| _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0));
-            let exponent = |a| {
-                let bits = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
-                let number = _mm256_or_pd(bits, _mm256_set1_pd(SHIFT));
-                _mm256_sub_pd(number, _mm256_set1_pd(SHIFT + 1023.0))
-            };
             ([mantissa(a[0]), mantissa(a[1])], [exponent(a[0]), exponent(a[1])])
         })
     }
@@ -170,22 +157,9 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F) {
         with!(self: {
-            let sign = _mm256_set1_epi64x(i64::MIN);
-            let flip = |x, bits| {
-                _mm256_xor_pd(x, _mm256_castsi256_pd(_mm256_and_si256(bits, sign)))
-            };
-            let turn = |i: usize| {
-                let quarters = _mm256_castpd_si256(quarters[i]);
-                let odd = _mm256_castsi256_pd(_mm256_slli_epi64(quarters, 63));
-                let half = _mm256_slli_epi64(quarters, 62);
-                let other = _mm256_xor_si256(half, _mm256_castpd_si256(odd));
-                (
-                    flip(_mm256_blendv_pd(sin[i], cos[i], odd), half),
-                    flip(_mm256_blendv_pd(cos[i], sin[i], odd), other),
-                )
-            };
-            let (lower, upper) = (turn(0), turn(1));
-            ([lower.0, upper.0], [lower.1, upper.1])
+            let lower = turned(quarters[0], sin[0], cos[0]);
+            let upper = turned(quarters[1], sin[1], cos[1]);
+            ([lower[0], upper[0]], [lower[1], upper[1]])
         })
     }
 
@@ -288,13 +262,12 @@ impl Lanes for Avx512 {
             let odd = _mm512_test_epi64_mask(quarters, _mm512_set1_epi64(1));
             let half = _mm512_slli_epi64(quarters, 62);
             let other = _mm512_xor_si512(half, _mm512_slli_epi64(quarters, 63));
-            let flip = |x, bits| {
-                let flipped = _mm512_xor_si512(_mm512_castpd_si512(x), _mm512_and_si512(bits, sign));
-                _mm512_castsi512_pd(flipped)
-            };
+            let (half, other) = (_mm512_and_si512(half, sign), _mm512_and_si512(other, sign));
+            let first = _mm512_castpd_si512(_mm512_mask_blend_pd(odd, sin, cos));
+            let second = _mm512_castpd_si512(_mm512_mask_blend_pd(odd, cos, sin));
             (
-                flip(_mm512_mask_blend_pd(odd, sin, cos), half),
-                flip(_mm512_mask_blend_pd(odd, cos, sin), other),
+                _mm512_castsi512_pd(_mm512_xor_si512(first, half)),
+                _mm512_castsi512_pd(_mm512_xor_si512(second, other)),
             )
         })
     }
@@ -319,6 +292,55 @@ impl Lanes for Avx512 {
     fn first(self, lanes: __m512d) -> f64 {
         with!(self: _mm512_cvtsd_f64(lanes))
     }
+}
+
+// What four lanes take more than one intrinsic for. (Closures on vectors would be calls.)
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn guess(a: __m256d) -> __m256d {
+    let half = _mm256_srli_epi64(_mm256_castpd_si256(a), 1);
+    _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(GUESS), half))
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn chosen(condition: __m256d, a: __m256d, b: __m256d) -> __m256d {
+    _mm256_blendv_pd(a, b, condition)
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn mantissa(a: __m256d) -> __m256d {
+    let fraction = _mm256_castsi256_pd(_mm256_set1_epi64x(FRACTION));
+    _mm256_or_pd(_mm256_and_pd(a, fraction), _mm256_set1_pd(1.0))
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn exponent(a: __m256d) -> __m256d {
+    let bits = _mm256_castsi256_pd(_mm256_srli_epi64(_mm256_castpd_si256(a), 52));
+    let number = _mm256_or_pd(bits, _mm256_set1_pd(SHIFT));
+    _mm256_sub_pd(number, _mm256_set1_pd(SHIFT + 1023.0))
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn turned(quarters: __m256d, sin: __m256d, cos: __m256d) -> [__m256d; 2] {
+    let quarters = _mm256_castpd_si256(quarters);
+    let sign = _mm256_set1_epi64x(i64::MIN);
+    let odd = _mm256_castsi256_pd(_mm256_slli_epi64(quarters, 63));
+    let half = _mm256_slli_epi64(quarters, 62);
+    let other = _mm256_xor_si256(half, _mm256_castpd_si256(odd));
+    let (half, other) = (_mm256_and_si256(half, sign), _mm256_and_si256(other, sign));
+    let swapped = [
+        _mm256_blendv_pd(sin, cos, odd),
+        _mm256_blendv_pd(cos, sin, odd),
+    ];
+    [
+        _mm256_xor_pd(swapped[0], _mm256_castsi256_pd(half)),
+        _mm256_xor_pd(swapped[1], _mm256_castsi256_pd(other)),
+    ]
 }
 
 /// The least of four lanes, by halves.
