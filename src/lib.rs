@@ -20,6 +20,7 @@
 //! | floor, from the ground up | what it holds |
 //! |---|---|
 //! | [`units`], [`configuration`], [`cell`], [`observer`], [`interruption`], [`budget`] | SI prefixes; (x, y, theta), its space and metric; boxes of configurations; who is told of progress; work that is given up; work that is counted |
+//! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
 //! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; two tiles and how they are meant to bind |
 //! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the one place where an energy is chosen |
 //! | [`problem`] | the three above, put together once, with the symmetries of the pair |
@@ -121,6 +122,7 @@ pub mod landscape;
 mod matrix;
 pub mod observer;
 mod order;
+pub mod output;
 mod parallel;
 pub mod pipeline;
 pub mod potential;

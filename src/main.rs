@@ -25,6 +25,10 @@ written); 75 interrupted.
 TILEBIND_KERNEL=avx512, avx2 or portable in the environment chooses the instruction set (default: the
 fastest that the processor has); the results are the same bytes with each.
 
+Files: a command replaces only what it wrote itself and nobody changed since; .tilebind.json in the
+folder notes that. Anything else in the way is refused before the work, and --force replaces it. What
+a command reads is never replaced. A set of files is all new or all old.
+
 Start here:
   tilebind init my.toml
   tilebind show my.toml

@@ -7,15 +7,19 @@ use clap::Args;
 use tilebind::dynamics::check::BarrierCheck;
 use tilebind::landscape::CompletenessSettings;
 use tilebind::observer::Observer;
+use tilebind::output::Output;
 use tilebind::pipeline;
+use tilebind::report::analysis::{self, Contents, Extent};
+use tilebind::report::files::{ANALYSE, REPORT};
 use tilebind::report::summary;
-use tilebind::report::writer::{self, Contents, Extent, WriteError};
 use tilebind::{Design, Settings};
 
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
-use super::options::{CertifyOptions, DesignOptions, PrintOptions, SurveyOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
+use super::options::{
+    CertifyOptions, DesignOptions, ForceOption, PrintOptions, SurveyOptions, WorkOptions,
+};
+use super::{Failure, input, interrupt, memory, style, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -46,6 +50,9 @@ pub struct Analyse {
     /// Folder for the results; made if need be
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
+
+    #[command(flatten)]
+    force: ForceOption,
 
     #[command(flatten)]
     survey: SurveyOptions,
@@ -114,8 +121,11 @@ impl Analyse {
         let start = Instant::now();
         interrupt::prepare()?;
         let design = self.design.load()?;
-        self.check_out()?;
-        let sheet = self.figures.sheet()?;
+        let contents = self.contents()?;
+        let inputs = self.design.inputs(&design);
+        let output = Output::folder(&ANALYSE, &self.out).reading(inputs);
+        let output = output.forced(self.force.force);
+        output.check(|name| contents.may_hold(name))?;
         let settings = self.settings(&design);
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
@@ -124,41 +134,27 @@ impl Analyse {
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &settings, &progress);
         progress.stage("pictures", 0.95);
-        let contents = Contents {
-            extent: if self.compact {
-                Extent::Compact
-            } else {
-                Extent::Full
-            },
-            arrays: self.arrays,
-            sheet,
-            command: command_line(),
-        };
-        let files =
-            writer::files(&design, &analysis, &contents, start).map_err(WriteError::from)?;
-        let kept = interrupt::without(|| writer::write(&self.out, &files))?;
+        let files = analysis::files(&design, &analysis, &contents, start)?;
+        interrupt::without(|| output.write(&files))?;
         progress.finish();
-        tell_of_kept(kept);
 
-        let report = String::from_utf8_lossy(&files[writer::REPORT]);
+        let report = String::from_utf8_lossy(&files[REPORT]);
         let folder = self.out.display().to_string();
         let summary = || summary::summary(&design, &analysis, &folder, style::columns());
         self.print.results(&report, summary)?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
     }
 
-    /// Refuses a folder that the results cannot go to, or that belongs to another program.
-    fn check_out(&self) -> Result<(), Failure> {
-        for folder in writer::FOLDERS {
-            input::check_folder(&self.out.join(folder))?;
-        }
-        if writer::has_foreign_report(&self.out) {
-            return Err(Failure::Usage(format!(
-                "{} is not a report of tilebind\n  help: name another folder",
-                self.out.join(writer::REPORT).display()
-            )));
-        }
-        Ok(())
+    fn contents(&self) -> Result<Contents, Failure> {
+        Ok(Contents {
+            extent: match self.compact {
+                true => Extent::Compact,
+                false => Extent::Full,
+            },
+            arrays: self.arrays,
+            sheet: self.figures.sheet()?,
+            command: command_line(),
+        })
     }
 
     fn settings(&self, design: &Design) -> Settings {

@@ -7,13 +7,13 @@ use tilebind::assembly::{Built, TileSet, Wiring, lattice, proofread, square};
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
 use tilebind::report::assembly::{self as report, Assembly, WordSearch};
-use tilebind::report::writer;
+use tilebind::report::files::ASSEMBLE;
 use tilebind::words::{Rules, Shape};
 
 use super::figures::command_line;
-use super::options::{PrintOptions, WorkOptions};
+use super::options::{ForceOption, PrintOptions, WorkOptions};
 use super::words::values;
-use super::{Failure, input, interrupt, tell_of_kept};
+use super::{Failure, input, interrupt};
 
 /// Build a tile set of magnets: a word for every glue, and files for the engines of tile assembly
 #[derive(Args)]
@@ -101,6 +101,9 @@ pub struct Assemble {
     out: PathBuf,
 
     #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
@@ -138,7 +141,8 @@ impl Assemble {
         let (tiles, design) = self.read()?;
         let set = proofread::blocks(&tiles, usize::from(self.proofread));
         let wiring = Wiring::new(&set).map_err(|error| Failure::Usage(error.to_string()))?;
-        input::check_folder(&self.out)?;
+        let inputs = self.inputs(design.as_ref());
+        let output = self.force.folder(&ASSEMBLE, &self.out, inputs)?;
         self.work.use_threads()?;
         let (text, tried) = match &self.words {
             Some(_) => (String::new(), Vec::new()),
@@ -172,7 +176,7 @@ impl Assemble {
             seed: self.work.seed,
         };
         let files = report::files(&assembly, &command_line());
-        tell_of_kept(interrupt::without(|| writer::write(&self.out, &files))?);
+        interrupt::without(|| output.write(&files))?;
         let json = report::json(&assembly);
         self.print.results(&json, || {
             let summary = report::summary(&assembly);
@@ -182,6 +186,17 @@ impl Assemble {
                 report::FILES
             )
         })
+    }
+
+    /// The files that are read.
+    fn inputs(&self, design: Option<&Design>) -> Vec<PathBuf> {
+        let named = [&self.tileset, &self.design, &self.words];
+        let named = named.into_iter().flatten().cloned();
+        let path = self.design.as_ref().or(self.tileset.as_ref());
+        let design = path
+            .zip(design)
+            .map(|(path, design)| input::files_of(path, design));
+        named.chain(design.into_iter().flatten()).collect()
     }
 
     fn search(&self) -> WordSearch {

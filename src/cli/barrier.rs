@@ -6,11 +6,12 @@ use clap::Args;
 use serde_json::{Value, json};
 use tilebind::budget::Ended;
 use tilebind::landscape::certificate::End;
+use tilebind::output::Command;
 use tilebind::query::{self, Answer, Query, QueryError};
-use tilebind::report::{csv, json, writer};
+use tilebind::report::{csv, json};
 use tilebind::{Configuration, Design, Settings};
 
-use super::options::{CertifyOptions, DesignOptions, WorkOptions};
+use super::options::{CertifyOptions, DesignOptions, ForceOption, WorkOptions};
 use super::progress::Progress;
 use super::{Failure, input, interrupt, memory, print, workload};
 
@@ -60,12 +61,17 @@ pub struct Barrier {
     pathway: Option<PathBuf>,
 
     #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
     work: WorkOptions,
 
     /// Print no progress
     #[arg(long)]
     quiet: bool,
 }
+
+const BARRIER: Command = Command::of_single_files("barrier");
 
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
@@ -75,9 +81,11 @@ impl Barrier {
         if let End::At(to) = &self.to {
             input::doubt_pose(&design, to);
         }
-        if let Some(file) = &self.pathway {
-            input::check_file(file)?;
-        }
+        let output = self.pathway.as_ref().map(|file| {
+            let inputs = self.design.inputs(&design);
+            self.force.file(&BARRIER, file, inputs)
+        });
+        let output = output.transpose()?;
         let query = self.query(&design);
         memory::check(query.settings.milestones, None, 1)?;
         self.work.use_threads()?;
@@ -91,9 +99,9 @@ impl Barrier {
             }
         })?;
         progress.finish();
-        if let Some(file) = &self.pathway {
+        if let Some(output) = output {
             let table = csv::pathway(&answer.barrier.pathway);
-            interrupt::without(|| writer::write_file(file, table.as_bytes()))?;
+            interrupt::without(|| output.write_file(table))?;
         }
         print(&json::text(&self.entry(&answer)))
     }
@@ -127,7 +135,8 @@ impl Barrier {
         // What ended the narrowing before it was done: "work" or "clock", of which only the latter
         // makes another run differ.
         entry["ended_by"] = json!(answer.ended.map(Ended::name));
-        entry["pathway"] = json!(self.pathway);
+        let pathway = self.pathway.as_ref();
+        entry["pathway"] = json!(pathway.map(|file| file.to_string_lossy()));
         entry
     }
 }

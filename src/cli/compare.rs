@@ -9,17 +9,17 @@ use tilebind::comparison::{self, Assessment, Quantity};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
+use tilebind::report::files::{COMPARE, Files, with_page};
 use tilebind::report::page::Page;
 use tilebind::report::plots::{Sheet, ranking};
-use tilebind::report::writer::{self, WriteError};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::figures::{FigureOptions, command_line};
-use super::options::{PrintOptions, WorkOptions};
+use super::options::{ForceOption, PrintOptions, WorkOptions};
 use super::progress::Progress;
 use super::word::Word;
-use super::{Failure, input, interrupt, memory, style, tell_of_kept, workload};
+use super::{Failure, input, interrupt, memory, style, workload};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -48,6 +48,9 @@ pub struct Compare {
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 
+    #[command(flatten)]
+    force: ForceOption,
+
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
           hide_possible_values = true)]
@@ -70,7 +73,9 @@ impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let designs = self.load()?;
-        input::check_folder(&self.out)?;
+        let inputs = self.designs.iter().zip(&designs);
+        let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
+        let output = self.force.folder(&COMPARE, &self.out, inputs.collect())?;
         let sheet = self.figures.sheet()?;
         let settings = self.options.settings(&designs);
         memory::check(settings.milestones, settings.neighbours, 1)?;
@@ -93,23 +98,20 @@ impl Compare {
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);
-        let shown = ranking::draw(&comparison, &Sheet::SCREEN).map_err(WriteError::from)?;
-        let drawn = ranking::draw(&comparison, &sheet).map_err(WriteError::from)?;
+        let shown = ranking::draw(&comparison, &Sheet::SCREEN)?;
+        let drawn = ranking::draw(&comparison, &sheet)?;
         let json = comparison.json();
-        let mut files = vec![
+        let mut files = Files::from([
             ("compare.csv".to_owned(), comparison.csv().into_bytes()),
             ("compare.md".to_owned(), comparison.markdown().into_bytes()),
-        ];
+            ("compare.json".to_owned(), json.clone().into_bytes()),
+        ]);
         // The numbers of the ranking are those of the table.
         files.extend(drawn.files().filter(|(name, _)| !name.ends_with(".csv")));
-        files.push(("compare.json".to_owned(), json.clone().into_bytes()));
-        let page = Page::of_comparison(&comparison, shown.svg().to_owned())
-            .made_by(&command_line())
-            .beside(files.iter().map(|(name, _)| name));
-        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        let kept = interrupt::without(|| writer::write_each(&self.out, &files))?;
+        let page = Page::of_comparison(&comparison, shown.svg().to_owned());
+        let files = with_page(files, Some(page), &command_line());
+        interrupt::without(|| output.write(&files))?;
         progress.finish();
-        tell_of_kept(kept);
         self.print.results(&json, || {
             let folder = self.out.display();
             let names =

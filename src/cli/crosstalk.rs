@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::design::{MagnetModel, WordSet};
 use tilebind::report::crosstalk as report;
-use tilebind::report::writer;
+use tilebind::report::files::CROSSTALK;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 
 use super::figures::command_line;
-use super::options::PrintOptions;
-use super::{Failure, input, interrupt, tell, tell_of_kept};
+use super::options::{ForceOption, PrintOptions};
+use super::{Failure, input, interrupt, tell};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
@@ -46,6 +46,9 @@ pub struct Crosstalk {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    #[command(flatten)]
+    force: ForceOption,
+
     /// Threads [default: all cores]; the results do not depend on them
     #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
     threads: Option<u16>,
@@ -58,9 +61,9 @@ impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let set = WordSet::load(&self.set, self.model)?;
-        if let Some(folder) = &self.out {
-            input::check_folder(folder)?;
-        }
+        let output = self.out.as_ref();
+        let output = output.map(|it| self.force.folder(&CROSSTALK, it, vec![self.set.clone()]));
+        let output = output.transpose()?;
         super::options::use_threads(self.threads)?;
         let stage = Stage::new(
             set.stage.pair.as_ref().clone(),
@@ -78,9 +81,9 @@ impl Crosstalk {
             );
         }
         let json = report::json(&set, &found);
-        if let Some(folder) = &self.out {
+        if let Some(output) = output {
             let files = report::files(&set, &found, &command_line());
-            tell_of_kept(interrupt::without(|| writer::write(folder, &files))?);
+            interrupt::without(|| output.write(&files))?;
         }
         self.print.results(&json, || {
             let mut text = report::summary(&set, &found);

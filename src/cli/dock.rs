@@ -11,15 +11,16 @@ use tilebind::dynamics::docking::{
 use tilebind::dynamics::{Fan, MotionSettings, Snapshot};
 use tilebind::kinetics::rates::Loosening;
 use tilebind::observer::Observer;
+use tilebind::report::files::{DOCK, Files, PICTURES, with_page};
 use tilebind::report::page::{Illustration, Page};
 use tilebind::report::plots::{Figure, PictureError, Sheet, dock, paths};
 use tilebind::report::rates::Motion;
-use tilebind::report::{docking as report, release, writer};
+use tilebind::report::{docking as report, release};
 
 use super::docking_starts::StartOptions;
 use super::figures::{FigureOptions, command_line};
-use super::options::{PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell_of_kept};
+use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
 
 const SEED: &str =
     "Seed of all random numbers; a trajectory depends on it and on its own number only";
@@ -57,6 +58,9 @@ pub struct Dock {
     /// Folder for report.html, dock.json, runs.csv, map.csv, trajectory.csv and pictures/
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    force: ForceOption,
 
     /// How long each trajectory lasts (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
@@ -140,10 +144,11 @@ impl Dock {
         interrupt::prepare()?;
         let design = input::load(&self.design)?;
         let problem = design.problem();
-        if let Some(folder) = &self.out {
-            input::check_folder(folder)?;
-            input::check_folder(&folder.join(writer::PICTURES))?;
-        }
+        let output = self.out.as_ref().map(|folder| {
+            let inputs = input::files_of(&self.design, &design);
+            self.force.folder(&DOCK, folder, inputs)
+        });
+        let output = output.transpose()?;
         let sheet = self.figures.sheet()?;
         self.work.use_threads()?;
         let settings = self.settings();
@@ -171,16 +176,15 @@ impl Dock {
         let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
         let map = DockingMap::new(&docking, CELLS);
         let json = report::json(&design, &docking, &map);
-        let mut kept = Vec::new();
-        if let Some(folder) = &self.out {
-            let mut files = vec![
+        if let Some(output) = output {
+            let mut files = Files::from([
                 ("dock.json".to_owned(), json.clone().into_bytes()),
                 (
                     "runs.csv".to_owned(),
                     report::runs_csv(&docking).into_bytes(),
                 ),
                 ("map.csv".to_owned(), report::map_csv(&map).into_bytes()),
-            ];
+            ]);
             let trace = |run: &DockingRun| {
                 let snapshots = docking::trajectory(&problem, &settings, run.index, INTERVAL);
                 Ok((*run, snapshots.map_err(usage)?))
@@ -189,44 +193,38 @@ impl Dock {
             let played = played.iter().map(trace);
             let played: Vec<_> = played.collect::<Result<_, Failure>>()?;
             let picked = &played[0].1;
-            files.push((
+            files.insert(
                 "trajectory.csv".to_owned(),
                 report::trajectory_csv(picked).into_bytes(),
-            ));
+            );
             let drawn: Vec<(End, Vec<Snapshot>)> = docking
                 .runs
                 .iter()
                 .take(DRAWN)
                 .map(|run| Ok((run.end, trace(run)?.1)))
                 .collect::<Result<_, Failure>>()?;
-            let picture = |error: PictureError| Failure::from(writer::WriteError::from(error));
             let coarse = DockingMap::new(&docking, dock::cells(docking.runs.len()));
-            let figures = |sheet: &Sheet| {
+            let figures = |sheet: &Sheet| -> Result<_, PictureError> {
                 let chances = dock::chances(&design, &coarse, sheet)?;
                 Ok([chances, paths::trajectories(&design, &drawn, sheet)?])
             };
-            let figures = |sheet| figures(sheet).map_err(picture);
             let titles = ["Chance of a match", "Paths"].into_iter();
             let shown = titles
                 .zip(&figures(&Sheet::SCREEN)?)
                 .map(illustration)
                 .collect();
             let page = Page::of_docking(&design, &problem, &docking, &played, shown);
-            let named = |(name, bytes)| (format!("{}/{name}", writer::PICTURES), bytes);
+            let named = |(name, bytes)| (format!("{}/{name}", PICTURES), bytes);
             files.extend(
                 figures(&sheet)?
                     .into_iter()
                     .flat_map(Figure::files)
                     .map(named),
             );
-            let page = page
-                .made_by(&command_line())
-                .beside(files.iter().map(|(name, _)| name));
-            files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-            kept = interrupt::without(|| writer::write_each(folder, &files))?;
+            let files = with_page(files, Some(page), &command_line());
+            interrupt::without(|| output.write(&files))?;
         }
         progress.finish();
-        tell_of_kept(kept);
         let summary = || {
             let told = report::summary(&design, &problem, &docking, &map);
             match &self.out {

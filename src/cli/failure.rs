@@ -7,7 +7,8 @@ use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
 use tilebind::kinetics::exit::ExitError;
 use tilebind::kinetics::rates::RatesError;
-use tilebind::report::writer::WriteError;
+use tilebind::output::OutputError;
+use tilebind::report::plots::PictureError;
 
 use super::tell;
 
@@ -92,8 +93,17 @@ impl From<ExitError> for Failure {
     }
 }
 
-impl From<WriteError> for Failure {
-    fn from(error: WriteError) -> Self {
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        match error {
+            OutputError::Refused(message) => Self::Usage(message),
+            _ => Self::Run(error.to_string()),
+        }
+    }
+}
+
+impl From<PictureError> for Failure {
+    fn from(error: PictureError) -> Self {
         Self::Run(error.to_string())
     }
 }

@@ -55,11 +55,12 @@ fn millimetres(text: &str) -> Result<f64, String> {
 }
 
 /// Options that do not change the results, and how many words of their own follow.
-const ELSEWHERE: [(&str, usize); 6] = [
+const ELSEWHERE: [(&str, usize); 7] = [
     ("--out", 1),
     ("-o", 1),
     ("--threads", 1),
     ("--quiet", 0),
+    ("--force", 0),
     ("--json", 0),
     ("--dry-run", 0),
 ];

@@ -1,11 +1,10 @@
 //! `tilebind init`.
 
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::design::{STARTER, Shape, Start};
+use tilebind::output::{Command, Output};
 
 use super::word::Word;
 use super::{Failure, input, print, tell};
@@ -23,9 +22,13 @@ Examples:
   tilebind init hexagon.toml --sides 6 --side 0.12 --magnets 3 --shape arc
   tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
-    /// The file to write, which must not exist; - is standard output
+    /// The file to write; - is standard output
     #[arg(default_value = "design.toml")]
     file: PathBuf,
+
+    /// Replace the file if it exists
+    #[arg(long)]
+    force: bool,
 
     /// Sides of both tiles, 3 to 24 [default: 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
@@ -49,6 +52,8 @@ fn shape() -> Word<Shape> {
     Word::new(&Shape::NAMES, format!("a shape is one of {names}"))
 }
 
+const INIT: Command = Command::of_single_files("init");
+
 impl Init {
     pub fn run(self) -> Result<(), Failure> {
         let text = self.text()?;
@@ -56,21 +61,13 @@ impl Init {
             return print(&text);
         }
         let name = self.file.display();
-        let mut file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&self.file)
-            .map_err(|error| match error.kind() {
-                ErrorKind::AlreadyExists => Failure::Usage(format!(
-                    "{name} exists and is left as it is\n  help: give another name: \
-                     tilebind init other.toml, or - for standard output"
-                )),
-                _ => Failure::Run(format!("cannot write {name}: {error}")),
-            })?;
-        if let Err(error) = file.write_all(text.as_bytes()) {
-            let _ = std::fs::remove_file(&self.file);
+        // The design is the user's from now on, changed or not.
+        let output = Output::file(&INIT, &self.file)?.unrecorded();
+        let folder = self.file.parent().filter(|it| !it.as_os_str().is_empty());
+        if let Some(Err(error)) = folder.map(std::fs::metadata) {
             return Err(Failure::Run(format!("cannot write {name}: {error}")));
         }
+        output.forced(self.force).write_file(text)?;
         tell(format!(
             "wrote {name}; next: tilebind show {name}, or tilebind analyse {name} --out results"
         ));

@@ -1,9 +1,8 @@
 //! What users type: designs, poses, numbers with limits.
 
-use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
 use tilebind::Configuration;
 use tilebind::design::{self, Design, MagnetModel};
@@ -25,6 +24,13 @@ pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failur
     let mut design = load(path)?;
     design.interaction.model = model.unwrap_or(design.interaction.model);
     Ok(design)
+}
+
+/// The files that a design is read from: its own, and its drawings beside it.
+pub fn files_of(path: &Path, design: &Design) -> Vec<PathBuf> {
+    let drawings = design.drawings.iter();
+    let drawings = drawings.map(|drawing| path.with_file_name(&drawing.file));
+    [path.to_owned()].into_iter().chain(drawings).collect()
 }
 
 /// A magnet model by the name that design files use.
@@ -215,71 +221,6 @@ pub fn text(path: &Path) -> io::Result<String> {
         return Err(io::Error::other(message));
     }
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
-}
-
-/// Refuses a folder that results cannot be written to, before any work is done. Nothing is left in
-/// it, and it is not made.
-pub fn check_folder(folder: &Path) -> Result<(), Failure> {
-    let refused = |error: io::Error| {
-        let folder = folder.display();
-        Failure::Run(format!("cannot write to the folder {folder}: {error}"))
-    };
-    for ancestor in folder.ancestors() {
-        let path = or_here(ancestor);
-        match fs::metadata(path) {
-            Ok(found) if found.is_dir() => {
-                let missing = folder.strip_prefix(ancestor).unwrap_or(Path::new(""));
-                let possible = missing.iter().try_for_each(|name| possible(path, name));
-                return possible.and_then(|()| try_to_write(path)).map_err(refused);
-            }
-            Ok(_) => {
-                let (folder, file) = (folder.display(), path.display());
-                return Err(Failure::Usage(format!(
-                    "cannot write to the folder {folder}: {file} is a file; name a folder"
-                )));
-            }
-            Err(error) => match error.kind() {
-                // A link that leads nowhere is there all the same.
-                ErrorKind::NotFound if path.symlink_metadata().is_err() => {}
-                ErrorKind::NotADirectory => {}
-                _ => return Err(refused(error)),
-            },
-        }
-    }
-    Ok(())
-}
-
-/// Refuses a file that cannot be written or replaced, before any work is done.
-pub fn check_file(file: &Path) -> Result<(), Failure> {
-    if file.exists() && !file.is_file() {
-        let file = file.display();
-        return Err(Failure::Usage(format!("{file} is not a regular file")));
-    }
-    check_folder(or_here(file.parent().unwrap_or(file)))
-}
-
-/// The empty path is the folder that one is in.
-fn or_here(path: &Path) -> &Path {
-    match path.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => path,
-    }
-}
-
-/// Whether a folder may have such a name in it: not one of a thousand letters.
-fn possible(folder: &Path, name: &OsStr) -> io::Result<()> {
-    match folder.join(name).symlink_metadata() {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// Makes a file in a folder and removes it.
-fn try_to_write(folder: &Path) -> io::Result<()> {
-    let file = folder.join(format!(".tilebind.{}.partial", std::process::id()));
-    let written = fs::write(&file, "tilebind");
-    let removed = fs::remove_file(&file);
-    written.and(removed)
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::report::files::MAKE;
 use tilebind::report::workshop;
-use tilebind::report::writer;
 use tilebind::workshop::Making;
 
-use super::{Failure, input, interrupt, print, tell_of_kept};
+use super::options::ForceOption;
+use super::{Failure, input, interrupt, print};
 
 /// Write both tiles for the workshop: DXF and SVG to scale, and a sheet for the magnets
 #[derive(Args)]
@@ -25,6 +26,9 @@ pub struct Make {
     /// Folder for the files; made if need be
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
+
+    #[command(flatten)]
+    force: ForceOption,
 
     /// Width of the cut (m), or with a unit: lines run half of it outside the parts
     #[arg(long, value_name = "M", default_value = "0", value_parser = input::length_or_none)]
@@ -46,16 +50,15 @@ impl Make {
             }
         }
         let design = input::load(&self.design)?;
-        input::check_folder(&self.out)?;
+        let inputs = input::files_of(&self.design, &design);
+        let output = self.force.folder(&MAKE, &self.out, inputs)?;
         let making = Making {
             kerf: self.kerf,
             clearance: self.clearance,
         };
         let files = workshop::files(&design, &making);
         let files = files.map_err(|error| Failure::Usage(error.to_string()))?;
-        tell_of_kept(interrupt::without(|| {
-            writer::write_each(&self.out, &files)
-        })?);
+        interrupt::without(|| output.write(&files))?;
         let magnets = design.pair.fixed.magnets.len() + design.pair.moving.magnets.len();
         let counted = match magnets {
             1 => "1 magnet".to_owned(),

@@ -39,7 +39,6 @@ use failure::WRONG;
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::Write;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Reads the command line. What begins like a number below 0 belongs to the option before it, which
@@ -103,16 +102,6 @@ fn tell(message: impl Display) {
         }
     }
     let _ = std::io::stderr().write_all(message.as_bytes());
-}
-
-/// Tells under which names files are now that were in the way of results.
-fn tell_of_kept(kept: Vec<PathBuf>) {
-    for path in kept {
-        tell(format!(
-            "note: a file that tilebind did not write was in the way; it is now {}",
-            path.display()
-        ));
-    }
 }
 
 /// Writes to standard output.

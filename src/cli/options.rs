@@ -9,6 +9,7 @@ use clap::Args;
 use tilebind::Settings;
 use tilebind::budget::Allowance;
 use tilebind::design::{Design, MagnetModel};
+use tilebind::output::{Command, Output};
 
 use super::progress::Progress;
 use super::{Failure, input, print, tell};
@@ -41,6 +42,48 @@ impl DesignOptions {
     /// The design file.
     pub fn file(&self) -> &Path {
         &self.design
+    }
+
+    /// The files that the design is read from.
+    pub fn inputs(&self, design: &Design) -> Vec<PathBuf> {
+        input::files_of(&self.design, design)
+    }
+}
+
+/// What becomes of files that are in the way.
+#[derive(Args)]
+pub struct ForceOption {
+    /// Replace files in the way, too, that tilebind did not write, that were changed since, or that
+    /// are results of another command; never what the command reads
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl ForceOption {
+    /// A folder for results of a command that reads `inputs`. What is in the way is refused.
+    pub fn folder(
+        &self,
+        command: &'static Command,
+        folder: &Path,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Output, Failure> {
+        let output = Output::folder(command, folder);
+        let output = output.reading(inputs).forced(self.force);
+        output.check(|_| true)?;
+        Ok(output)
+    }
+
+    /// A file of a command that reads `inputs`. What is in the way is refused.
+    pub fn file(
+        &self,
+        command: &'static Command,
+        file: &Path,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Output, Failure> {
+        let output = Output::file(command, file)?;
+        let output = output.reading(inputs).forced(self.force);
+        output.check(|_| true)?;
+        Ok(output)
     }
 }
 

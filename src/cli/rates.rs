@@ -10,13 +10,14 @@ use tilebind::kinetics::exit::{ExitSettings, exit, half_bond};
 use tilebind::kinetics::rates::{RateSettings, rates};
 use tilebind::kinetics::{Certify, OVERDAMPED, why_unprovable};
 use tilebind::observer::Observer;
+use tilebind::report::files::{RATES, with_report};
 use tilebind::report::page::Page;
-use tilebind::report::{json, rates as report, writer};
+use tilebind::report::{json, rates as report};
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::figures::command_line;
-use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, print, tell_of_kept};
+use super::options::{DesignOptions, ForceOption, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt, memory, print};
 
 /// Mean exit times after which a moving tile is given up.
 const PATIENCE: f64 = 30.0;
@@ -96,6 +97,9 @@ pub struct Rates {
     /// pictures/ and, with --prove, proved.csv
     #[arg(long, value_name = "DIR", conflicts_with = "start")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    force: ForceOption,
 
     /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
     /// that of overdamped motion
@@ -209,10 +213,9 @@ impl Rates {
     }
 
     fn table(&self, design: &Design, problem: Problem) -> Result<(), Failure> {
-        if let Some(folder) = &self.out {
-            input::check_folder(folder)?;
-            input::check_folder(&folder.join(writer::PICTURES))?;
-        }
+        let output = self.out.as_ref();
+        let output = output.map(|it| self.force.folder(&RATES, it, self.design.inputs(design)));
+        let output = output.transpose()?;
         let settings = self.survey();
         memory::check(settings.milestones, None, 1)?;
         let progress = self.print.progress();
@@ -234,7 +237,7 @@ impl Rates {
             places: &places,
             found: &found,
         };
-        let Some(folder) = &self.out else {
+        let Some((output, folder)) = output.zip(self.out.as_ref()) else {
             progress.finish();
             return self
                 .print
@@ -247,16 +250,13 @@ impl Rates {
             (&asked, &found),
             &motion,
         );
-        let text = json::text(&report::report(&table, &over_kt, self.work.seed));
-        let mut files = report::files(&table, &over_kt);
-        files.push(("report.json".to_owned(), text.clone().into_bytes()));
-        let page = Page::of_rates(&table, &over_kt)
-            .made_by(&command_line())
-            .beside(files.iter().map(|(name, _)| name));
-        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        tell_of_kept(interrupt::without(|| writer::write_each(folder, &files))?);
+        let value = report::report(&table, &over_kt, self.work.seed);
+        let page = Page::of_rates(&table, &over_kt);
+        let tables = report::files(&table, &over_kt);
+        let files = with_report(tables, Some(page), &value, &command_line());
+        interrupt::without(|| output.write(&files))?;
         progress.finish();
-        self.print.results(&text, || {
+        self.print.results(&json::text(&value), || {
             format!(
                 "{}results in {}: report.html to look at; report.json, tables, pictures\n",
                 table.summary(),

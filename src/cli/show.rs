@@ -6,12 +6,12 @@ use std::time::{Duration, SystemTime};
 use clap::Args;
 use tilebind::design::Design;
 use tilebind::inspection::Inspection;
-use tilebind::report::plots::{Sheet, glance};
-use tilebind::report::writer::{self, WriteError};
+use tilebind::output::Command;
+use tilebind::report::plots::{PictureError, Sheet, glance};
 use tilebind::report::{inspection, json};
 
-use super::options::DesignOptions;
-use super::{Failure, input, interrupt, print, style, tell};
+use super::options::{DesignOptions, ForceOption};
+use super::{Failure, interrupt, print, style, tell};
 
 /// Of a PDF (mm): the width of a text on A4 in a thousand pixels.
 const PIXEL: f64 = 0.17;
@@ -36,6 +36,9 @@ pub struct Show {
     #[arg(long, short, value_name = "FILE", value_parser = picture_file)]
     out: Option<PathBuf>,
 
+    #[command(flatten)]
+    force: ForceOption,
+
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
@@ -45,11 +48,10 @@ pub struct Show {
     watch: bool,
 }
 
+const SHOW: Command = Command::of_single_files("show");
+
 impl Show {
     pub fn run(self) -> Result<(), Failure> {
-        if let Some(file) = &self.out {
-            input::check_file(file)?;
-        }
         if !self.watch {
             return self.show();
         }
@@ -77,8 +79,9 @@ impl Show {
         let design = self.design.load_silently()?;
         let found = Inspection::new(&design);
         if let Some(file) = &self.out {
+            let output = self.force.file(&SHOW, file, self.design.inputs(&design))?;
             let bytes = picture(&design, &found, file)?;
-            interrupt::without(|| writer::write_file(file, &bytes))?;
+            interrupt::without(|| output.write_file(bytes))?;
         }
         if self.json {
             return print(&json::text(&inspection::json(&design, &found)));
@@ -112,7 +115,7 @@ impl Show {
 }
 
 /// The picture of a design as the file's ending asks for it.
-fn picture(design: &Design, found: &Inspection, file: &Path) -> Result<Vec<u8>, WriteError> {
+fn picture(design: &Design, found: &Inspection, file: &Path) -> Result<Vec<u8>, PictureError> {
     let ending = file.extension().unwrap_or_default();
     let sheet = match ending == "pdf" {
         true => Sheet::of_pixels(PIXEL),

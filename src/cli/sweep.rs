@@ -7,19 +7,22 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 use tilebind::Design;
+use tilebind::output::{Output, OutputError};
+use tilebind::report::files::{Files, PAGE, PICTURES, SWEEP};
 use tilebind::report::json;
 use tilebind::report::page::Page;
 use tilebind::report::plots::curve_data;
-use tilebind::report::sweep::{DESIGNS, Sweep as Report, counts};
-use tilebind::report::writer::{self, WriteError};
-use tilebind::sweep::{self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Store};
+use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::sweep::{
+    self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Source, Store,
+};
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
-use super::options::{PrintOptions, WorkOptions};
+use super::options::{ForceOption, PrintOptions, WorkOptions};
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, style, tell_of_kept};
+use super::{Failure, input, interrupt, memory, print, style};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -77,6 +80,9 @@ pub struct Sweep {
     baseline: Option<String>,
 
     #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
     options: AssessmentOptions,
 
     /// Only write the manifest [default file: plan.json in the folder of --out]
@@ -120,13 +126,13 @@ impl Sweep {
         }
         if let Some(file) = &self.merge {
             let (plan, folder) = self.read(file)?;
-            check_folders(&folder)?;
+            let output = self.output(&plan, &folder, Some(file))?;
             interrupt::prepare_resumable()?;
-            return self.merge(&plan, &folder);
+            return self.merge(&plan, &folder, &output);
         }
         if let Some(file) = &self.run {
             let (plan, folder) = self.read(file)?;
-            check_folders(&folder)?;
+            Store::new(&folder).check()?;
             interrupt::prepare_resumable()?;
             self.check_memory(&plan)?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
@@ -151,24 +157,38 @@ impl Sweep {
         };
         self.check_refinement(&plan)?;
         let file = self.plan_file()?;
-        let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
-        input::check_file(&file)?;
-        check_folders(&folder)?;
+        let manifest = self.force.file(&SWEEP, &file, inputs(&plan, None))?;
         interrupt::prepare_resumable()?;
-        if self.plan.is_none() {
-            self.check_memory(&plan)?;
-        }
-        write_plan(&plan, &file)?;
         if self.plan.is_some() {
+            interrupt::without(|| manifest.write_file(plan.to_text()))?;
             if self.print.quiet {
                 return Ok(());
             }
             let count = plan.points().len();
             return print(&format!("{count} points planned in {}\n", file.display()));
         }
+        let folder = folder_of(&file);
+        let output = self.output(&plan, &folder, None)?;
+        self.check_memory(&plan)?;
+        begin(&plan, &manifest, &folder)?;
         self.work(&plan, &folder, Shard::WHOLE)?;
-        let plan = self.refine(plan, &folder, &file)?;
-        self.merge(&plan, &folder)
+        let plan = self.refine(plan, &folder, &manifest)?;
+        self.merge(&plan, &folder, &output)
+    }
+
+    /// Where tables and pictures go. What is in the way is refused.
+    fn output(
+        &self,
+        plan: &Plan,
+        folder: &Path,
+        manifest: Option<&Path>,
+    ) -> Result<Output, Failure> {
+        let output = Output::folder(&SWEEP, folder).reading(inputs(plan, manifest));
+        let output = output.forced(self.force.force);
+        // A manifest that is read stays as it is.
+        output.check(|name| name != PLAN || !output.reads(name))?;
+        Store::new(folder).check()?;
+        Ok(output)
     }
 
     /// Where the manifest goes.
@@ -215,12 +235,7 @@ impl Sweep {
             bar.finished_one();
             Ok(())
         })
-        .map_err(|error: std::io::Error| {
-            Failure::Run(format!(
-                "cannot keep results in {}: {error}",
-                folder.display()
-            ))
-        })?;
+        .map_err(|error: OutputError| Failure::from(error))?;
         bar.finish();
         if self.run.is_some() && !self.print.quiet {
             let (number, of) = (shard.number, shard.of);
@@ -246,7 +261,7 @@ impl Sweep {
         print(&format!("{}\n", counts(&progress)))
     }
 
-    fn merge(&self, plan: &Plan, folder: &Path) -> Result<(), Failure> {
+    fn merge(&self, plan: &Plan, folder: &Path, output: &Output) -> Result<(), Failure> {
         let store = Store::new(folder);
         let report = Report::read(plan, &store).map_err(|progress| {
             Failure::Run(format!(
@@ -255,28 +270,22 @@ impl Sweep {
             ))
         })?;
         let json = report.json();
-        let mut files = vec![
+        let mut files = Files::from([
             ("sweep.csv".to_owned(), report.csv().into_bytes()),
+            ("sweep.json".to_owned(), json.clone().into_bytes()),
             (PLAN.to_owned(), plan.to_text().into_bytes()),
-        ];
+        ]);
         let sheet = self.figures.sheet()?;
-        for figure in curve_data::pictures(&report, &sheet).map_err(WriteError::from)? {
-            let named = |(name, bytes)| (format!("{}/{name}", writer::PICTURES), bytes);
+        for figure in curve_data::pictures(&report, &sheet)? {
+            let named = |(name, bytes)| (format!("{PICTURES}/{name}"), bytes);
             files.extend(figure.files().map(named));
         }
-        files.push(("sweep.json".to_owned(), json.clone().into_bytes()));
-        let page = Page::of_sweep(&report).beside(files.iter().map(|(name, _)| name));
-        // Named after what they hold: one that is there was written before, and may have been edited.
-        let new = report
-            .designs()
-            .filter(|(name, _)| !folder.join(name).exists());
-        files.extend(new.map(|(name, text)| (name, text.as_bytes().to_vec())));
-        files.push((writer::PAGE.to_owned(), page.to_html().into_bytes()));
-        let kept = interrupt::without(|| {
-            store.tidy();
-            writer::write_each(folder, &files)
-        })?;
-        tell_of_kept(kept);
+        let page = Page::of_sweep(&report).beside(files.keys());
+        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
+        let designs = report.designs();
+        files.extend(designs.map(|(name, text)| (name, text.as_bytes().to_vec())));
+        files.retain(|name, _| name != PLAN || !output.reads(name));
+        interrupt::without(|| output.write(&files))?;
         self.print.results(&json, || {
             let folder = folder.display();
             let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
@@ -298,18 +307,23 @@ impl Sweep {
     }
 }
 
-/// Refuses folders that neither points nor tables and pictures can be written to.
-fn check_folders(folder: &Path) -> Result<(), Failure> {
-    ["points", writer::PICTURES, DESIGNS]
-        .into_iter()
-        .try_for_each(|inner| input::check_folder(&folder.join(inner)))
+/// The files that a sweep is read from.
+fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
+    let designs = plan.designs.iter().flat_map(Source::files);
+    let manifest = manifest.map(|file| match file.is_dir() {
+        true => file.join(PLAN),
+        false => file.to_owned(),
+    });
+    designs.chain(manifest).collect()
 }
 
-fn write_plan(plan: &Plan, file: &Path) -> Result<(), Failure> {
-    let text = plan.to_text();
-    Ok(interrupt::without(|| {
-        writer::write_file(file, text.as_bytes())
-    })?)
+/// Writes the manifest of a sweep that is to be finished. That of results that are there stays with
+/// them until new ones come.
+fn begin(plan: &Plan, manifest: &Output, folder: &Path) -> Result<(), Failure> {
+    if folder.join("sweep.json").exists() {
+        return Ok(());
+    }
+    Ok(interrupt::without(|| manifest.write_file(plan.to_text()))?)
 }
 
 fn folder_of(file: &Path) -> PathBuf {

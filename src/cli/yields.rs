@@ -5,17 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
 use tilebind::kinetics::OVERDAMPED;
-use tilebind::report::files::with_report;
+use tilebind::report::files::{YIELD, with_report};
 use tilebind::report::json;
 use tilebind::report::page::Page;
-use tilebind::report::writer;
 use tilebind::report::yields as report;
 use tilebind::yields::attachment::{Effort, Source};
 use tilebind::yields::{Question, YieldError, yields};
 
 use super::figures::command_line;
-use super::options::{DesignOptions, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell_of_kept};
+use super::options::{DesignOptions, ForceOption, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
 
 /// How many pairs are bound after a time on a shaken table, and at which shaking most are
 #[derive(Args)]
@@ -82,6 +81,9 @@ pub struct YieldCommand {
     out: Option<PathBuf>,
 
     #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
@@ -108,25 +110,22 @@ impl YieldCommand {
             return Err(Failure::Usage(message));
         }
         let design = self.design.load()?;
-        if let Some(folder) = &self.out {
-            input::check_folder(folder)?;
-            input::check_folder(&folder.join(writer::PICTURES))?;
-        }
+        let output = self.out.as_ref();
+        let output = output.map(|it| self.force.folder(&YIELD, it, self.design.inputs(&design)));
+        let output = output.transpose()?;
         self.work.use_threads()?;
         let question = self.question();
         let progress = self.print.progress();
         let found = yields(&design, &question, &progress).map_err(failure)?;
         let value = report::json(&design, &question, &found);
         let text = json::text(&value);
-        let mut kept = Vec::new();
-        if let Some(folder) = &self.out {
-            let tables = report::files(&question, &found).into_iter().collect();
+        if let Some(output) = output {
+            let tables = report::files(&question, &found);
             let page = Page::of_yields(&design, &question, &found);
-            let files = with_report(tables, Some(page), value, &command_line());
-            kept = interrupt::without(|| writer::write(folder, &files))?;
+            let files = with_report(tables, Some(page), &value, &command_line());
+            interrupt::without(|| output.write(&files))?;
         }
         progress.finish();
-        tell_of_kept(kept);
         self.print.results(&text, || {
             let told = report::summary(&design, &question, &found);
             match &self.out {

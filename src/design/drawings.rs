@@ -41,7 +41,7 @@ pub(super) fn may_be_quoted(design: &str, name: &str) -> bool {
     folder.is_some_and(|folder| file::is_below(&path(design, name), folder))
 }
 
-pub(super) fn path(design: &str, name: &str) -> std::path::PathBuf {
+pub(crate) fn path(design: &str, name: &str) -> std::path::PathBuf {
     Path::new(design).with_file_name(name)
 }
 

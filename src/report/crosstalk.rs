@@ -173,7 +173,7 @@ const LISTED: usize = 5;
 /// All files, made by `command`.
 pub fn files(set: &WordSet, found: &Crosstalk, command: &str) -> Files {
     let page = Page::of_crosstalk(set, found);
-    with_report(tables(set, found), Some(page), value(set, found), command)
+    with_report(tables(set, found), Some(page), &value(set, found), command)
 }
 
 /// The tables.

@@ -1,38 +1,161 @@
-//! The files of an analysis by their names.
-
-use std::collections::BTreeMap;
+//! The files of results by their names: which ones each command writes.
 
 use serde_json::Value;
 
 use super::json as layout;
 use super::page::Page;
-use crate::checksum::sha256;
+use crate::output::Command;
+pub use crate::output::{Files, PICTURES};
 
-/// Files by their names relative to the folder they go to.
-pub type Files = BTreeMap<String, Vec<u8>>;
-
-/// The file that is written last: where it is, the others are too.
+/// What everything is in.
 pub const REPORT: &str = "report.json";
-
-/// The folder of pictures.
-pub const PICTURES: &str = "pictures";
 
 /// The page for a browser.
 pub const PAGE: &str = "report.html";
 
-/// Tables with the page that shows them, if any, made by `command`, and with the report, which lists
-/// them all with their checksums.
-pub fn with_report(tables: Files, page: Option<Page>, mut report: Value, command: &str) -> Files {
+/// `tilebind analyse`.
+pub const ANALYSE: Command = Command {
+    name: "analyse",
+    files: &[
+        REPORT,
+        PAGE,
+        "states.csv",
+        "barriers.csv",
+        super::dynamics::TABLE,
+        "pathways/#-#.csv",
+        "pathways/#-#-by-*.csv",
+        "arrays/*.npy",
+        "topsearch/min.data",
+        "topsearch/min.coords",
+        "topsearch/ts.data",
+        "topsearch/ts.coords",
+        "topsearch/pairlist",
+    ],
+    pictures: &[
+        "map",
+        "approach",
+        "profiles",
+        "docking",
+        "models",
+        "disconnectivity",
+    ],
+};
+
+/// `tilebind compare`.
+pub const COMPARE: Command = Command {
+    name: "compare",
+    files: &[
+        PAGE,
+        "compare.json",
+        "compare.csv",
+        "compare.md",
+        "ranking.svg",
+        "ranking.png",
+        "ranking.pdf",
+    ],
+    pictures: &[],
+};
+
+/// `tilebind sweep`; its points are files of their own, see [`crate::sweep::Store`].
+pub const SWEEP: Command = Command {
+    name: "sweep",
+    files: &[
+        PAGE,
+        "plan.json",
+        "sweep.json",
+        "sweep.csv",
+        "designs/*.toml",
+    ],
+    pictures: &["curves", "map"],
+};
+
+/// `tilebind dock`.
+pub const DOCK: Command = Command {
+    name: "dock",
+    files: &[PAGE, "dock.json", "runs.csv", "map.csv", "trajectory.csv"],
+    pictures: &["chances", "trajectories"],
+};
+
+/// `tilebind words`.
+pub const WORDS: Command = Command {
+    name: "words",
+    files: &[REPORT, PAGE, "words.csv", "crosstalk.csv", "words.toml"],
+    pictures: &[],
+};
+
+/// `tilebind crosstalk`.
+pub const CROSSTALK: Command = Command {
+    name: "crosstalk",
+    files: &[REPORT, PAGE, "crosstalk.csv"],
+    pictures: &[],
+};
+
+/// `tilebind assemble`.
+pub const ASSEMBLE: Command = Command {
+    name: "assemble",
+    files: &[
+        REPORT,
+        PAGE,
+        "assembly.yaml",
+        "assembly.tiles",
+        "tileset.yaml",
+        "matrix.csv",
+        "pairs.csv",
+        "slides.csv",
+        "words.toml",
+        "sheet.md",
+        "designs/*.toml",
+    ],
+    pictures: &["grown"],
+};
+
+/// `tilebind yield`.
+pub const YIELD: Command = Command {
+    name: "yield",
+    files: &[REPORT, PAGE, "yield.csv", "course.csv", "rates.csv"],
+    pictures: &["course", "yield", "shaking"],
+};
+
+/// `tilebind rates`.
+pub const RATES: Command = Command {
+    name: "rates",
+    files: &[
+        REPORT,
+        PAGE,
+        "rates.csv",
+        "occupation.csv",
+        "over-kt.csv",
+        "committor.csv",
+        "proved.csv",
+    ],
+    pictures: &["committor", "rates"],
+};
+
+/// `tilebind make`.
+pub const MAKE: Command = Command {
+    name: "make",
+    files: &[
+        "fixed.dxf",
+        "fixed.svg",
+        "moving.dxf",
+        "moving.svg",
+        "sheet.md",
+    ],
+    pictures: &[],
+};
+
+/// Tables with the page that shows them, if any, made by `command`, and with the report.
+pub fn with_report(tables: Files, page: Option<Page>, report: &Value, command: &str) -> Files {
     let mut files = tables;
+    files.insert(REPORT.to_owned(), layout::text(report).into_bytes());
+    with_page(files, page, command)
+}
+
+/// Files with the page that shows them, if any, made by `command`.
+pub fn with_page(mut files: Files, page: Option<Page>, command: &str) -> Files {
     if let Some(page) = page {
-        let others: Vec<String> = files.keys().cloned().chain([REPORT.to_owned()]).collect();
-        let page = page.made_by(command).beside(&others).to_html();
+        let page = page.made_by(command).beside(files.keys()).to_html();
         files.insert(PAGE.to_owned(), page.into_bytes());
     }
-    let sums = files
-        .iter()
-        .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-    report["files"] = Value::Object(sums.collect());
-    files.insert(REPORT.to_owned(), layout::text(&report).into_bytes());
     files
 }

@@ -17,8 +17,10 @@
 //! - [`page`] - `report.html`, all of it to look at and move about in;
 //! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
 //!   for programs that draw disconnectivity graphs;
-//! - [`writer`] - all of it as [`files`] of one folder.
+//! - [`analysis`] - all of it as files of one folder; [`files`] - what the files of all commands are
+//!   called.
 
+pub mod analysis;
 pub mod arrays;
 pub mod assembly;
 mod assessments;
@@ -32,7 +34,6 @@ pub mod csv;
 pub mod docking;
 mod docking_tables;
 pub mod dynamics;
-mod earlier;
 pub mod figures;
 pub mod files;
 pub mod inspection;
@@ -52,5 +53,4 @@ pub mod topsearch;
 mod values;
 pub mod words;
 pub mod workshop;
-pub mod writer;
 pub mod yields;

@@ -7,6 +7,7 @@ use std::fmt::Write;
 
 use nalgebra::Vector2;
 
+use super::files::Files;
 use super::inspection::GRAM;
 use super::markdown::markdown_table;
 use crate::design::Design;
@@ -26,8 +27,8 @@ const MARGIN: f64 = 5.0;
 ///
 /// # Errors
 /// Where the cut is too wide for the design.
-pub fn files(design: &Design, making: &Making) -> Result<Vec<(String, Vec<u8>)>, PartError> {
-    let mut files = Vec::new();
+pub fn files(design: &Design, making: &Making) -> Result<Files, PartError> {
+    let mut files = Files::new();
     let tiles = [
         ("fixed", &design.pair.fixed),
         ("moving", &design.pair.moving),
@@ -35,14 +36,14 @@ pub fn files(design: &Design, making: &Making) -> Result<Vec<(String, Vec<u8>)>,
     let mut parts = Vec::new();
     for (name, tile) in tiles {
         let part = Part::new(tile, making)?;
-        files.push((format!("{name}.dxf"), dxf(&part).into_bytes()));
-        files.push((format!("{name}.svg"), svg(&part).into_bytes()));
+        files.insert(format!("{name}.dxf"), dxf(&part).into_bytes());
+        files.insert(format!("{name}.svg"), svg(&part).into_bytes());
         parts.push((name, tile, part));
     }
-    files.push((
+    files.insert(
         "sheet.md".to_owned(),
         sheet(design, making, &parts).into_bytes(),
-    ));
+    );
     Ok(files)
 }
 

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::csv::{number, table};
+use super::files::{Files, PICTURES};
 use super::page::yield_charts;
 use super::terminal::write_table;
-use super::writer::PICTURES;
 use crate::design::Design;
 use crate::kinetics::mixture::Mixture;
 use crate::units::{duration, plain, si};
@@ -102,7 +102,7 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// Tables and pictures, by their names.
-pub fn files(question: &Question, found: &Yields) -> Vec<(String, Vec<u8>)> {
+pub fn files(question: &Question, found: &Yields) -> Files {
     let rows = found.outcomes.iter().flat_map(|outcome| {
         let kt = number(outcome.kt);
         outcome.table.iter().map(move |(tiles, coverage, bound)| {

@@ -1,7 +1,7 @@
 //! The designs that a sweep varies.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -67,6 +67,13 @@ impl Source {
         let mut found = drawings::held(&self.file, &self.document(), axes);
         found.append(&mut self.drawings);
         self.drawings = found;
+    }
+
+    /// The files that it was read from: the design's, and its drawings beside it.
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> {
+        let names = self.drawings.keys();
+        let drawings = names.map(|name| crate::design::drawings::path(&self.file, name));
+        [PathBuf::from(&self.file)].into_iter().chain(drawings)
     }
 
     /// The design itself, with the drawings that are held.

@@ -1,7 +1,7 @@
 //! The files of a sweep's points.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -9,11 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::point::Point;
 use crate::checksum::sha256;
 use crate::comparison::Assessment;
+use crate::output::{self, OutputError};
 
 /// Folder of the points' files within that of the sweep.
 const POINTS: &str = "points";
-/// End of the name of a file that is being written.
-const PARTIAL: &str = ".partial";
 
 /// What came of a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,12 +110,8 @@ impl Store {
         }
     }
 
-    fn points(&self) -> PathBuf {
-        self.folder.join(POINTS)
-    }
-
     fn path(&self, point: &Point) -> PathBuf {
-        self.points().join(format!("{}.json", point.name))
+        self.folder.join(name(point))
     }
 
     /// What came of a point; `None` where nothing is known, as of a file that is damaged or of
@@ -127,55 +122,31 @@ impl Store {
         record.outcome_of(point)
     }
 
-    /// Keeps what came of a point: written, synced, renamed, so that the file is there as a whole
-    /// or not at all, whatever happens.
+    /// Keeps what came of a point: its file is there as a whole or not at all, whatever happens.
     ///
     /// # Errors
     /// Where the file system refuses.
-    pub fn save(&self, point: &Point, outcome: &Outcome) -> io::Result<()> {
-        let folder = self.points();
-        fs::create_dir_all(&folder)?;
-        let record = serde_json::to_vec_pretty(&Record::new(point, outcome.clone())?)?;
-        let name = format!(".{}.{}{PARTIAL}", point.name, std::process::id());
-        let temporary = folder.join(name);
-        let written = write_synced(&temporary, &record)
-            .and_then(|()| fs::rename(&temporary, self.path(point)));
-        if let Err(error) = written {
-            let _ = fs::remove_file(&temporary);
-            // Of a folder that is not empty this takes nothing away.
-            let _ = fs::remove_dir(&folder);
-            return Err(error);
-        }
-        // The new name, too, is to survive a power cut; not every file system can sync a folder.
-        if let Ok(folder) = File::open(&folder) {
-            let _ = folder.sync_all();
-        }
-        Ok(())
+    pub fn save(&self, point: &Point, outcome: &Outcome) -> Result<(), OutputError> {
+        let record = Record::new(point, outcome.clone());
+        let record = record.and_then(|record| Ok(serde_json::to_vec_pretty(&record)?));
+        let content = record.map_err(|source| OutputError::File {
+            path: self.path(point),
+            source,
+        })?;
+        output::keep(&self.folder, &name(point), &content)
     }
 
-    /// Takes away files that a killed process left half written. For when nobody writes any more.
-    pub fn tidy(&self) {
-        let folders = ["", POINTS, "pictures"].map(|name| self.folder.join(name));
-        let entries = folders.iter().flat_map(fs::read_dir).flatten().flatten();
-        for entry in entries {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            if is_partial(&name) {
-                let _ = fs::remove_file(entry.path());
-            }
-        }
+    /// Refuses a folder that points cannot be kept in. Nothing is written.
+    ///
+    /// # Errors
+    /// Where the file system refuses.
+    pub fn check(&self) -> Result<(), OutputError> {
+        output::check_folder(&self.folder.join(POINTS))
     }
 }
 
-fn write_synced(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
-}
-
-/// Whether a name is one that tilebind writes under: `.NAME.PROCESS.partial`.
-fn is_partial(name: &str) -> bool {
-    let inner = name.strip_prefix('.').and_then(|n| n.strip_suffix(PARTIAL));
-    inner
-        .and_then(|inner| inner.rsplit_once('.'))
-        .is_some_and(|(name, process)| !name.is_empty() && process.parse::<u32>().is_ok())
+/// The file of a point, relative to the sweep's folder. The name is a hash of the design and its
+/// settings: nobody else gives a file such a name.
+fn name(point: &Point) -> String {
+    format!("{POINTS}/{}.json", point.name)
 }

@@ -10,6 +10,7 @@ mod faults;
 #[path = "../shared/folder.rs"]
 mod folder;
 mod levels;
+mod outputs;
 mod pictures;
 #[path = "../shared/program.rs"]
 mod program;

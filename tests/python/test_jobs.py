@@ -68,21 +68,23 @@ def test_files_are_those_of_the_program(program, root, tmp_path, name):
     subprocess.run([*run, "--out", str(tmp_path / "program")], check=True)
     told = " ".join(["tilebind analyse", file.name, *options, "--arrays"])
     found = tilebind.Design.load(file).analyse(progress=False, **SMALL)
-    assert found.write(tmp_path / "python", arrays=True, command=told) == []
+    found.write(tmp_path / "python", arrays=True, command=told)
     theirs, ours = (
         {p.relative_to(tmp_path / k): p.read_bytes() for p in (tmp_path / k).rglob("*") if p.is_file()}
         for k in ("program", "python")
     )
     assert set(theirs) == set(ours)
-    report = pathlib.Path("report.json")
+    report, record = map(pathlib.Path, ["report.json", ".tilebind.json"])
     for path in theirs:
-        if path == report:
+        if path == record:  # It has the checksum of report.json.
+            assert json.loads(theirs[path])["files"].keys() == json.loads(ours[path])["files"].keys()
+        elif path == report:
             assert without_timing(theirs[path].decode()) == without_timing(ours[path].decode())
         else:
             assert theirs[path] == ours[path], path
     alone = json.loads(found.report_json())
     whole = json.loads(ours[report])
-    del whole["files"], whole["timing"], alone["timing"]
+    del whole["timing"], alone["timing"]
     assert alone == whole
 
 
@@ -93,11 +95,31 @@ def without_timing(text):
     return left
 
 
-def test_nothing_foreign_is_overwritten(analysis, tmp_path):
-    (tmp_path / "report.json").write_text("{}")
-    with pytest.raises(ValueError, match="another folder"):
+def test_only_own_files_are_replaced(analysis, tmp_path):
+    report = tmp_path / "report.json"
+    for mine in ("{}", '{"tilebind": "0.1.0", "files": {}}'):
+        report.write_text(mine)
+        with pytest.raises(ValueError, match="another folder, or .* with force=True"):
+            analysis.write(tmp_path)
+        assert [path.name for path in tmp_path.iterdir()] == ["report.json"]
+        assert report.read_text() == mine
+    analysis.write(tmp_path, force=True)
+    analysis.write(tmp_path, compact=True)
+    assert not (tmp_path / "report.html").exists()
+    report.write_text(report.read_text() + " ")
+    with pytest.raises(ValueError, match="report.json was changed since"):
         analysis.write(tmp_path)
-    assert (tmp_path / "report.json").read_text() == "{}"
+    with pytest.raises(ValueError, match="is a file"):
+        analysis.write(report)
+
+
+def test_a_design_file_is_never_replaced(analysis, design, tmp_path):
+    file = tmp_path / "report.json"
+    file.write_text(design.text)
+    own = tilebind.Design.load(file).analyse(progress=False, **SMALL)
+    with pytest.raises(ValueError, match="never replaced"):
+        own.write(tmp_path, force=True)
+    assert file.read_text() == design.text
 
 
 def test_results_travel(analysis):

@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// All files below a folder with their contents, by their names relative to it.
+/// What tilebind notes about its files in a folder; it has the checksums of files that tell times.
+pub const RECORD: &str = ".tilebind.json";
+
+/// All files below a folder but its record with their contents, by their names relative to it.
 pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = BTreeMap::new();
     let mut open = vec![folder.to_owned()];
@@ -12,7 +15,7 @@ pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 open.push(path);
-            } else {
+            } else if path != folder.join(RECORD) {
                 let name = path.strip_prefix(folder).expect("below").display();
                 let content = std::fs::read(&path).expect("a file");
                 all.insert(name.to_string(), content);

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use tilebind::output::Output;
 use tilebind::sweep::{self, Axis, Outcome, Plan, Shard, Store};
 
-use super::{Sweep, write_plan};
+use super::{Sweep, begin};
 use crate::cli::{Failure, tell};
 
 /// Rounds in which points are added.
@@ -31,7 +32,7 @@ impl Sweep {
         &self,
         mut plan: Plan,
         folder: &Path,
-        file: &Path,
+        manifest: &Output,
     ) -> Result<Plan, Failure> {
         let store = Store::new(folder);
         let asked = self.refine.unwrap_or(0);
@@ -53,7 +54,7 @@ impl Sweep {
             };
             left -= added(&finer) - added(&plan);
             plan = finer;
-            write_plan(&plan, file)?;
+            begin(&plan, manifest, folder)?;
             self.work(&plan, folder, Shard::WHOLE)?;
         }
         if left > 0 && !self.print.quiet {

@@ -1,5 +1,6 @@
 //! What `tilebind words` is asked: places, magnets, constraints.
 
+use tilebind::design::Design;
 use tilebind::report::words as report;
 use tilebind::words::word::MOST_PLACES;
 use tilebind::words::{Bar, Constraints, PAPER_FACE};
@@ -61,8 +62,8 @@ impl Words {
         Ok((places, magnets))
     }
 
-    /// The magnets, the length of the face (m), and the name of the design that they are of.
-    pub(super) fn bar(&self) -> Result<(Bar, f64, Option<String>), Failure> {
+    /// The magnets, the length of the face (m), and the design that they are of.
+    pub(super) fn bar(&self) -> Result<(Bar, f64, Option<Design>), Failure> {
         let path = self.design.as_ref();
         let design = path.map(|path| input::load_as(path, self.model));
         let design = design.transpose()?;
@@ -71,8 +72,7 @@ impl Words {
             None => Failure::Usage(message),
         };
         let (bar, face) = report::bar(design.as_ref(), self.pitch, self.model).map_err(usage)?;
-        let name = design.map(|design| design.name);
-        Ok((bar, face.unwrap_or(PAPER_FACE), name))
+        Ok((bar, face.unwrap_or(PAPER_FACE), design))
     }
 
     pub(super) fn constraints(

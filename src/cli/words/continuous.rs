@@ -1,5 +1,6 @@
 //! `tilebind words --continuous`.
 
+use tilebind::output::Output;
 use tilebind::report::words::{Spaced, SpacedError};
 use tilebind::words::continuous::Wanted;
 use tilebind::words::{Bar, Faces, Question};
@@ -14,6 +15,7 @@ impl Words {
         magnets: usize,
         bar: Bar,
         face: f64,
+        output: Option<&Output>,
     ) -> Result<(), Failure> {
         let wanted = Wanted {
             magnets,
@@ -38,6 +40,7 @@ impl Words {
             _ => Failure::Usage(error.to_string()),
         })?;
         self.finish(
+            output,
             &spaced.json(),
             || spaced.files(&command_line()),
             || spaced.summary(),

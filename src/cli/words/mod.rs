@@ -8,16 +8,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::budget::Budget;
-use tilebind::design::MagnetModel;
-use tilebind::report::files::Files;
+use tilebind::design::{Design, MagnetModel};
+use tilebind::output::Output;
+use tilebind::report::files::{Files, WORDS};
 use tilebind::report::words::{self as report, Request};
-use tilebind::report::writer;
 use tilebind::words::search::Effort;
 use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
 use super::figures::command_line;
-use super::options::{PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, tell_of_kept};
+use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::{Failure, input, interrupt};
 use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
 /// Find sets of barcodes that bind their mates and nothing else
@@ -151,6 +151,9 @@ pub struct Words {
     out: Option<PathBuf>,
 
     #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
@@ -162,12 +165,11 @@ impl Words {
         interrupt::prepare()?;
         let (places, magnets) = self.places()?;
         let (bar, face, design) = self.bar()?;
-        if let Some(folder) = &self.out {
-            input::check_folder(folder)?;
-        }
+        let output = self.output(design.as_ref())?;
         self.work.use_threads()?;
         if self.continuous {
-            return self.run_continuous(magnets, bar, self.face.unwrap_or(face));
+            let face = self.face.unwrap_or(face);
+            return self.run_continuous(magnets, bar, face, output.as_ref());
         }
         let energies = Lags::new(&bar, places);
         let rules = Rules {
@@ -198,7 +200,7 @@ impl Words {
         };
         let answer = answer(&task, question, &energies, &mut effort);
         let request = Request {
-            design,
+            design: design.map(|design| design.name),
             bar,
             task,
             question,
@@ -209,22 +211,35 @@ impl Words {
         };
         let json = report::json(&request, &answer);
         self.finish(
+            output.as_ref(),
             &json,
             || report::files(&request, &answer, &command_line()),
             || report::summary(&request, &answer),
         )
     }
 
+    /// Where the files go, if a folder is given.
+    fn output(&self, design: Option<&Design>) -> Result<Option<Output>, Failure> {
+        let read = self.design.as_ref().zip(design);
+        let inputs = read.map(|(path, design)| input::files_of(path, design));
+        let inputs = inputs.unwrap_or_default();
+        let folder = self.out.as_ref();
+        folder
+            .map(|it| self.force.folder(&WORDS, it, inputs))
+            .transpose()
+    }
+
     /// Writes the files, if a folder is given, and prints.
     fn finish(
         &self,
+        output: Option<&Output>,
         json: &str,
         files: impl FnOnce() -> Files,
         summary: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
-        if let Some(folder) = &self.out {
+        if let Some(output) = output {
             let files = files();
-            tell_of_kept(interrupt::without(|| writer::write(folder, &files))?);
+            interrupt::without(|| output.write(&files))?;
         }
         self.print.results(json, || {
             let mut text = summary();

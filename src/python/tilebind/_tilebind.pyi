@@ -190,7 +190,8 @@ class Analysis:
         arrays: bool = False,
         compact: bool = False,
         command: str | None = None,
-    ) -> list[str]: ...
+        force: bool = False,
+    ) -> None: ...
     def plot_map(self, ax: Any = None, **style: Any) -> Any: ...
     def plot_profile(
         self, start: _Place | None = None, end: _Place | None = None, ax: Any = None, **style: Any

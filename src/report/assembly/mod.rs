@@ -138,10 +138,10 @@ pub fn files(assembly: &Assembly, command: &str) -> Files {
     let svg = picture::grown(assembly);
     add(&format!("{PICTURES}/grown.svg"), svg.clone());
     let page = Page::of_assembly(assembly, &slides, svg);
-    with_report(files, Some(page), value(assembly, &slides), command)
+    with_report(files, Some(page), &value(assembly, &slides), command)
 }
 
-/// `report.json` without its list of files, and what `--json` prints.
+/// `report.json`, and what `--json` prints.
 pub fn json(assembly: &Assembly) -> String {
     layout::text(&value(assembly, &assembly.slides()))
 }

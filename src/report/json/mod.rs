@@ -15,11 +15,9 @@ pub use layout::text;
 
 use super::columns::{Column, Output, StateRow, barriers, object, states};
 use super::dynamics;
-use super::files::Files;
 use super::names::{self, alternative_file, place};
 use super::values::{pose, proportion};
 use crate::budget::Ended;
-use crate::checksum::sha256;
 use crate::design::Design;
 use crate::landscape::{Alternative, Barrier, PathwayCost};
 use crate::pipeline::Analysis;
@@ -92,16 +90,6 @@ impl Report {
                 *pathway = Value::Null;
             }
         }
-        self
-    }
-
-    /// Lists the files beside the report with the SHA-256 of their bytes: only what is listed and
-    /// unchanged may a later analysis replace or take away.
-    pub fn listing(mut self, files: &Files) -> Self {
-        let sums = files
-            .iter()
-            .map(|(name, bytes)| (name.clone(), sha256(bytes).into()));
-        self.0["files"] = Value::Object(sums.collect());
         self
     }
 

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use super::{AtKt, Table};
 use crate::kinetics::map::Map;
 use crate::report::csv::{self, number};
+use crate::report::files::{Files, PICTURES};
 use crate::report::page::rate_charts;
-use crate::report::writer::PICTURES;
 
 /// The answer as `report.json` has it.
 pub fn report(table: &Table, over_kt: &[AtKt], seed: u64) -> Value {
@@ -35,8 +35,8 @@ pub fn report(table: &Table, over_kt: &[AtKt], seed: u64) -> Value {
 }
 
 /// Tables and pictures, by their names.
-pub fn files(table: &Table, over_kt: &[AtKt]) -> Vec<(String, Vec<u8>)> {
-    let mut files = vec![
+pub fn files(table: &Table, over_kt: &[AtKt]) -> Files {
+    let mut files = Files::from([
         ("rates.csv".to_owned(), table.rates_csv().into_bytes()),
         (
             "occupation.csv".to_owned(),
@@ -46,12 +46,12 @@ pub fn files(table: &Table, over_kt: &[AtKt]) -> Vec<(String, Vec<u8>)> {
             "over-kt.csv".to_owned(),
             courses(table, over_kt).into_bytes(),
         ),
-    ];
+    ]);
     if let Some(proved) = table.proved_csv() {
-        files.push(("proved.csv".to_owned(), proved.into_bytes()));
+        files.insert("proved.csv".to_owned(), proved.into_bytes());
     }
     if let Some(map) = table.map() {
-        files.push(("committor.csv".to_owned(), squares(map).into_bytes()));
+        files.insert("committor.csv".to_owned(), squares(map).into_bytes());
     }
     let pictures = rate_charts::all(table, over_kt).into_iter();
     files.extend(

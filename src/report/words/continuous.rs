@@ -155,7 +155,7 @@ impl Spaced {
         files.insert("words.toml".to_owned(), text.into_bytes());
         files.insert("words.csv".to_owned(), self.csv().into_bytes());
         let page = judged.map(|(set, found)| Page::of_crosstalk(set, found));
-        with_report(files, page, self.value(), command)
+        with_report(files, page, &self.value(), command)
     }
 
     /// Every magnet of every word.

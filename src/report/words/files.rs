@@ -21,7 +21,7 @@ pub fn files(request: &Request, answer: &Answer, command: &str) -> Files {
     add("crosstalk.csv", crosstalk_csv(request, answer));
     add("words.toml", words_toml(request, answer));
     let page = Page::of_words(request, answer);
-    with_report(files, Some(page), value(request, answer), command)
+    with_report(files, Some(page), &value(request, answer), command)
 }
 
 /// The words, each with its bond and its own worst meeting.

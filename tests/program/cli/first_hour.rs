@@ -247,8 +247,6 @@ fn files_for_the_workshop_are_to_scale() {
     assert_eq!(
         names,
         [
-            // By which files of its own are known again.
-            ".tilebind.sha256",
             "fixed.dxf",
             "fixed.svg",
             "moving.dxf",

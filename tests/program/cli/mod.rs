@@ -11,7 +11,6 @@ mod dynamics;
 mod energy;
 mod excess;
 mod first_hour;
-mod kept;
 mod mistakes;
 mod rates;
 mod shields;

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use super::{COMMANDS, arguments, assert_whole, undisturbed};
-use crate::folder::contents;
 use crate::program::{command, stderr};
 
 #[test]
@@ -22,21 +21,16 @@ fn what_is_killed_leaves_whole_files_and_can_be_done_again() {
         }
         let output = command(&arguments(name, more, &out)).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
-        take_away_unfinished(&out);
         assert_eq!(assert_whole(&out, expected), expected.len(), "{name}");
     }
 }
 
-/// Takes away what was being written, which goes by another name than any result, and what was set
-/// aside because no report said who had written it.
+/// Takes away what was being written, which lies apart from all results.
 fn take_away_unfinished(folder: &std::path::Path) {
-    if !folder.exists() {
-        return;
-    }
-    for name in contents(folder).into_keys() {
-        let file = name.rsplit('/').next().unwrap();
-        if file.starts_with('.') && file.ends_with(".partial") || file.contains(".kept-") {
-            std::fs::remove_file(folder.join(&name)).unwrap();
+    for entry in std::fs::read_dir(folder).into_iter().flatten() {
+        let entry = entry.unwrap();
+        if entry.file_name().to_string_lossy().ends_with(".partial") {
+            std::fs::remove_dir_all(entry.path()).unwrap();
         }
     }
 }

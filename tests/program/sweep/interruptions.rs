@@ -78,7 +78,8 @@ fn killed_and_resumed_it_ends_in_the_same_bytes() {
     let damaged = before.keys().next().unwrap();
     let content = std::fs::read(damaged).unwrap();
     std::fs::write(damaged, &content[..content.len() / 2]).unwrap();
-    std::fs::write(broken.join("points/.0123.99.partial"), "{").unwrap();
+    std::fs::create_dir(broken.join(".tilebind-99-0.partial")).unwrap();
+    std::fs::write(broken.join(".tilebind-99-0.partial/0"), "{").unwrap();
     let all = arguments(&broken);
     done(&all.iter().map(String::as_str).collect::<Vec<_>>());
     assert_same(&whole, &broken);
@@ -109,6 +110,6 @@ fn sigterm_ends_it_with_status_75_and_keeps_what_is_finished() {
     assert!((2..POINTS).contains(&points(&out).len()));
     assert!(!out.join("sweep.json").exists());
     let partial = |path: &PathBuf| path.display().to_string().contains("partial");
-    let entries = std::fs::read_dir(out.join("points")).unwrap().flatten();
+    let entries = std::fs::read_dir(&out).unwrap().flatten();
     assert!(!entries.map(|entry| entry.path()).any(|path| partial(&path)));
 }

@@ -4,11 +4,13 @@ use std::time::Instant;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use tilebind::output::{Output, OutputError};
+use tilebind::report::analysis::{self, Contents, Extent};
+use tilebind::report::files::ANALYSE;
 use tilebind::report::json::Report;
 use tilebind::report::page::Page;
 use tilebind::report::plots::Sheet;
 use tilebind::report::summary;
-use tilebind::report::writer::{self, Contents, Extent, FOLDERS};
 
 use super::Analysis;
 use crate::{fault, job};
@@ -79,7 +81,7 @@ impl Analysis {
     }
 
     /// The text of ``report.json``: every byte as ``tilebind analyse`` writes it, but for what
-    /// depends on the machine (`timing`) and the checksums of the files beside it.
+    /// depends on the machine (`timing`).
     ///
     /// Returns
     /// -------
@@ -88,24 +90,30 @@ impl Analysis {
         Report::new(&self.content.design, &self.found, self.wall_s).to_text()
     }
 
-    /// Write all files of ``tilebind analyse``, whole or not at all.
+    /// Write all files of ``tilebind analyse``, or none of them. They replace those of an earlier
+    /// analysis; what else is in the way is refused.
     ///
     /// Parameters
     /// ----------
     /// folder : str or os.PathLike
-    ///     Made if need be. Files that tilebind did not write are never overwritten.
+    ///     Made if need be.
     /// arrays : bool, optional
     ///     NPY files too.
     /// compact : bool, optional
     ///     Leave out the page, PNG pictures and pathways of copies.
     /// command : str, optional
     ///     The line on the page that tells how it was made.
+    /// force : bool, optional
+    ///     Replace files in the way, too, that tilebind did not write, that were changed since, or
+    ///     that are results of another command; never the design's file and its drawings.
     ///
-    /// Returns
-    /// -------
-    /// tuple of str
-    ///     Names under which files that were in the way are kept.
-    #[pyo3(signature = (folder, *, arrays = false, compact = false, command = None))]
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Where a file is in the way: which, and what to do.
+    /// OSError
+    ///     Where the file system refuses; all files are then as they were.
+    #[pyo3(signature = (folder, *, arrays = false, compact = false, command = None, force = false))]
     fn write(
         &self,
         py: Python<'_>,
@@ -113,22 +121,8 @@ impl Analysis {
         arrays: bool,
         compact: bool,
         command: Option<String>,
-    ) -> PyResult<Vec<String>> {
-        if writer::has_foreign_report(&folder) {
-            return Err(fault::value(format!(
-                "{} holds a report that is not of tilebind: name another folder",
-                folder.display()
-            )));
-        }
-        for inner in FOLDERS
-            .iter()
-            .map(|inner| folder.join(inner))
-            .chain([folder.clone()])
-        {
-            if inner.exists() && !inner.is_dir() {
-                return Err(fault::value(format!("{} is no folder", inner.display())));
-            }
-        }
+        force: bool,
+    ) -> PyResult<()> {
         let contents = Contents {
             extent: if compact {
                 Extent::Compact
@@ -139,14 +133,19 @@ impl Analysis {
             sheet: Sheet::SCREEN,
             command: command.unwrap_or_else(|| self.command()),
         };
+        let inputs = self.content.source.files();
+        let output = Output::folder(&ANALYSE, &folder)
+            .reading(inputs)
+            .forced(force);
+        output
+            .check(|name| contents.may_hold(name))
+            .map_err(not_written)?;
         let start = Instant::now();
         let files = job::quietly(py, || {
-            writer::files(&self.content.design, &self.found, &contents, start)
+            analysis::files(&self.content.design, &self.found, &contents, start)
         })?;
         let files = files.map_err(fault::run)?;
-        let kept = writer::write(&folder, &files)
-            .map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))?;
-        Ok(kept.iter().map(|path| path.display().to_string()).collect())
+        output.write(&files).map_err(not_written)
     }
 
     /// Draw the lowest energy about the fixed tile with the states on it.
@@ -236,5 +235,12 @@ impl Analysis {
             inventory.kinds().count(),
             inventory.barriers.len()
         )
+    }
+}
+
+fn not_written(error: OutputError) -> PyErr {
+    match error {
+        OutputError::Refused(message) => fault::value(message.replace("--force", "force=True")),
+        error => pyo3::exceptions::PyOSError::new_err(error.to_string()),
     }
 }

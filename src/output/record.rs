@@ -1,0 +1,156 @@
+//! What tilebind wrote into a folder.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::staging::Staging;
+use super::{Files, OutputError, is_there};
+use crate::checksum::{sha256, sha256_of_file};
+
+/// The record's file.
+pub(super) const NAME: &str = ".tilebind.json";
+
+/// The files of a folder, by their names relative to it, that tilebind wrote.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Record {
+    /// The version that wrote the record.
+    tilebind: String,
+    files: BTreeMap<String, Entry>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Entry {
+    /// The command that wrote the file.
+    command: String,
+    /// Of its content; while it is being replaced, of the new and of the old.
+    sha256: Vec<String>,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self {
+            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+            files: BTreeMap::new(),
+        }
+    }
+}
+
+impl Record {
+    /// Reads a record; it is empty where there is none. `None` where the file is something else.
+    pub fn read(path: &Path) -> Option<Self> {
+        match path.symlink_metadata() {
+            Ok(found) if found.is_file() => serde_json::from_slice(&fs::read(path).ok()?).ok(),
+            Err(error) if error.kind() == ErrorKind::NotFound => Some(Self::default()),
+            _ => None,
+        }
+    }
+
+    /// The record as it is written.
+    pub fn text(&self) -> String {
+        // Plain values with string keys are always written.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The command that wrote a file.
+    pub fn writer(&self, name: &str) -> Option<&str> {
+        Some(&self.files.get(name)?.command)
+    }
+
+    /// Whether the file at `path` is as it was written under this name.
+    pub fn has(&self, name: &str, path: &Path) -> bool {
+        let sum = sha256_of_file(path).ok();
+        let known = self.files.get(name).zip(sum);
+        known.is_some_and(|(entry, sum)| entry.sha256.contains(&sum))
+    }
+
+    /// The names of a command's files.
+    pub fn of(&self, command: &str) -> impl Iterator<Item = &str> {
+        let own = self
+            .files
+            .iter()
+            .filter(move |(_, entry)| entry.command == command);
+        own.map(|(name, _)| name.as_str())
+    }
+
+    /// The record while a command's files take the places of those in the folder: both are known.
+    pub fn with(&self, command: &str, files: &Files) -> Self {
+        let mut new = Self {
+            files: self.files.clone(),
+            ..Self::default()
+        };
+        for (name, content) in files {
+            let mut sums = vec![sha256(content)];
+            let old = self.files.get(name).filter(|old| old.command == command);
+            sums.extend(old.into_iter().flat_map(|old| old.sha256.clone()));
+            let entry = Entry {
+                command: command.to_owned(),
+                sha256: sums,
+            };
+            new.files.insert(name.clone(), entry);
+        }
+        new
+    }
+
+    /// The record once they have: without what they replaced, what is stale and what is gone.
+    pub fn settled(&self, folder: &Path, files: &Files, stale: &[String]) -> Self {
+        let mut settled = self.clone();
+        settled.files.retain(|name, entry| {
+            let is_new = files.contains_key(name);
+            if is_new {
+                entry.sha256.truncate(1);
+            }
+            is_new || !stale.contains(name) && is_there(&folder.join(name))
+        });
+        settled
+    }
+}
+
+/// A record on the way from one state of a folder to the next.
+pub(super) struct Noted {
+    path: PathBuf,
+    /// As it was, if there was one.
+    before: Option<PathBuf>,
+    /// While files are exchanged, and then.
+    next: [PathBuf; 2],
+}
+
+impl Noted {
+    /// Writes the folder's records, while files are exchanged and then, beside their place.
+    pub fn stage(
+        staging: &Staging,
+        folder: &Path,
+        records: [&Record; 2],
+    ) -> Result<Self, OutputError> {
+        let path = folder.join(NAME);
+        let staged = |name, text: &[u8]| staging.add_apart(name, text, &path);
+        let before = fs::read(&path).ok().map(|text| staged("before", &text));
+        let [during, after] = records.map(Record::text);
+        Ok(Self {
+            before: before.transpose()?,
+            next: [
+                staged("during", during.as_bytes())?,
+                staged("after", after.as_bytes())?,
+            ],
+            path,
+        })
+    }
+
+    /// From now on new and old files are known.
+    pub fn begin(&self) -> Result<(), OutputError> {
+        fs::rename(&self.next[0], &self.path).map_err(OutputError::of_file(&self.path))
+    }
+
+    /// Files were exchanged, or not. If this fails, the record tells of more files than there are,
+    /// which does no harm.
+    pub fn end(&self, exchanged: bool) {
+        let _ = match (exchanged, &self.before) {
+            (true, _) => fs::rename(&self.next[1], &self.path),
+            (false, Some(before)) => fs::rename(before, &self.path),
+            (false, None) => fs::remove_file(&self.path),
+        };
+    }
+}
