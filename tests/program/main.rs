@@ -15,4 +15,5 @@ mod pictures;
 #[path = "../shared/program.rs"]
 mod program;
 mod readme;
+mod results;
 mod sweep;

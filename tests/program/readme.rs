@@ -1,8 +1,13 @@
-//! The READMEs: every command they show runs, every link leads somewhere.
+//! The READMEs: every command they show runs, what they show of its output is what it prints, every
+//! link leads somewhere.
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+use crate::program::{stderr, stdout};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const FILES: [&str; 3] = ["README.md", "shapes/README.md", "results/README.md"];
@@ -87,38 +92,79 @@ fn shortened(command: &str) -> String {
 
 #[test]
 fn every_command_of_the_readmes_runs() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("target")).unwrap();
-    copy(
-        &Path::new(ROOT).join("shapes"),
-        &folder.path().join("shapes"),
-    );
-    let programs = Path::new(env!("CARGO_BIN_EXE_tilebind")).parent().unwrap();
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(
-        std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)),
-    );
-    let path = path.unwrap();
+    let folder = with_shapes();
     let mut done = Vec::new();
     for command in FILES.iter().flat_map(|file| commands(&read(file))) {
         let short = shortened(&command);
         if done.contains(&short) {
             continue;
         }
-        let output = Command::new("sh")
-            .args(["-c", &short])
-            .current_dir(folder.path())
-            .env("PATH", &path)
-            .output()
-            .unwrap();
+        let output = run(&short, folder.path());
         assert!(
             output.status.success(),
             "{command}\n{short}\n{}",
-            String::from_utf8_lossy(&output.stderr)
+            stderr(&output)
         );
         done.push(short);
     }
     assert!(done.len() >= 9, "{done:#?}");
+}
+
+/// A folder in which commands run as they do in a checkout.
+pub fn with_shapes() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("target")).unwrap();
+    copy(
+        &Path::new(ROOT).join("shapes"),
+        &folder.path().join("shapes"),
+    );
+    folder
+}
+
+/// Runs a command line with the program on the path.
+pub fn run(command: &str, folder: &Path) -> Output {
+    let programs = Path::new(env!("CARGO_BIN_EXE_tilebind")).parent().unwrap();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(
+        std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)),
+    );
+    Command::new("sh")
+        .args(["-c", command])
+        .current_dir(folder)
+        .env("PATH", path.unwrap())
+        .output()
+        .unwrap()
+}
+
+/// The blocks of output in a text, each with the command that prints it: the first of the block for
+/// shells before it.
+fn outputs(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut command = None;
+    for block in text.split("```").skip(1).step_by(2) {
+        if let Some(lines) = block.strip_prefix("sh\n") {
+            let lines = lines.replace("\\\n", " ").replace(CARGO, NAME);
+            command = lines.lines().next().map(str::to_owned);
+        } else if let Some(lines) = block.strip_prefix("text\n") {
+            found.push((command.clone().unwrap(), lines.to_owned()));
+        }
+    }
+    found
+}
+
+#[test]
+fn what_the_readmes_show_is_what_the_program_prints() {
+    let shown: Vec<_> = FILES.iter().flat_map(|file| outputs(&read(file))).collect();
+    assert!(!shown.is_empty());
+    for (command, block) in shown {
+        let output = run(&command, with_shapes().path());
+        assert!(output.status.success(), "{command}\n{}", stderr(&output));
+        assert_eq!(
+            stdout(&output),
+            block,
+            "{command}: made anew by results/make.py"
+        );
+    }
 }
 
 fn copy(from: &Path, to: &Path) {

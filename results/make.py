@@ -1,0 +1,624 @@
+#!/usr/bin/env python3
+"""Makes what this folder holds anew, part by part.
+
+    results/make.py PART ...    these parts (or groups of them, or `all`), and the tables
+    results/make.py tables      the tables alone
+    results/make.py             what parts there are, how long they take and what they need
+
+Builds `target/release/tilebind` (`--program FILE`: takes that) and runs it in a folder of its own,
+prints every command, how long each part took and which files changed. Of a part that fails nothing
+is replaced. The tables of README.md are written from the files of this folder, and the block of
+../README.md that shows what the program prints from paper-tile/summary.txt. Figures in sentences
+are written by hand.
+
+Parts that time the program (growth, scale, bench) ask for a machine that does nothing else; all
+other files but those of tile sets grown, which are drawn at random, are the same every time.
+"""
+
+import argparse
+import csv
+import hashlib
+import json
+import math
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from typing import Callable
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+PROGRAM = ROOT / "target/release/tilebind"
+READMES = [HERE / "README.md", ROOT / "README.md"]
+
+DESIGNS = sorted(it.stem for it in (ROOT / "shapes").glob("*.toml"))
+# What is kept of an analysis. Not every design has every picture: what is caged does not dock.
+TABLES = ["states.csv", "barriers.csv"]
+PICTURES = ["map.png", "docking.png", "profiles.svg", "disconnectivity.svg"]
+
+STUDY = ["triangle-teeth-10mm", "square-teeth-10mm", "sine-teeth-10mm", "tab-10mm", "arc-20mm"]
+YIELDS = ["hexagon", "paper-tile", "alternating", "tab-20mm", "arc-20mm"]
+MAGNETS = [4, 6, 8, 10]
+SHAPES = ["none", "shared", "polar"]
+GAPS = [0.25, 0.5, 0.75]
+
+
+class Failed(Exception):
+    """A command that did not do what is wanted, or something that it needs and that is not there."""
+
+
+class Skipped(Exception):
+    """A script that finds something missing that it needs, and says what."""
+
+
+class Work:
+    """A folder for a part, with the designs beside it as commands name them."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder = str(program), pathlib.Path(folder)
+        (self.folder / "shapes").symlink_to(ROOT / "shapes")
+        self.kept = {}
+
+    def run(self, *command, cwd=None):
+        """Standard output of a command; `tilebind` is the program."""
+        print("  $", shlex.join(command), flush=True)
+        command = [self.program if it == "tilebind" else it for it in command]
+        # Scripts leave nothing beside themselves.
+        environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(command, cwd=cwd or self.folder, env=environment, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise Failed(f"exit status {done.returncode}: {done.stderr.strip()[-2000:]}")
+        return done.stdout
+
+    def json(self, *command):
+        return json.loads(self.run(*command, "--json"))
+
+    def script(self, name, *arguments):
+        """Runs a script of the tests."""
+        said = self.run(sys.executable, f"tests/{name}", *arguments, cwd=ROOT)
+        if "skipped" in said:
+            raise Skipped(said.strip())
+
+    def keep(self, name, content):
+        """Replaces a file of this folder when the part is done: by another file, text or none."""
+        if isinstance(content, pathlib.Path):
+            if not content.exists():
+                raise Failed(f"{content.relative_to(self.folder)}, to be kept as {name}, was not written")
+            content = content.read_bytes()
+        self.kept[name] = content.encode() if isinstance(content, str) else content
+
+    def keep_rows(self, name, rows):
+        self.keep(name, "".join(",".join("" if it is None else str(it) for it in row) + "\n" for row in rows))
+
+    def keep_row(self, name, columns, row, order):
+        """Replaces one row of a table, which is that of the row's first value."""
+        old = table(name) if (HERE / name).exists() else []
+        rows = {it[columns[0]]: [it.get(column, "") for column in columns] for it in old}
+        rows[row[0]] = row
+        self.keep_rows(name, [columns, *(rows[it] for it in order if it in rows)])
+
+    def finish(self):
+        for name, content in self.kept.items():
+            if content is None:
+                (HERE / name).unlink(missing_ok=True)
+            else:
+                (HERE / name).parent.mkdir(exist_ok=True)
+                (HERE / name).write_bytes(content)
+
+
+@dataclass
+class Part:
+    name: str
+    group: str
+    minutes: float  # about, on two cores
+    files: list[str]
+    make: Callable[[Work], None]
+    needs: str = ""
+
+
+def table(name):
+    """Rows of a table of this folder."""
+    return list(csv.DictReader((HERE / name).read_text().splitlines()))
+
+
+# The shipped designs
+
+DESIGN_COLUMNS = ["design", "bond_J", "captured", "trap_kinds", "trap_J", "trap_escape_J", "unbinding_J",
+                  "unbinding_lower_J", "unbinding_upper_J", "caged", "list", "open_share"]
+
+
+def analyse(name):
+    def make(work):
+        out = f"target/{name}"
+        work.keep(f"{name}/summary.txt", work.run("tilebind", "analyse", f"shapes/{name}.toml", "--out", out))
+        out = work.folder / out
+        for file in TABLES:
+            work.keep(f"{name}/{file}", out / file)
+        for file in pictures(name):
+            path = out / "pictures" / file
+            work.keep(f"{name}/{file}", path.read_bytes() if path.exists() else None)
+        row = design_row(name, json.loads((out / "report.json").read_text()))
+        work.keep_row("designs.csv", DESIGN_COLUMNS, row, DESIGNS)
+
+    return make
+
+
+def pictures(name):
+    return PICTURES + (["models.svg"] if name == "paper-tile" else [])
+
+
+def design_row(name, report):
+    states, bond = report["states"], report["bound"]
+    bonds = [it for it in states if bond["state"] is not None and it["class"] == states[bond["state"]]["class"]]
+    traps = [it for it in states if it["kind"] != "bound"]
+    deepest = min(traps, key=lambda it: it["energy_J"], default=None)
+    escape = deepest and deepest["escape"]
+    out = next((it for it in report["barriers"] if it["from"] == bond["state"] and it["to"] == "free"), None)
+    found = report["inventory"]
+    known = "sampled" if found["unproved"] else "proved" if found["complete"] else "open"
+    bounds = [None, None]
+    if out and out["lower_J"] is not None:
+        bounds = [out[it] - states[bond["state"]]["energy_J"] for it in ("lower_J", "upper_J")]
+    return [name, bond["energy_J"], sum(it["capture"]["share"] for it in bonds), len({it["class"] for it in traps}),
+            deepest and deepest["energy_J"], escape and escape["forward_J"], out and out["forward_J"], *bounds,
+            bool(out and out["caged"]), known, found["share"]]
+
+
+# The study of shapes
+
+def study(model, depths):
+    def make(work):
+        designs = [f"shapes/{name}.toml" for name in STUDY]
+        varied = [f"--vary=potential.model={model}"] if model != "dipole" else []
+        work.run("tilebind", "sweep", *designs, "--vary=magnet.inset=0.003", *varied,
+                 f"--vary=fixed.faces.east.profile.depth=0:0.05:{depths}", "--dynamics=200", "--out", "target/study")
+        out = work.folder / "target/study"
+        work.keep(f"study/{model}.csv", out / "sweep.csv")
+        if model == "dipole":
+            work.keep("study/dipole.png", out / "pictures/curves-3-mm.png")
+
+    return make
+
+
+# Magnets as blocks, over the gap
+
+def magnets(work):
+    tile, row = ((ROOT / f"shapes/{name}.toml").read_text() for name in ("paper-tile", "halbach"))
+
+    def changed(text, pattern, by):
+        text, count = re.subn(pattern, by, text)
+        if count == 0:
+            raise Failed(f"no {pattern} in the design")
+        return text
+
+    def sized(along, across):
+        return changed(tile, r"size = \[0\.010, 0\.010, 0\.003\]", f"size = [{along}, {across}, 0.003]")
+
+    def straight(poles):
+        poles = iter(poles)
+        return changed(row, r'pole = "[NS]", axis = [-\d.]+', lambda _: f'pole = "{next(poles)}", axis = 0.0')
+
+    designs = {
+        "paper tile, 10 x 10 x 3 mm": tile,
+        "the same volume, 5 x 20 x 3 mm (wide pole face, magnetised through 5 mm)": sized(0.005, 0.020),
+        "the same volume, 20 x 5 x 3 mm (long axis)": sized(0.020, 0.005),
+        "Halbach row (`shapes/halbach.toml`), one face": row,
+        "the same six magnets, N S N S N S": straight("NSNSNS"),
+        "the same six magnets, all N": straight("NNNNNN"),
+    }
+    gaps = [0.0, 0.001, 0.005, 0.02, 0.05]
+    rows = [["magnets", *(f"energy_J_at_{gap:g}_m" for gap in gaps)]]
+    for name, text in designs.items():
+        (work.folder / "magnets.toml").write_text(text)
+        poses = [f"--pose={0.43 + gap:g},0,0" for gap in gaps]
+        found = json.loads(work.run("tilebind", "energy", "magnets.toml", "--model", "cuboid", *poses))
+        rows.append([f'"{name}"', *(it["energy_J"] for it in found)])
+    work.keep_rows("magnets.csv", rows)
+
+
+# Words
+
+def words(work, *options):
+    found = work.json("tilebind", "words", *options, "--seconds", "20")
+    if found.get("stopped_by_clock"):
+        raise Failed("the clock ended the search, and another run may find others: no figure to keep")
+    return found
+
+
+def rounded(value, digits, unit=1):
+    return None if value is None else f"{unit * value:.{digits}g}"
+
+
+def uniform(work):
+    rows = [["magnets", "places", "pitch_m", "shape", "gap", "words", "at_most", "proved", "bond_J", "gap_reached",
+             "words_beyond_tie", "gap_beyond_tie"]]
+    for k in MAGNETS:
+        for shape in SHAPES:
+            for gap in GAPS:
+                found = words(work, "--length", f"{k}", "--gap", f"{gap}", "--shape", shape)
+                beyond = found["beyond_tie"] or {"count": None, "gap": None}
+                rows.append([k, k, 0.04, shape, gap, found["count"], found["upper_bound"], found["proved"],
+                             found["bond_J"], found["gap"], beyond["count"], beyond["gap"]])
+    work.keep_rows("words/uniform.csv", rows)
+
+
+def spaced(work):
+    rows = [["places", "pitch_mm", "magnets", "gap", "words", "at_most", "proved", "gap_reached", "bond_mJ"]]
+    for k in MAGNETS:
+        for gap in GAPS:
+            found = words(work, "--slots", "28", "--magnets", f"{k}", "--pitch", "0.015", "--gap", f"{gap}")
+            rows.append([28, 15, k, gap, found["count"], found["upper_bound"], found["proved"],
+                         rounded(found["gap"], 4), rounded(found["bond_J"], 5, 1e3)])
+    work.keep_rows("words/spaced.csv", rows)
+
+
+def mismatches(work):
+    rows = [["magnets", "gap", "mismatches", "words", "at_most", "proved"]]
+    for k in MAGNETS:
+        for gap in GAPS:
+            contacts = int((1 - gap) * k)
+            aligned = -(-(k - contacts) // 2)
+            least = f"{aligned},{aligned},{k - contacts}"
+            found = words(work, "--length", f"{k}", "--gap", "0", "--min-mismatch", least)
+            rows.append([k, gap, f'"{least}"', found["count"], found["upper_bound"], found["proved"]])
+    work.keep_rows("words/mismatches.csv", rows)
+
+
+# Tile sets
+
+def assembly(part):
+    """A part of the study of tile sets, from its beginning; it reads the tables of other parts."""
+    def make(work):
+        out = work.folder / "assembly"
+        shutil.copytree(HERE / "assembly", out)
+        files = [it.removeprefix("assembly/") for it in ASSEMBLY[part]]
+        for file in files:
+            (out / file).unlink(missing_ok=True)
+        work.script("assembly/study.py", work.program, str(out), part)
+        for file in files:
+            work.keep(f"assembly/{file}", out / file)
+
+    return make
+
+
+def assembly_table(name):
+    def make(work):
+        work.script(f"assembly/{name}.py", work.program, str(work.folder / "table.csv"))
+        work.keep(f"assembly/{name}.csv", work.folder / "table.csv")
+
+    return make
+
+
+ASSEMBLY = {
+    **{name: [f"assembly/{name}.csv"] for name in ("builds", "smallest", "shaking", "blocks", "proofreading")},
+    "pictures": [f"assembly/{name}.png" for name in ("grown", "shaking", "proofreading")],
+}
+
+
+# Motion
+
+SHARE_COLUMNS = ["kT_J", "bound", "low", "high", "trapped"]
+
+
+def shaken(name):
+    def make(work):
+        out = work.folder / "target/yield"
+        work.run("tilebind", "yield", f"shapes/{name}.toml", "--tiles", "20", "--time", "600",
+                 "--kt", "1e-3,2e-3,3e-3,4e-3,6e-3", "--runs", "2000", "--duration", "8", "--drag", "0.5",
+                 "--simulations", "500", "--out", "target/yield")
+        work.keep(f"yield/{name}.csv", out / "yield.csv")
+        if name == "paper-tile":
+            work.keep(f"yield/{name}.svg", out / "pictures/shaking.svg")
+        report = json.loads((out / "report.json").read_text())
+        rows = [[it["kT_J"], it["yield"], *(it["yield_interval"] or [None, None]), it["trapped"]] for it in report["settings"]]
+        work.keep_rows(f"yield/{name}-bound.csv", [SHARE_COLUMNS, *rows])
+
+    return make
+
+
+def rates(work):
+    columns = ["kT_J", "exit_times_D_m2", "lower_m2", "upper_m2", "bound_first"]
+    rows = [columns]
+    for kt in ("3.037e-3", "1.9e-3", "0.76e-3"):
+        found = work.json("tilebind", "rates", "shapes/paper-tile.toml", "--kt", kt, "--start", "0.43,-0.04,0",
+                          "--basin-energy", "-0.03", "--free-at", "0.75")
+        times = [found["mean_exit_s"], *found["mean_exit_bounds_s"]]
+        rows.append([float(kt), *(f"{it * found['diffusion_m2_s']:.6g}" for it in times), f"{found['exits']['bound']:.6g}"])
+    work.keep_rows("rates.csv", rows)
+
+
+def docking(work):
+    work.run("tilebind", "dock", "shapes/paper-tile.toml", "--runs", "12000", "--out", "target/dock")
+    out = work.folder / "target/dock"
+    report = json.loads((out / "dock.json").read_text())
+    del report["timing"]
+    work.keep("paper-tile-docking/dock.json", json.dumps(report, indent=2) + "\n")
+    work.keep("paper-tile-docking/map.csv", out / "map.csv")
+    work.keep("paper-tile-docking/chances.svg", out / "pictures/chances.svg")
+
+
+# Times
+
+def growth(work):
+    path = work.folder / "growth.csv"
+    work.script("growth/growth.py", work.program, str(path), "--limit", "150")
+    work.keep("growth.csv", path)
+    work.keep("growth.svg", path.with_suffix(".svg"))
+
+
+def scale(work):
+    bench = ["cargo", "bench", "--quiet", "--bench", "roadmap", "--"]
+    usual = work.run(*bench, "--scale", "1e4,3e4,1e5,3e5,1e6", cwd=ROOT)
+    few = work.run(*bench, "--scale", "1e4,1e5,1e6,1e7", "--neighbours", "12", cwd=ROOT)
+    path = work.folder / "scale.csv"
+    path.write_text(usual + few.split("\n", 1)[1])
+    work.run(*bench, "--draw", str(path), cwd=ROOT)
+    work.keep("scale.csv", path)
+    work.keep("scale.svg", path.with_suffix(".svg"))
+
+
+def bench(work):
+    """A row more of the history."""
+    path = work.folder / "bench.csv"
+    shutil.copy(HERE / "bench.csv", path)
+    work.script("bench/history.py", str(path))
+    work.keep("bench.csv", path)
+
+
+GROWN = "rgrow, NumPy and Matplotlib, in this Python or to be installed from PyPI"
+
+PARTS = [
+    *(Part(name, "designs", 0.5 if name.startswith("square") else 0.1,
+           [f"{name}/{file}" for file in ["summary.txt", *TABLES, *pictures(name)]] + ["designs.csv"], analyse(name))
+      for name in DESIGNS),
+    Part("study-dipole", "study", 4, ["study/dipole.csv", "study/dipole.png"], study("dipole", 11)),
+    Part("study-cuboid", "study", 3, ["study/cuboid.csv"], study("cuboid", 6)),
+    Part("magnets", "magnets", 0.1, ["magnets.csv"], magnets),
+    Part("words-uniform", "words", 2, ["words/uniform.csv"], uniform),
+    Part("words-spaced", "words", 5, ["words/spaced.csv"], spaced),
+    Part("words-mismatches", "words", 0.5, ["words/mismatches.csv"], mismatches),
+    *(Part(f"yield-{name}", "yield", 1,
+           [f"yield/{name}.csv", f"yield/{name}-bound.csv"] + (["yield/paper-tile.svg"] if name == "paper-tile" else []),
+           shaken(name)) for name in YIELDS),
+    Part("rates", "rates", 0.3, ["rates.csv"], rates),
+    Part("docking", "docking", 0.5,
+         [f"paper-tile-docking/{file}" for file in ("dock.json", "map.csv", "chances.svg")], docking),
+    Part("assembly-lattice", "assembly", 2, ["assembly/lattice.csv"], assembly_table("lattice")),
+    Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
+         f"{GROWN}; git, cc and libX11's headers for xgrow"),
+    *(Part(f"assembly-{part}", "grown", 60, files, assembly(part), GROWN) for part, files in ASSEMBLY.items()),
+    Part("growth", "times", 12, ["growth.csv", "growth.svg"], growth),
+    Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
+    Part("bench", "times", 5, ["bench.csv"], bench),
+]
+OWN = ["README.md", "make.py"]
+
+
+# Tables of the READMEs: each of the files of this folder alone.
+
+def markdown(head, rows):
+    lines = ["| " + " | ".join(map(str, row)) + " |\n" for row in (head, *rows)]
+    return "".join([lines[0], "|" + "---|" * len(head) + "\n", *lines[1:]])
+
+
+def milli(value):
+    return f"{1e3 * float(value):.4g}" if value else "-"
+
+
+def designs_table():
+    def row(it):
+        out = milli(it["unbinding_J"])
+        if it["unbinding_lower_J"]:
+            out += f" in [{milli(it['unbinding_lower_J'])}, {milli(it['unbinding_upper_J'])}]"
+        known = it["list"] if it["list"] != "open" else f"but for {float(it['open_share']):.1g}"
+        return [f"`{it['design']}`", milli(it["bond_J"]), f"{100 * float(it['captured']):.0f} %", it["trap_kinds"],
+                milli(it["trap_J"]), milli(it["trap_escape_J"]), "caged" if it["caged"] == "True" else out, known]
+
+    head = ["design", "bond", "captured", "kinds of trap", "deepest trap", "its escape", "out of the bond", "list of states"]
+    return markdown(head, [row(it) for it in table("designs.csv")])
+
+
+def magnets_table():
+    rows = [[it.pop("magnets"), *(milli(value) for value in it.values())] for it in table("magnets.csv")]
+    return markdown(["magnets", "in contact", "1 mm", "5 mm", "20 mm", "50 mm"], rows)
+
+
+def word_cell(it):
+    """How many words, at most where not proved, and beyond the tie."""
+    words = it["words"] if it["proved"] == "True" else f"{it['words']} to {it['at_most']}"
+    beyond = it["words_beyond_tie"]
+    return f"{words} ({beyond})" if beyond and int(beyond) > int(it["words"]) else words
+
+
+def uniform_table():
+    cells = {(it["magnets"], it["shape"], it["gap"]): word_cell(it) for it in table("words/uniform.csv")}
+    rows = [[k, shape, *(cells[f"{k}", shape, f"{gap}"] for gap in GAPS)] for k in MAGNETS for shape in SHAPES]
+    return markdown(["magnets", "shape", *(f"gap {gap}" for gap in GAPS)], rows)
+
+
+def spaced_table():
+    cells = {(it["magnets"], it["gap"]): it["words"] for it in table("words/spaced.csv")}
+    rows = [[k, *(cells[f"{k}", f"{gap}"] for gap in GAPS)] for k in MAGNETS]
+    return markdown(["magnets", *(f"gap {gap}" for gap in GAPS)], rows)
+
+
+def mismatches_table():
+    energies = {(it["magnets"], it["gap"]): word_cell(it) for it in table("words/uniform.csv") if it["shape"] == "none"}
+    rows = []
+    for it in table("words/mismatches.csv"):
+        words = it["words"] if it["proved"] == "True" else f"{it['words']} to {it['at_most']}"
+        rows.append([it["magnets"], it["gap"], it["mismatches"], words, energies[it["magnets"], it["gap"]]])
+    return markdown(["magnets", "gap", "`--min-mismatch`", "words", "by energies"], rows)
+
+
+def builds_table():
+    rows = {}
+    for it in table("assembly/builds.csv"):
+        gap = f"{float(it['gap']):.3g}" + ("!" if it["wider_gap"] == "none wider, proved" else "")
+        cell = {"found": gap, "none, proved": "no", "open": "?"}[it["words"]]
+        rows.setdefault((f"{it['set']} ({it['words_needed']})", it["shape"]), []).append(cell)
+    head = [f"{k} {how}" for how in ("even", "spaced") for k in (4, 8, 16)]
+    return markdown(["set (words)", "shape", *head], [[*key, *cells] for key, cells in rows.items()])
+
+
+def blocks_table():
+    cells = {}
+    for it in table("assembly/blocks.csv"):
+        errors, spread, speed = (float(it[name]) for name in ("errors_a_block", "standard_error", "blocks_a_docking_time"))
+        digits = max(0, -math.floor(math.log10(spread))) if errors else 0
+        told = f"{errors:.{digits}f} ± {spread:.{digits}f}" if errors else "0"
+        cells[it["Gse"], it["wrong_strength"], it["block"]] = f"{told} at {speed:.2g}"
+    rows = [[f"{float(gse):g}", f"{float(wrong):g}", *(cells[gse, wrong, k] for k in "123")]
+            for gse in ("8.0", "10.0", "13.0") for wrong in ("0.0", "0.25", "0.5")]
+    return markdown(["Gse", "wrong contacts bind", "single tiles", "2 x 2", "3 x 3"], rows)
+
+
+def share(value):
+    value = 100 * float(value)
+    return f"{value:.0f}" if value >= 1 else f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def yields_table():
+    rows, settings = [], []
+    for name in YIELDS:
+        found = table(f"yield/{name}-bound.csv")
+        settings = [f"{milli(it['kT_J'])} mJ" for it in found]
+        cells = []
+        for it in found:
+            if not it["bound"]:
+                cells.append("-")
+                continue
+            cell = f"{share(it['bound'])} %"
+            if it["low"] and share(it["low"]) != share(it["high"]):
+                cell += f" ({share(it['low'])}-{share(it['high'])})"
+            if float(it["trapped"]) >= 0.1:
+                cell += f", {share(it['trapped'])} % trapped"
+            cells.append(cell)
+        rows.append([f"`{name}`", *cells])
+    return markdown(["design", *settings], rows)
+
+
+def rates_table():
+    rows = []
+    for it in table("rates.csv"):
+        low, high = float(it["lower_m2"]), float(it["upper_m2"])
+        rows.append([f"{milli(it['kT_J'])} mJ", f"{float(it['exit_times_D_m2']):.4g} m²", f"{low:.4g} to {high:.4g} m²",
+                     f"{100 * (high / low - 1):.1f} %", f"{100 * float(it['bound_first']):.1f} %"])
+    return markdown(["kT", "mean exit time times D", "bounds", "apart", "bound first"], rows)
+
+
+def growth_table():
+    """Seconds and, in brackets, as a multiple of the family's first."""
+    sizes = [2**power for power in range(9)]
+    rows = {}
+    for it in table("growth.csv"):
+        rows.setdefault((it["family"], it["asked"]), {})[int(it["size"])] = it["processor_s"]
+
+    def cells(family, asked):
+        found, first = rows[family, asked], next(iter(rows[family, "usual"].values()))
+        for size in sizes:
+            seconds = found.get(size)
+            yield "" if seconds is None else f"{float(seconds):.3g} ({float(seconds) / float(first):.2g})" if seconds else "-"
+
+    named = {"usual": "", "less": ", less asked for"}
+    return markdown(["", *sizes], [[family + named[asked], *cells(family, asked)] for family, asked in rows])
+
+
+def screen():
+    return "```text\n" + (HERE / "paper-tile/summary.txt").read_text() + "```\n"
+
+
+SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
+         "words-mismatches": mismatches_table, "assembly-builds": builds_table, "assembly-blocks": blocks_table,
+         "yield": yields_table, "rates": rates_table, "growth": growth_table, "paper-tile": screen}
+
+
+def write_tables():
+    """Writes what stands below `<!-- results/make.py: NAME -->`, to the next empty line."""
+    missing = []
+    for path in READMES:
+        def shown(found):
+            try:
+                return found[1] + SHOWN[found[2]]()
+            except (FileNotFoundError, KeyError) as error:
+                lacking = getattr(error, "filename", None) or error
+                missing.append(f"{path.relative_to(ROOT)}: the table {found[2]} stays as it was, for its files lack {lacking}")
+                return found[0]
+
+        text = path.read_text()
+        new = re.sub(r"(<!-- results/make\.py: (\S+) -->\n)(?:.+\n)*", shown, text)
+        if new != text:
+            path.write_text(new)
+    return missing
+
+
+# The script
+
+def sums():
+    paths = [*(it for it in HERE.rglob("*") if it.is_file()), *READMES]
+    return {it.relative_to(ROOT).as_posix(): hashlib.sha256(it.read_bytes()).hexdigest() for it in paths}
+
+
+def told(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def listed():
+    print(__doc__)
+    for group in dict.fromkeys(it.group for it in PARTS):
+        parts = [it for it in PARTS if it.group == group]
+        print(f"{group} ({told(60 * sum(it.minutes for it in parts))})")
+        for part in parts:
+            needs = f"; needs {part.needs}" if part.needs else ""
+            print(f"    {part.name} ({told(60 * part.minutes)}{needs})")
+
+
+def main():
+    options = argparse.ArgumentParser(add_help=False)
+    options.add_argument("--program", type=pathlib.Path)
+    options.add_argument("parts", nargs="*")
+    given = options.parse_args()
+    asked, known = set(given.parts), {"all", "tables", *(it.name for it in PARTS), *(it.group for it in PARTS)}
+    if not asked:
+        return listed()
+    if asked - known:
+        sys.exit(f"no such part: {' '.join(sorted(asked - known))}")
+    parts = [it for it in PARTS if {"all", it.name, it.group} & asked]
+    before, begun, troubles = sums(), time.monotonic(), []
+    program = (given.program or PROGRAM).resolve()
+    if parts and not given.program:
+        subprocess.run(["cargo", "build", "--release", "--bin", "tilebind"], cwd=ROOT, check=True)
+        print(f"build: {told(time.monotonic() - begun)}", flush=True)
+    for part in parts:
+        start = time.monotonic()
+        print(part.name, flush=True)
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                work = Work(program, folder)
+                part.make(work)
+                work.finish()
+        except Skipped as skipped:
+            print(f"  nothing replaced: {skipped}")
+        except Failed as failed:
+            troubles.append(f"{part.name}: nothing replaced; {failed}")
+        print(f"{part.name}: {told(time.monotonic() - start)}", flush=True)
+    troubles += write_tables()
+    after = sums()
+    print(f"in all: {told(time.monotonic() - begun)}")
+    for name in sorted(before.keys() | after.keys()):
+        if before.get(name) != after.get(name):
+            print("new:" if name not in before else "gone:" if name not in after else "changed:", name)
+    made = {*OWN, *(file for part in PARTS for file in part.files)}
+    strange = [it for it in after if it.startswith("results/") and it.removeprefix("results/") not in made]
+    troubles += [f"{it}: no part makes it" for it in strange]
+    sys.exit("\n".join(troubles) or 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+//! What the folder `results` keeps of the shipped designs is what the program gives, to the byte.
+
+use std::fs;
+use std::path::Path;
+
+use crate::program::{stderr, stdout};
+use crate::readme::{run, with_shapes};
+
+/// Tables, pictures and the summary of a design: dipoles, with flat faces, with shaped ones, and
+/// behind shields.
+#[test]
+fn what_is_kept_of_three_designs_is_what_the_program_gives() {
+    for design in ["paper-tile", "tab-20mm", "shielded-backs"] {
+        let folder = with_shapes();
+        let out = format!("target/{design}");
+        let command = format!("tilebind analyse shapes/{design}.toml --out {out}");
+        let output = run(&command, folder.path());
+        assert!(output.status.success(), "{command}\n{}", stderr(&output));
+        let out = folder.path().join(out);
+        fs::write(out.join("summary.txt"), stdout(&output)).unwrap();
+        let kept = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("results")
+            .join(design);
+        let names = fs::read_dir(&kept).unwrap();
+        let names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
+        assert!(names.iter().any(|name| name == "states.csv"));
+        let differing = names.iter().filter(|name| {
+            let mut made = out.join(name);
+            if !made.exists() {
+                made = out.join("pictures").join(name);
+            }
+            fs::read(kept.join(name)).unwrap() != fs::read(made).unwrap_or_default()
+        });
+        let differing: Vec<_> = differing.collect();
+        assert!(
+            differing.is_empty(),
+            "results/{design}: {differing:?} differ from what `{command}` gives; \
+             `results/make.py {design}` makes them anew"
+        );
+    }
+}
