@@ -98,6 +98,9 @@
 //! takes about 70 s of processor time. The first build takes 2 min 36 s.
 //! The program is then half as fast as a release build, which is the one to measure.
 //!
+//! What the program gives differs after a change that is meant to change it: `results/make.py PART`
+//! makes that part of `results` anew, and the tables and the block of output in the READMEs with it.
+//!
 //! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour, `drawing` that of
 //! drawings, and `bounds` compares the energies' bounds over cells with interval arithmetic of
 //! `inari`; it is built apart, with compiler flags of its own. `cargo mutants --file
