@@ -56,8 +56,10 @@ fn all_tests_of_potentials_pass_with_every_level() {
     }
 }
 
+type Models = (Vec<Box<dyn Potential>>, Vec<Box<dyn CellBounds>>);
+
 /// The potentials and the bounds of a design, for a level.
-fn models(design: &Design, level: Level) -> (Vec<Box<dyn Potential>>, Vec<Box<dyn CellBounds>>) {
+fn models(design: &Design, level: Level) -> Models {
     let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
     let shields = &design.interaction.shields;
     let shielded = |model| ShieldedPotential::with_level(model, fixed, moving, shields, level);
