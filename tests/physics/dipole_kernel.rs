@@ -257,3 +257,47 @@ fn vector_functions() {
         assert_eq!(level.run(Functions(0.0))[..2], [0.0, 1.0]);
     }
 }
+
+/// The logarithm of a ratio, and the angle of a vector, of each lane.
+struct OfTwo([f64; WIDTH], [f64; WIDTH]);
+
+impl Task for OfTwo {
+    type Output = [[f64; WIDTH]; 2];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let mut out = [[f64::NAN; WIDTH]; 2];
+        let (a, b) = (l.load(&self.0), l.load(&self.1));
+        let x = l.sub(a, l.splat(1.0));
+        l.store(l.ln_ratio(a, b), &mut out[0]);
+        l.store(l.angle(x, b), &mut out[1]);
+        out
+    }
+}
+
+#[test]
+fn logarithm_and_angle_agree_with_the_standard_library() {
+    for level in Level::available() {
+        for i in 0..2000 {
+            let at = |k: usize, f: f64| (f * (8 * i + k) as f64).sin();
+            let a = std::array::from_fn(|k| (6.0 * at(k, 0.731)).exp());
+            let b = std::array::from_fn(|k| (9.0 * at(k, 1.377)).exp());
+            let [ln, angle] = level.run(OfTwo(a, b));
+            for k in 0..WIDTH {
+                let exact = (a[k] / b[k]).ln();
+                assert!(
+                    (ln[k] - exact).abs() < 3e-16 * exact.abs().max(1.0),
+                    "{level}"
+                );
+                let exact = b[k].atan2(a[k] - 1.0);
+                assert!(
+                    (angle[k] - exact).abs() < 9e-16,
+                    "{level} {} {exact}",
+                    angle[k]
+                );
+            }
+        }
+        let zero = level.run(OfTwo([1.0; WIDTH], [1e-300; WIDTH]));
+        assert!(zero[1].iter().all(|a| (0.0..1.58).contains(a)), "{level}");
+    }
+}

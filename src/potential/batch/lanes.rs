@@ -1,5 +1,6 @@
 //! Vectors of f64 lanes, whatever the instruction set.
 
+use super::elementary::{angle, ln_ratio};
 use super::sin_cos::sin_cos;
 
 /// How many f64 lanes a vector has, with every instruction set: so all sum in one order and give the
@@ -62,15 +63,7 @@ pub trait Arithmetic: Copy {
     /// e is at most 1.5e-6, and the series `1 + e/2 + 3 e^2/8 + ...` goes on with 1e-18.
     #[inline(always)]
     fn reciprocal_sqrt(self, a: Self::F) -> Self::F {
-        let y = self.reciprocal_sqrt_guess(a);
-        let e = self.neg_mul_add(self.mul(a, y), y, self.splat(1.0));
-        let [c0, c1, c2, c3] = NEAREST;
-        let p = self.mul_add(e, self.splat(c3), self.splat(c2));
-        let p = self.mul_add(e, p, self.splat(c1));
-        let y = self.mul(y, self.mul_add(e, p, self.splat(c0)));
-        let e = self.neg_mul_add(self.mul(a, y), y, self.splat(1.0));
-        let p = self.mul_add(e, self.splat(3.0 / 8.0), self.splat(0.5));
-        self.mul_add(self.mul(y, e), p, y)
+        reciprocal_sqrt(self, a)
     }
 
     /// `1 / a` to a relative error of 3e-16, for `a` from 1e-37 to 1e37 in magnitude; NaN or
@@ -84,6 +77,20 @@ pub trait Arithmetic: Copy {
         let e = self.neg_mul_add(a, y, self.splat(1.0));
         self.mul_add(y, self.mul_add(e, e, e), y)
     }
+}
+
+/// See [`Arithmetic::reciprocal_sqrt`].
+#[inline(always)]
+pub(super) fn reciprocal_sqrt<L: Arithmetic>(l: L, a: L::F) -> L::F {
+    let y = l.reciprocal_sqrt_guess(a);
+    let e = l.neg_mul_add(l.mul(a, y), y, l.splat(1.0));
+    let [c0, c1, c2, c3] = NEAREST;
+    let p = l.mul_add(e, l.splat(c3), l.splat(c2));
+    let p = l.mul_add(e, p, l.splat(c1));
+    let y = l.mul(y, l.mul_add(e, p, l.splat(c0)));
+    let e = l.neg_mul_add(l.mul(a, y), y, l.splat(1.0));
+    let p = l.mul_add(e, l.splat(3.0 / 8.0), l.splat(0.5));
+    l.mul_add(l.mul(y, e), p, y)
 }
 
 /// A vector of an instruction set: arithmetic on its [`WIDTH`] lanes, and their way in and out.
@@ -120,6 +127,18 @@ pub trait Lanes: Arithmetic {
     #[inline(always)]
     fn sin_cos(self, angle: Self::F) -> (Self::F, Self::F) {
         sin_cos(self, angle)
+    }
+
+    /// `ln(a / b)` of positive normal numbers, to 3e-16 or a relative 3e-16, whichever is more.
+    #[inline(always)]
+    fn ln_ratio(self, a: Self::F, b: Self::F) -> Self::F {
+        ln_ratio(self, a, b)
+    }
+
+    /// The angle in [0, pi] of the vector (x, y), y >= 0, to 4e-16; 0 for the zero vector.
+    #[inline(always)]
+    fn angle(self, x: Self::F, y: Self::F) -> Self::F {
+        angle(self, x, y)
     }
 }
 

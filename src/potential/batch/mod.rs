@@ -14,6 +14,7 @@
 
 mod bundle;
 mod derivative;
+mod elementary;
 mod field;
 pub mod lanes;
 mod level;

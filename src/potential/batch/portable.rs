@@ -1,6 +1,8 @@
 //! Plain Rust, for every machine.
 
-use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH};
+use super::elementary::{angle, ln_ratio};
+use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH, reciprocal_sqrt};
+use super::sin_cos::sin_cos;
 
 /// Eight lanes in plain Rust.
 ///
@@ -41,6 +43,11 @@ impl Arithmetic for Portable {
         [value; WIDTH]
     }
 
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    fn reciprocal_sqrt(self, a: F) -> F {
+        reciprocal_sqrt(self, a)
+    }
+
     lane_by_lane! {
         add(a, b) = a + b;
         sub(a, b) = a - b;
@@ -70,6 +77,21 @@ impl Lanes for Portable {
         div(a, b) = a / b;
         sqrt(a) = a.sqrt();
         select(condition, a, b) = if condition.is_sign_positive() { a } else { b };
+    }
+
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    fn sin_cos(self, angle: F) -> (F, F) {
+        sin_cos(self, angle)
+    }
+
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    fn ln_ratio(self, a: F, b: F) -> F {
+        ln_ratio(self, a, b)
+    }
+
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    fn angle(self, x: F, y: F) -> F {
+        angle(self, x, y)
     }
 
     fn mantissa_and_exponent(self, a: F) -> (F, F) {

@@ -30,7 +30,6 @@ mod closed;
 #[cfg(test)]
 mod cloud;
 pub(in crate::potential) mod correction;
-mod elementary;
 mod far;
 pub mod limits;
 mod multipole;

@@ -50,7 +50,6 @@
 //! finite too, but jumps where one sheet passes through the other; touching sheets get the limit
 //! from the side on which the second block's body lies.
 
-use super::elementary::{angle, ln_ratio};
 use crate::potential::batch::lanes::Lanes;
 
 /// Added to squared distances (m^2) so that products like `h^2 ln h` are 0, not NaN, at h = 0.
@@ -70,7 +69,7 @@ pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L
 pub fn subtended<L: Lanes>(l: L, s: [L::F; 2], h: L::F) -> L::F {
     let above = l.select(h, h, l.sub(l.splat(0.0), h));
     let along = l.mul_add(h, h, l.mul(s[0], s[1]));
-    angle(l, along, l.mul(above, l.sub(s[1], s[0])))
+    l.angle(along, l.mul(above, l.sub(s[1], s[0])))
 }
 
 /// Phi and its derivatives by x and h, all halved (m^2, m and 1).
@@ -148,7 +147,7 @@ fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
         l.select(s[0], l.add(s[0], r[0]), edge),
         l.select(s[1], one, l.sub(r[1], s[1])),
     );
-    ln_ratio(l, over, under)
+    l.ln_ratio(over, under)
 }
 
 /// At the height z > 0, for h >= 0.
@@ -166,15 +165,14 @@ fn at_height<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F, height: f64) -> At
     ];
     let log = log(l, s, r, edge);
     let rises = [
-        ln_ratio(l, l.add(r[0], z), p[0]),
-        ln_ratio(l, l.add(r[1], z), p[1]),
+        l.ln_ratio(l.add(r[0], z), p[0]),
+        l.ln_ratio(l.add(r[1], z), p[1]),
     ];
     let rise = l.neg_mul_add(s[0], rises[0], l.mul(s[1], rises[1]));
     // The difference of two angles, by the product of (h r2, s2 z) and (h r1, -s1 z).
     let (a1, a2) = (l.mul(h, r[0]), l.mul(h, r[1]));
     let (b1, b2) = (l.mul(s[0], z), l.mul(s[1], z));
-    let angle = angle(
-        l,
+    let angle = l.angle(
         l.mul_add(a1, a2, l.mul(b1, b2)),
         l.neg_mul_add(b1, a2, l.mul(b2, a1)),
     );
@@ -245,7 +243,7 @@ fn moment_at_height<L: Lanes>(l: L, pp: L::F, p: L::F, height: f64) -> L::F {
     let (z, zz) = (l.splat(height), l.splat(height * height));
     let rr = l.add(pp, zz);
     let r = sqrt(l, rr);
-    let rise = l.mul(z, ln_ratio(l, l.add(r, z), p));
+    let rise = l.mul(z, l.ln_ratio(l.add(r, z), p));
     let cubic = l.mul(r, l.neg_mul_add(rr, l.splat(2.0 / 3.0), zz));
     l.mul(l.mul_add(pp, rise, cubic), l.splat(0.5))
 }
@@ -270,10 +268,10 @@ pub fn angle_moments<L: Lanes>(
     sign: L::F,
 ) -> [L::F; 2] {
     let above = l.select(h, h, l.sub(l.splat(0.0), h));
-    let theta = l.mul(sign, angle(l, s, above));
+    let theta = l.mul(sign, l.angle(s, above));
     let pp = l.mul_add(u, u, l.mul_add(d, d, l.splat(TINY)));
     let half = l.splat(0.5);
-    let ln = l.mul(ln_ratio(l, pp, l.splat(1.0)), half);
+    let ln = l.mul(l.ln_ratio(pp, l.splat(1.0)), half);
     [
         l.mul_add(u, theta, l.mul(d, ln)),
         l.mul(half, l.mul_add(pp, theta, l.mul(d, u))),

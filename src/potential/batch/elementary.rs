@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI, SQRT_2};
 
-use crate::potential::batch::lanes::Lanes;
+use super::lanes::Lanes;
 
 /// The polynomial that interpolates `ln((1 + s) / (1 - s)) / s` in s^2 at the Chebyshev nodes of
 /// [0, 1/9]; its error is below 5e-18.
@@ -83,54 +83,4 @@ pub fn angle<L: Lanes>(l: L, x: L::F, y: L::F) -> L::F {
     let first = l.mul_add(t, polynomial(l, l.mul(t, t), &ATAN), base);
     let acute = l.select(steep, first, l.sub(l.splat(FRAC_PI_2), first));
     l.select(x, acute, l.sub(l.splat(PI), acute))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::potential::batch::Level;
-    use crate::potential::batch::lanes::{Task, WIDTH};
-
-    struct Both([f64; WIDTH], [f64; WIDTH]);
-
-    impl Task for Both {
-        type Output = [[f64; WIDTH]; 2];
-
-        #[inline(always)]
-        fn run<L: Lanes>(self, l: L) -> Self::Output {
-            let mut out = [[f64::NAN; WIDTH]; 2];
-            let (a, b) = (l.load(&self.0), l.load(&self.1));
-            let x = l.sub(a, l.splat(1.0));
-            l.store(ln_ratio(l, a, b), &mut out[0]);
-            l.store(angle(l, x, b), &mut out[1]);
-            out
-        }
-    }
-
-    #[test]
-    fn logarithm_and_angle_agree_with_the_standard_library() {
-        for level in Level::available() {
-            for i in 0..2000 {
-                let at = |k: usize, f: f64| libm::sin(f * (8 * i + k) as f64);
-                let a = std::array::from_fn(|k| libm::exp(6.0 * at(k, 0.731)));
-                let b = std::array::from_fn(|k| libm::exp(9.0 * at(k, 1.377)));
-                let [ln, angle] = level.run(Both(a, b));
-                for k in 0..WIDTH {
-                    let exact = libm::log(a[k] / b[k]);
-                    assert!(
-                        (ln[k] - exact).abs() < 3e-16 * exact.abs().max(1.0),
-                        "{level}"
-                    );
-                    let exact = libm::atan2(b[k], a[k] - 1.0);
-                    assert!(
-                        (angle[k] - exact).abs() < 9e-16,
-                        "{level} {} {exact}",
-                        angle[k]
-                    );
-                }
-            }
-            let zero = level.run(Both([1.0; WIDTH], [1e-300; WIDTH]));
-            assert!(zero[1].iter().all(|a| (0.0..1.58).contains(a)), "{level}");
-        }
-    }
 }
