@@ -194,13 +194,15 @@ fn the_hand_over_to_the_far_form_leaves_no_step() {
             &moved(&fixed[0], 0.0, 0.0, 0.0),
             &moved(&moving[0], q.x, q.y, q.theta),
         );
-        // The far form's own error and the quadrature's, at all distances where the pole faces
-        // still have enough digits.
+        // The far form's own error and the quadrature's; and what the pole faces, whose sum cancels
+        // over each of the three sides twice, lose to rounding: a dozen times that, with a margin of
+        // ten.
         let scale = MU0_OVER_4PI * fixed[0].moment.powi(2) / r.powi(3);
+        let lost = f64::EPSILON * (r.powi(3) / SIZE.iter().product::<f64>()).powi(2);
         if r < 0.1 {
             assert!((energy - pair.energy).abs() < 4e-9 * scale, "{r}");
             assert!(
-                (gradient.xy() - pair.gradient).norm() < 1e-7 * scale / r,
+                (gradient.xy() - pair.gradient).norm() < (1e-8 + 120.0 * lost) * scale / r,
                 "{r}"
             );
         }
