@@ -106,6 +106,10 @@ impl Level {
 
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
+        f.write_str(match self.word() {
+            "avx512" => "AVX-512",
+            "avx2" => "AVX2",
+            word => word,
+        })
     }
 }
