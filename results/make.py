@@ -43,7 +43,7 @@ TABLES = ["states.csv", "barriers.csv"]
 PICTURES = ["map.png", "docking.png", "profiles.svg", "disconnectivity.svg"]
 
 STUDY = ["triangle-teeth-10mm", "square-teeth-10mm", "sine-teeth-10mm", "tab-10mm", "arc-20mm"]
-YIELDS = ["hexagon", "paper-tile", "alternating", "tab-20mm", "arc-20mm"]
+YIELDS = {"hexagon": 2, "paper-tile": 1, "alternating": 0.6, "tab-20mm": 0.2, "arc-20mm": 0.3}  # minutes
 MAGNETS = [4, 6, 8, 10]
 SHAPES = ["none", "shared", "polar"]
 GAPS = [0.25, 0.5, 0.75]
@@ -371,20 +371,20 @@ def bench(work):
 GROWN = "rgrow, NumPy and Matplotlib, in this Python or to be installed from PyPI"
 
 PARTS = [
-    *(Part(name, "designs", 0.5 if name.startswith("square") else 0.1,
+    *(Part(name, "designs", 1.2 if name.startswith("square") else 0.05,
            [f"{name}/{file}" for file in ["summary.txt", *TABLES, *pictures(name)]] + ["designs.csv"], analyse(name))
       for name in DESIGNS),
-    Part("study-dipole", "study", 4, ["study/dipole.csv", "study/dipole.png"], study("dipole", 11)),
-    Part("study-cuboid", "study", 3, ["study/cuboid.csv"], study("cuboid", 6)),
-    Part("magnets", "magnets", 0.1, ["magnets.csv"], magnets),
-    Part("words-uniform", "words", 2, ["words/uniform.csv"], uniform),
-    Part("words-spaced", "words", 5, ["words/spaced.csv"], spaced),
-    Part("words-mismatches", "words", 0.5, ["words/mismatches.csv"], mismatches),
-    *(Part(f"yield-{name}", "yield", 1,
+    Part("study-dipole", "study", 3.5, ["study/dipole.csv", "study/dipole.png"], study("dipole", 11)),
+    Part("study-cuboid", "study", 1.3, ["study/cuboid.csv"], study("cuboid", 6)),
+    Part("magnets", "magnets", 0.02, ["magnets.csv"], magnets),
+    Part("words-uniform", "words", 1.4, ["words/uniform.csv"], uniform),
+    Part("words-spaced", "words", 4, ["words/spaced.csv"], spaced),
+    Part("words-mismatches", "words", 0.25, ["words/mismatches.csv"], mismatches),
+    *(Part(f"yield-{name}", "yield", minutes,
            [f"yield/{name}.csv", f"yield/{name}-bound.csv"] + (["yield/paper-tile.svg"] if name == "paper-tile" else []),
-           shaken(name)) for name in YIELDS),
-    Part("rates", "rates", 0.3, ["rates.csv"], rates),
-    Part("docking", "docking", 0.5,
+           shaken(name)) for name, minutes in YIELDS.items()),
+    Part("rates", "rates", 0.2, ["rates.csv"], rates),
+    Part("docking", "docking", 0.3,
          [f"paper-tile-docking/{file}" for file in ("dock.json", "map.csv", "chances.svg")], docking),
     Part("assembly-lattice", "assembly", 2, ["assembly/lattice.csv"], assembly_table("lattice")),
     Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
