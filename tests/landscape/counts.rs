@@ -1,8 +1,6 @@
 //! Exact numbers of energy evaluations and of certified cells for fixed seeds: where one of them
 //! grows, the program has become slower, whatever the machine. Where a change is meant to move them,
 //! the new numbers belong here.
-//!
-//! The portable instruction set is used, so that they are the same on every machine.
 
 use crate::designs;
 use tilebind::Configuration;
@@ -10,9 +8,7 @@ use tilebind::design::Design;
 use tilebind::landscape::certificate::{Certifier, Effort, End};
 use tilebind::landscape::minimum::descend;
 use tilebind::potential::DipolePotential;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::DipoleBounds;
-use tilebind::potential::dipole::dipoles;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, edge, milestone, neighbour,
@@ -22,19 +18,15 @@ fn paper_tile() -> Design {
     designs::load("shapes/paper-tile.toml")
 }
 
-fn portable(design: &Design) -> Problem {
-    let potential = DipolePotential::with_level(
-        &dipoles(&design.pair.fixed.magnets),
-        &dipoles(&design.pair.moving.magnets),
-        Level::best(),
-    );
+fn without_contact(design: &Design) -> Problem {
+    let potential = DipolePotential::new(&design.pair.fixed.magnets, &design.pair.moving.magnets);
     Problem::without_contact(design.space(), Box::new(potential)).with_tiles(design.pair.clone())
 }
 
 #[test]
 fn energies_of_a_roadmap() {
     let design = paper_tile();
-    let problem = portable(&design);
+    let problem = without_contact(&design);
     let depth = problem.depth();
     let settings = MilestoneSettings {
         count: 1000,
@@ -73,7 +65,7 @@ fn energies_of_a_roadmap() {
 #[test]
 fn energies_of_a_descent() {
     let design = paper_tile();
-    let problem = portable(&design);
+    let problem = without_contact(&design);
     let since = problem.evaluations();
     descend(&problem, &Configuration::new(0.5, 0.05, 0.2));
     assert_eq!(problem.evaluations() - since, 83);
@@ -82,8 +74,8 @@ fn energies_of_a_descent() {
 #[test]
 fn cells_of_a_certificate() {
     let design = paper_tile();
-    let problem = portable(&design);
-    let bounds = DipoleBounds::with_level(&design.pair.fixed, &design.pair.moving, Level::best());
+    let problem = without_contact(&design);
+    let bounds = DipoleBounds::new(&design.pair.fixed, &design.pair.moving);
     let mut certifier = Certifier::new(&bounds, problem.contact.as_ref(), &problem.space);
     let effort = Effort {
         tolerance: 0.65e-3,

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tilebind::potential::batch::Level;
 
-use crate::folder::contents;
+use crate::folder::{assert_same, untimed};
 use crate::program::{command, stderr};
 
 /// Ten designs, and the model that they are computed with.
@@ -47,13 +47,7 @@ fn analysed((design, model): (&str, &str), out: &Path, prepare: impl Fn(&mut Com
     prepare(&mut analyse);
     let output = analyse.output().expect("it starts");
     assert!(output.status.success(), "{}", stderr(&output));
-    let mut files = contents(out);
-    let report = files.get_mut("report.json").expect("a report");
-    let mut value: serde_json::Value = serde_json::from_slice(report).expect("JSON");
-    value.as_object_mut().expect("an object").remove("timing");
-    *report = value.to_string().into_bytes();
-    files.retain(|name, _| !name.starts_with('.') && !name.ends_with(".html"));
-    files
+    untimed(out)
 }
 
 type Files = BTreeMap<String, Vec<u8>>;
@@ -76,10 +70,7 @@ fn every_level_writes_the_same_bytes() {
                     "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F",
                 );
             });
-            assert!(found.keys().eq(expected.keys()));
-            for (name, content) in &found {
-                assert!(*content == expected[name], "{}: {level}: {name}", design.0);
-            }
+            assert_same(&found, &expected, &format!("{}: {level}", design.0));
         }
     }
 }

@@ -24,3 +24,26 @@ pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     }
     all
 }
+
+/// The same of results, whose report comes without its timing.
+pub fn untimed(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = contents(folder);
+    let report = all.get_mut("report.json").expect("a report");
+    let mut value: serde_json::Value = serde_json::from_slice(report).expect("JSON");
+    let timing = value.as_object_mut().expect("an object").remove("timing");
+    assert!(timing.is_some(), "a report has its timing");
+    *report = value.to_string().into_bytes();
+    all
+}
+
+/// Two folders have the same files, byte for byte; `what` says which is looked at.
+pub fn assert_same(
+    found: &BTreeMap<String, Vec<u8>>,
+    expected: &BTreeMap<String, Vec<u8>>,
+    what: &str,
+) {
+    assert!(found.keys().eq(expected.keys()), "{what}: other files");
+    for (name, content) in found {
+        assert!(*content == expected[name], "{what}: {name} differs");
+    }
+}

@@ -1,12 +1,11 @@
 //! `tilebind analyse`: files, keys, and the same bytes every time.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
 
 use super::{numbers, tilebind};
-use crate::folder::contents;
+use crate::folder::{assert_same, contents, untimed};
 use crate::program::{command, stderr, stdout};
 
 const DESIGN: &str = "shapes/paper-tile.toml";
@@ -39,18 +38,6 @@ fn report(out: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(out.join("report.json")).unwrap()).unwrap()
 }
 
-fn untimed(mut report: Value) -> Value {
-    report.as_object_mut().unwrap().remove("timing").unwrap();
-    report
-}
-
-/// All files but the report, with their contents.
-fn contents_but_the_report(out: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut all = contents(out);
-    all.remove("report.json").expect("a report");
-    all
-}
-
 #[test]
 fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     let folder = tempfile::tempdir().unwrap();
@@ -58,12 +45,7 @@ fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     analyse(&one, &["--threads", "1", "--arrays"]);
     let quiet = analyse(&two, &["--threads", "2", "--arrays", "--quiet"]);
     assert!(quiet.stdout.is_empty() && quiet.stderr.is_empty());
-    assert_eq!(untimed(report(&one)), untimed(report(&two)));
-    let [a, b] = [&one, &two].map(|out| contents_but_the_report(out));
-    assert_eq!(a.len(), b.len());
-    for (name, content) in a {
-        assert!(b[&name] == content, "{name} differs");
-    }
+    assert_same(&untimed(&one), &untimed(&two), "one thread");
 }
 
 /// As many magnets as far groups are replaced for, and slides enough that several ways are looked for
@@ -111,12 +93,14 @@ fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
         let report = report(&out);
         let stages = report["timing"]["stages"].as_array().unwrap().iter();
         let of_stages: Vec<Value> = stages.map(|it| it["energy_evaluations"].clone()).collect();
-        (untimed(report), of_stages)
+        (untimed(&out), of_stages)
     };
     let one = on("1");
     assert!(one.1.iter().all(Value::is_u64));
     for threads in ["2", "3"] {
-        assert_eq!(on(threads), one, "{threads} threads");
+        let more = on(threads);
+        assert_same(&more.0, &one.0, threads);
+        assert_eq!(more.1, one.1, "{threads} threads");
     }
 }
 
@@ -154,7 +138,7 @@ fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
             let out = folder.path().join(name).join(on);
             let output = analyse(&out, &[&proofs[..], &["--threads", on]].concat());
             let text = stdout(&output).replace(out.to_str().unwrap(), "out");
-            (untimed(report(&out)), contents_but_the_report(&out), text)
+            (report(&out), untimed(&out), text)
         };
         let alone = run("1");
         let ended = if name == "done" {
@@ -170,14 +154,7 @@ fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
             .contains("(--complete-work 0.1): more of it goes on");
         assert_eq!(told, name == "ended", "{}", alone.2);
         let busy = beside_busy_loops(|| run("2"));
-        assert_eq!(busy.0, alone.0);
-        assert_eq!(
-            busy.1.keys().collect::<Vec<_>>(),
-            alone.1.keys().collect::<Vec<_>>()
-        );
-        for (file, content) in &busy.1 {
-            assert!(content == &alone.1[file], "{name}: {file} differs");
-        }
+        assert_same(&busy.1, &alone.1, name);
         assert_eq!(busy.2, alone.2);
     }
 }
