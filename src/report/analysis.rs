@@ -8,9 +8,9 @@ use super::names::{alternative_file, pathway_file};
 use super::page::Page;
 use super::plots::{self, PictureError, Scene, Sheet};
 use super::{arrays, csv, dynamics, topsearch};
-use crate::design::Design;
-use crate::landscape::Barrier;
-use crate::pipeline::Analysis;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::Barrier;
 
 /// How much is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -39,11 +39,11 @@ use super::columns::{self, Cell, Column, Output, StateRow};
 use super::files::Files;
 use super::page::landscape::{in_front, whole};
 use super::plots::Scene;
-use crate::design::Design;
-use crate::landscape::volume::Volume;
-use crate::landscape::{Barrier, Place};
-use crate::pipeline::Analysis;
-use crate::roadmap::{Edge, EdgeCosts, Milestone, Roadmap};
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::volume::Volume;
+use physics::landscape::{Barrier, Place};
+use physics::roadmap::{Edge, EdgeCosts, Milestone, Roadmap};
 
 /// The folder of the arrays.
 pub const FOLDER: &str = "arrays";

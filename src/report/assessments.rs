@@ -5,8 +5,8 @@ use std::iter::once;
 use serde_json::{Value, json};
 
 use super::csv::number;
-use crate::comparison::quantity::QUANTITIES;
-use crate::comparison::{Assessment, Quantity, capture_range};
+use jobs::comparison::quantity::QUANTITIES;
+use jobs::comparison::{Assessment, Quantity, capture_range};
 
 /// Columns of what moving tiles say of the barriers: how many they checked, contradict, and show to
 /// be estimated too high.

@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 
 use super::terminal::write_table;
 use super::values::{pose, positive_zero};
-use crate::design::Design;
-use crate::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
-use crate::kinetics::well::NO_PLAY;
-use crate::landscape::Inventory;
-use crate::problem::Problem;
-use crate::units::si;
+use jobs::design::Design;
+use physics::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use physics::kinetics::well::NO_PLAY;
+use physics::landscape::Inventory;
+use physics::problem::Problem;
+use physics::units::si;
 
 /// What is said of a bond at one shaking.
 pub struct BondReport<'a> {

@@ -5,13 +5,13 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::json;
-use crate::calibration::bonds::{PairTimes, Times};
-use crate::calibration::distances::DistanceFit;
-use crate::calibration::{Calibration, QUANTITIES, Residuals};
-use crate::design::Design;
-use crate::dynamics::docking::OnRate;
-use crate::kinetics::Bond;
-use crate::units::si;
+use jobs::calibration::bonds::{PairTimes, Times};
+use jobs::calibration::distances::DistanceFit;
+use jobs::calibration::{Calibration, QUANTITIES, Residuals};
+use jobs::design::Design;
+use physics::dynamics::docking::OnRate;
+use physics::kinetics::Bond;
+use physics::units::si;
 
 /// The constants of a shield: name in a design file, unit.
 const CONSTANTS: [(&str, &str); 4] = [

@@ -6,11 +6,11 @@ use serde_json::{Map, Value, json};
 
 use super::names::{face_names, kind, pathway_file, place};
 use super::values::{pose, positive_zero, proportion};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::landscape::{Barrier, Place, Proportion, State, StateKind};
-use crate::order::Order;
-use crate::pipeline::Analysis;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::configuration::Configuration;
+use physics::landscape::{Barrier, Place, Proportion, State, StateKind};
+use physics::order::Order;
 
 /// What shows columns.
 #[derive(Clone, Copy, Debug)]

@@ -11,9 +11,9 @@ use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
 use super::json;
 use super::markdown::{markdown_table, without_html};
 use super::terminal::write_folded;
-use crate::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
-use crate::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
-use crate::landscape::certificate::Ordering;
+use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
+use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
+use physics::landscape::certificate::Ordering;
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]

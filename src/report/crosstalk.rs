@@ -10,11 +10,11 @@ use super::json as layout;
 use super::page::Page;
 use super::values::{pose, positive_zero};
 use super::words::name;
-use crate::configuration::Configuration;
-use crate::design::WordSet;
-use crate::order::Order;
-use crate::units::si;
-use crate::words::crosstalk::Crosstalk;
+use jobs::design::WordSet;
+use physics::configuration::Configuration;
+use physics::order::Order;
+use physics::units::si;
+use physics::words::crosstalk::Crosstalk;
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; crosstalk.csv, report.json";

@@ -5,9 +5,9 @@ use std::borrow::Borrow;
 
 use super::columns::{self, Cell, Column, Output, StateRow};
 use super::names::place_name;
-use crate::design::Design;
-use crate::landscape::{Barrier, Pathway, PathwayPoint};
-use crate::pipeline::Analysis;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::{Barrier, Pathway, PathwayPoint};
 
 /// Lengths are in m, theta is in rad.
 const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
@@ -243,7 +243,7 @@ fn written(is_negative: bool, digits: &str, power: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::Configuration;
+    use physics::configuration::Configuration;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 

@@ -5,16 +5,16 @@ use serde_json::{Value, json};
 
 use super::inspection::pole;
 use super::json;
-use crate::design::Design;
-use crate::dynamics::docking::{
+use jobs::design::Design;
+use physics::dynamics::docking::{
     Docking, DockingMap, DockingSettings, ENGINE, End, MatchRule, OnRate, share_within,
 };
-use crate::landscape::Proportion;
-use crate::order::Order;
-use crate::problem::Problem;
-use crate::tile::Tile;
-use crate::tile::barcode::Pole;
-use crate::units::si;
+use physics::landscape::Proportion;
+use physics::order::Order;
+use physics::problem::Problem;
+use physics::tile::Tile;
+use physics::tile::barcode::Pole;
+use physics::units::si;
 
 pub use super::docking_tables::{map_csv, runs_csv, trajectory_csv};
 

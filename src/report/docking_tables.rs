@@ -1,8 +1,8 @@
 //! Docking runs as CSV.
 
 use super::csv;
-use crate::dynamics::docking::{Docking, DockingMap, End, Start};
-use crate::dynamics::{Motion, Snapshot};
+use physics::dynamics::docking::{Docking, DockingMap, End, Start};
+use physics::dynamics::{Motion, Snapshot};
 
 /// `map.csv`: one cell of the map a line.
 pub fn map_csv(map: &DockingMap) -> String {

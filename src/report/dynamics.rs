@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::csv;
 use super::names::{place, place_name};
-use crate::dynamics::check::{BarrierCheck, Side, SideVerdict};
-use crate::pipeline::Analysis;
+use jobs::pipeline::Analysis;
+use physics::dynamics::check::{BarrierCheck, Side, SideVerdict};
 
 /// The file with a line for each barrier.
 pub const TABLE: &str = "dynamics.csv";

@@ -1,14 +1,14 @@
 //! Figures of designs for people: numbers with their bounds, or the word for why there is none.
 
-use crate::comparison::quantity::{Measure, Reading};
-use crate::comparison::{Assessment, Estimate, Quantity};
-use crate::landscape::Proportion;
-use crate::units::{prefix_of, si, si_range};
+use jobs::comparison::quantity::{Measure, Reading};
+use jobs::comparison::{Assessment, Estimate, Quantity};
+use physics::landscape::Proportion;
+use physics::units::{prefix_of, si, si_range};
 
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// Why a bond is [not head-on](crate::comparison::quantity::NOT_HEAD_ON), at length.
+/// Why a bond is [not head-on](jobs::comparison::quantity::NOT_HEAD_ON), at length.
 pub const WHY_NOT_HEAD_ON: &str = "brought straight up to the target face, the tile comes to rest \
     outside the bond: there is no way past the shape, or no play along it, as between square teeth";
 

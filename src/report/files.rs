@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use super::json as layout;
 use super::page::Page;
-use crate::output::Command;
-pub use crate::output::{Files, PICTURES};
+use jobs::output::Command;
+pub use jobs::output::{Files, PICTURES};
 
 /// What everything is in.
 pub const REPORT: &str = "report.json";
@@ -56,7 +56,7 @@ pub const COMPARE: Command = Command {
     pictures: &[],
 };
 
-/// `tilebind sweep`; its points are files of their own, see [`crate::sweep::Store`].
+/// `tilebind sweep`; its points are files of their own, see [`jobs::sweep::Store`].
 pub const SWEEP: Command = Command {
     name: "sweep",
     files: &[

@@ -8,14 +8,14 @@ use serde_json::{Value, json};
 use super::braille::Braille;
 use super::terminal::write_table;
 use super::values::{pose, positive_zero};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::inspection::{Hold, Inspection};
-use crate::order::Order;
-use crate::potential::MagnetModel;
-use crate::tile::barcode::Pole;
-use crate::tile::{Magnet, Tile};
-use crate::units::si;
+use jobs::design::Design;
+use jobs::inspection::{Hold, Inspection};
+use physics::configuration::Configuration;
+use physics::order::Order;
+use physics::potential::MagnetModel;
+use physics::tile::barcode::Pole;
+use physics::tile::{Magnet, Tile};
+use physics::units::si;
 
 /// Weight of a gram (N).
 pub const GRAM: f64 = 9.806_65e-3;

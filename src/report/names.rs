@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::design::Design;
-use crate::landscape::{Alternative, Barrier, Claims, PathwayCost, Place, State, StateKind};
-use crate::tile::Tile;
+use jobs::design::Design;
+use physics::landscape::{Alternative, Barrier, Claims, PathwayCost, Place, State, StateKind};
+use physics::tile::Tile;
 
 /// What a kind of state is called.
 pub fn kind(kind: StateKind) -> &'static str {

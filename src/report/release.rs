@@ -4,11 +4,11 @@ use serde_json::json;
 
 use super::docking::rate_entry;
 use super::json;
-use crate::design::Design;
-use crate::dynamics::docking::{DockingSettings, Release, off_rate};
-use crate::kinetics::OVERDAMPED;
-use crate::kinetics::rates::Loosening;
-use crate::units::{plain, si};
+use jobs::design::Design;
+use physics::dynamics::docking::{DockingSettings, Release, off_rate};
+use physics::kinetics::OVERDAMPED;
+use physics::kinetics::rates::Loosening;
+use physics::units::{plain, si};
 
 /// The off-rate, and everything that reproduces it.
 ///

@@ -6,19 +6,19 @@
 use ordered_float::OrderedFloat;
 use std::fmt::Write;
 
-use crate::budget::{Allowance, Ended};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::inspection;
-use crate::landscape::results::SAME_ENERGY;
-use crate::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
-use crate::order::Order;
-use crate::pipeline::Analysis;
-use crate::report::dynamics;
-use crate::report::figures::percent;
-use crate::report::names::face_names;
-use crate::report::terminal::write_rows;
-use crate::units::{si, si_range};
+use crate::dynamics;
+use crate::figures::percent;
+use crate::names::face_names;
+use crate::terminal::write_rows;
+use jobs::design::Design;
+use jobs::inspection;
+use jobs::pipeline::Analysis;
+use physics::budget::{Allowance, Ended};
+use physics::configuration::Configuration;
+use physics::landscape::results::SAME_ENERGY;
+use physics::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
+use physics::order::Order;
+use physics::units::{si, si_range};
 
 /// Traps that are listed one by one.
 const LISTED: usize = 4;

@@ -9,8 +9,8 @@ use super::comparison::checked;
 use super::csv::table;
 use super::json;
 use super::plots::curve_names::said;
-use crate::comparison::Assessment;
-use crate::sweep::{Outcome, Plan, Point, Progress, Store};
+use jobs::comparison::Assessment;
+use jobs::sweep::{Outcome, Plan, Point, Progress, Store};
 
 /// The folder of the designs of points.
 pub const DESIGNS: &str = "designs";

@@ -3,9 +3,9 @@
 use super::figures::cell;
 use super::sweep::Sweep;
 use super::terminal::write_folded;
-use crate::comparison::quantity::QUANTITIES;
-use crate::comparison::{Assessment, Quantity};
-use crate::order::Order;
+use jobs::comparison::quantity::QUANTITIES;
+use jobs::comparison::{Assessment, Quantity};
+use physics::order::Order;
 
 /// Points that the table lists; of more, the first ones.
 const LISTED: usize = 12;

@@ -18,8 +18,8 @@ use std::fmt::Write;
 
 use super::files::Files;
 use super::plots::Scene;
-use crate::configuration::Configuration;
-use crate::landscape::Place;
+use physics::configuration::Configuration;
+use physics::landscape::Place;
 
 /// The folder of the files.
 pub const FOLDER: &str = "topsearch";

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::configuration::Configuration;
-use crate::landscape::Proportion;
+use physics::configuration::Configuration;
+use physics::landscape::Proportion;
 
 /// The number itself, but 0 for -0.
 pub fn positive_zero(value: f64) -> f64 {

@@ -10,11 +10,11 @@ use nalgebra::Vector2;
 use super::files::Files;
 use super::inspection::GRAM;
 use super::markdown::markdown_table;
-use crate::design::Design;
-use crate::tile::barcode::Pole;
-use crate::tile::{Magnet, Tile};
-use crate::units::si;
-use crate::workshop::{Making, Part, PartError, Pocket, grade, order};
+use jobs::design::Design;
+use jobs::workshop::{Making, Part, PartError, Pocket, grade, order};
+use physics::tile::barcode::Pole;
+use physics::tile::{Magnet, Tile};
+use physics::units::si;
 
 /// Density of neodymium magnets (kg/m^3).
 const DENSITY: f64 = 7500.0;

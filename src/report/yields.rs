@@ -8,11 +8,11 @@ use super::csv::{number, table};
 use super::files::{Files, PICTURES};
 use super::page::yield_charts;
 use super::terminal::write_table;
-use crate::design::Design;
-use crate::kinetics::mixture::Mixture;
-use crate::units::{duration, plain, si};
-use crate::yields::attachment::Source;
-use crate::yields::{Outcome, Question, StateRates, Yields};
+use jobs::design::Design;
+use jobs::yields::attachment::Source;
+use jobs::yields::{Outcome, Question, StateRates, Yields};
+use physics::kinetics::mixture::Mixture;
+use physics::units::{duration, plain, si};
 
 /// The answer as `report.json` has it.
 pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {

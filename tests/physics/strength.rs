@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use tilebind::design::{Strength, surface_field_share};
+use tilebind::tile::strength::{Strength, surface_field_share};
 
 /// The field at a point on the axis, summed over both pole faces cut into small charges.
 fn summed_field(size: [f64; 3], above: f64) -> f64 {

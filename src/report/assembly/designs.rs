@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::Assembly;
-use crate::assembly::growth::Met;
-use crate::assembly::{Axis, SIDES};
-use crate::potential::MagnetModel;
-use crate::report::markdown::markdown_table;
-use crate::units::si;
+use crate::markdown::markdown_table;
+use jobs::assembly::growth::Met;
+use jobs::assembly::{Axis, SIDES};
+use physics::potential::MagnetModel;
+use physics::units::si;
 
 /// Names and texts of the designs of every two tiles that meet in what grows.
 pub(super) fn all(assembly: &Assembly) -> Vec<(String, String)> {

@@ -18,13 +18,13 @@ use super::files::{Files, PICTURES, with_report};
 use super::json as layout;
 use super::page::Page;
 use super::values::positive_zero;
-use crate::assembly::built::face_name;
-use crate::assembly::choice::{Choice, Verdict};
-use crate::assembly::slides::Slid;
-use crate::assembly::{Axis, Built, SIDES, rgrow, xgrow};
-use crate::design::{Design, WordSet};
-use crate::tile::Magnet;
-use crate::words::{Rules, Word};
+use jobs::assembly::built::face_name;
+use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::slides::Slid;
+use jobs::assembly::{Axis, Built, SIDES, rgrow, xgrow};
+use jobs::design::{Design, WordSet};
+use physics::tile::Magnet;
+use physics::words::{Rules, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; assembly.yaml (rgrow), assembly.tiles (xgrow), \

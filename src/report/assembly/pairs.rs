@@ -1,7 +1,7 @@
 //! Every two tiles that meet, and how deep their bond is with all faces of either.
 
 use super::{Assembly, designs};
-use crate::report::csv::table;
+use crate::csv::table;
 
 /// A line a pair: its design, the word of its bond, the energy of the two faces that meet (the
 /// matrix's), of all other faces, and of the whole tiles, which `tilebind energy` has of the design.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::Assembly;
-use crate::assembly::TileSet;
+use jobs::assembly::TileSet;
 
 /// Colours that colour-blind people tell apart (Okabe and Ito), and two greys.
 const COLOURS: [&str; 8] = [

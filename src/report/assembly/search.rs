@@ -1,10 +1,10 @@
 //! The words of an assembly, searched.
 
 use super::super::words::{self, set_toml};
-use crate::assembly::Wiring;
-use crate::assembly::choice::{self, Asked, Choice, Class, Verdict};
-use crate::design::{Design, MagnetModel};
-use crate::words::{Bar, Rules, Word};
+use jobs::assembly::Wiring;
+use jobs::assembly::choice::{self, Asked, Choice, Class, Verdict};
+use jobs::design::{Design, MagnetModel};
+use physics::words::{Bar, Rules, Word};
 
 /// The least gap where none is asked for.
 const GAP: f64 = 0.5;
@@ -74,7 +74,7 @@ impl WordSearch {
         if let Some(length) = self.length.filter(|length| *length > most) {
             return Err(format!(
                 "a face of {length} places is too long: {most} at most, {} apart",
-                crate::units::si(bar.pitch, "m", 3)
+                physics::units::si(bar.pitch, "m", 3)
             ));
         }
         let places = self.length.unwrap_or(most);

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::Assembly;
-use crate::assembly::Built;
-use crate::assembly::choice::{Choice, Verdict};
-use crate::assembly::slides::Slid;
-use crate::units::{plain, si, si_range};
+use jobs::assembly::Built;
+use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::slides::Slid;
+use physics::units::{plain, si, si_range};
 
 /// What may be asked of slid meetings.
 pub(crate) struct SlidFacts {
@@ -149,7 +149,7 @@ pub fn summary(assembly: &Assembly) -> String {
         });
     }
     if let Some([rows, columns]) = assembly.lattice {
-        let needed = crate::assembly::lattice::words(rows, columns);
+        let needed = jobs::assembly::lattice::words(rows, columns);
         line(format!(
             "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
         ));

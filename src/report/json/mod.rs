@@ -17,10 +17,10 @@ use super::columns::{Column, Output, StateRow, barriers, object, states};
 use super::dynamics;
 use super::names::{self, alternative_file, place};
 use super::values::{pose, proportion};
-use crate::budget::Ended;
-use crate::design::Design;
-use crate::landscape::{Alternative, Barrier, PathwayCost};
-use crate::pipeline::Analysis;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::budget::Ended;
+use physics::landscape::{Alternative, Barrier, PathwayCost};
 
 /// The content of `report.json`.
 #[derive(Clone, Debug)]

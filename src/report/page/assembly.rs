@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Illustration, Page, Table};
-use crate::assembly::slides::Slid;
-use crate::order::Order;
-use crate::report::assembly::{Assembly, headline};
-use crate::units::si;
+use crate::assembly::{Assembly, headline};
+use jobs::assembly::slides::Slid;
+use physics::order::Order;
+use physics::units::si;
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 500;
@@ -50,7 +50,7 @@ impl Page {
             fact("strongest mismatch", si(wrong, "J", 4), "aligned"),
             fact(
                 "bonds in whole tiles",
-                crate::report::assembly::deeper(assembly).map_or(String::new(), |range| {
+                crate::assembly::deeper(assembly).map_or(String::new(), |range| {
                     let [least, most] = range.map(|share| 100.0 * share);
                     format!("{least:+.1} to {most:+.1} %")
                 }),
@@ -110,7 +110,7 @@ fn tiles(assembly: &Assembly) -> Table {
         )),
         None => Value::Null,
     };
-    let row = |(number, tile): (usize, &crate::assembly::TileType)| {
+    let row = |(number, tile): (usize, &jobs::assembly::TileType)| {
         let head = [json!(tile.name), json!(counts[number])];
         head.into_iter()
             .chain((0..4).map(|side| face(number, side)))
@@ -142,7 +142,7 @@ fn tiles(assembly: &Assembly) -> Table {
 
 fn bonds(assembly: &Assembly) -> Table {
     let built = assembly.built;
-    let row = |(word, bond): (usize, &crate::assembly::wiring::Bond)| {
+    let row = |(word, bond): (usize, &jobs::assembly::wiring::Bond)| {
         let energy = -built.matrix.bond(word);
         vec![
             json!(assembly.face(word)),

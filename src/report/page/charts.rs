@@ -4,12 +4,12 @@ use serde::Serialize;
 
 use super::finite;
 use super::thumbnail::Thumbnail;
-use crate::comparison::quantity::{Measure, NO_TRAPS, Place, QUANTITIES, placed};
-use crate::comparison::{Assessment, Quantity};
-use crate::report::figures::cell;
-use crate::report::plots::curve_data::{Content, Variable, contents, variables};
-use crate::report::plots::curve_names::series_name;
-use crate::report::sweep::Sweep;
+use crate::figures::cell;
+use crate::plots::curve_data::{Content, Variable, contents, variables};
+use crate::plots::curve_names::series_name;
+use crate::sweep::Sweep;
+use jobs::comparison::quantity::{Measure, NO_TRAPS, Place, QUANTITIES, placed};
+use jobs::comparison::{Assessment, Quantity};
 
 /// What a page needs to draw curves and maps.
 #[derive(Clone, Debug, Serialize)]

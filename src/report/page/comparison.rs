@@ -4,12 +4,12 @@ use serde_json::{Value, json};
 
 use super::charts::Charts;
 use super::{Column, Fact, Illustration, Page, Table};
-use crate::comparison::quantity::QUANTITIES;
-use crate::comparison::ranking::ranked;
-use crate::comparison::{Assessment, Quantity};
-use crate::report::comparison::Comparison;
-use crate::report::figures::{cell, heading};
-use crate::report::sweep::{Sweep, counts};
+use crate::comparison::Comparison;
+use crate::figures::{cell, heading};
+use crate::sweep::{Sweep, counts};
+use jobs::comparison::quantity::QUANTITIES;
+use jobs::comparison::ranking::ranked;
+use jobs::comparison::{Assessment, Quantity};
 
 /// What ranks above every number: a barrier that nothing crosses.
 const BEYOND: f64 = 1e300;

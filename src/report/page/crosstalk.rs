@@ -3,11 +3,11 @@
 use super::meetings::{Carrier, Met};
 use super::word_charts::histogram;
 use super::{Fact, Illustration, Meetings, Page};
-use crate::design::WordSet;
-use crate::report::crosstalk::{face_name, faces, headline, is_bond};
-use crate::units::si;
-use crate::words::Word;
-use crate::words::crosstalk::Crosstalk;
+use crate::crosstalk::{face_name, faces, headline, is_bond};
+use jobs::design::WordSet;
+use physics::units::si;
+use physics::words::Word;
+use physics::words::crosstalk::Crosstalk;
 
 /// Sets of more words have no map.
 const MOST_DRAWN: usize = 80;

@@ -4,14 +4,14 @@ use serde_json::{Value, json};
 
 use super::pathways::Played;
 use super::{Column, Fact, Illustration, Landscape, Page, Table, finite};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::dynamics::Snapshot;
-use crate::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
-use crate::landscape::{Inventory, State, StateKind};
-use crate::problem::Problem;
-use crate::report::plots::Scene;
-use crate::units::si;
+use crate::plots::Scene;
+use jobs::design::Design;
+use physics::configuration::Configuration;
+use physics::dynamics::Snapshot;
+use physics::dynamics::docking::{Docking, DockingRun, End, MatchRule, OnRate};
+use physics::landscape::{Inventory, State, StateKind};
+use physics::problem::Problem;
+use physics::units::si;
 
 /// Traps that are marked and listed.
 const LISTED: usize = 12;

@@ -1,8 +1,8 @@
 //! The parts of a page put together.
 
-use crate::order::Order;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use physics::order::Order;
 use sha2::{Digest, Sha256};
 
 /// What to cite.

@@ -9,17 +9,17 @@ use super::packed::Packed;
 use super::pathways::Played;
 use super::tree::{DrawnTree, trees};
 use super::{fixed, rounded};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::landscape::approach::Approach;
-use crate::landscape::map::evenly;
-use crate::landscape::volume::{InFront, Volume, around};
-use crate::landscape::{Place, State};
-use crate::potential::{DipolePotential, Potential};
-use crate::report::names::kind;
-use crate::report::plots::Scene;
-use crate::report::plots::scale::{EnergyScale, VIK};
-use crate::tile::Tile;
+use crate::names::kind;
+use crate::plots::Scene;
+use crate::plots::scale::{EnergyScale, VIK};
+use jobs::design::Design;
+use physics::configuration::Configuration;
+use physics::landscape::approach::Approach;
+use physics::landscape::map::evenly;
+use physics::landscape::volume::{InFront, Volume, around};
+use physics::landscape::{Place, State};
+use physics::potential::{DipolePotential, Potential};
+use physics::tile::Tile;
 
 /// Orientations to a full turn of the moving tile, and to its part after which it repeats.
 const ORIENTATIONS: [usize; 2] = [144, 72];
@@ -137,7 +137,7 @@ impl Landscape {
 /// The map all around the fixed tile: at least so many orientations, and as many places as the
 /// number of grid points leaves.
 pub fn whole(scene: &Scene) -> Volume {
-    let repeats = crate::tile::symmetry::rotations(&scene.pair.moving).len();
+    let repeats = physics::tile::symmetry::rotations(&scene.pair.moving).len();
     let orientations = ORIENTATIONS[usize::from(repeats == 1)];
     let reach = scene.reach();
     let shape = reach[0].min(reach[1]) / reach[0].max(reach[1]);

@@ -4,9 +4,9 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{finite, fixed};
-use crate::configuration::Configuration;
-use crate::tile::Magnet;
-use crate::words::Word;
+use physics::configuration::Configuration;
+use physics::tile::Magnet;
+use physics::words::Word;
 
 /// A map of all faces, words and then their mates, against all: the strongest wrong meeting of each
 /// two, which a click shows.

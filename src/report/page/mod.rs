@@ -15,14 +15,14 @@ pub(super) mod landscape;
 pub(super) mod meetings;
 mod packed;
 mod pathways;
-pub(in crate::report) mod rate_charts;
+pub(crate) mod rate_charts;
 mod rates;
 mod tables;
 mod thumbnail;
 mod tree;
 mod word_charts;
 mod words;
-pub(in crate::report) mod yield_charts;
+pub(crate) mod yield_charts;
 mod yields;
 
 use serde::Serialize;
@@ -35,9 +35,9 @@ pub use landscape::Landscape;
 pub use meetings::Meetings;
 
 use super::plots::Scene;
-use crate::design::Design;
-use crate::landscape::Proportion;
-use crate::pipeline::Analysis;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::Proportion;
 
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");

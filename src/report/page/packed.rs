@@ -5,9 +5,9 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::fixed;
-use crate::landscape::volume::Volume;
-use crate::report::packing::deflated;
-use crate::report::plots::scale::EnergyScale;
+use crate::packing::deflated;
+use crate::plots::scale::EnergyScale;
+use physics::landscape::volume::Volume;
 
 /// Steps between the two ends of the energy scale. Half a step is a 0.06 % change of an energy far
 /// from zero.

@@ -4,11 +4,11 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::{Column, Table, finite, fixed, rounded};
-use crate::dynamics::Snapshot;
-use crate::landscape::{Barrier, Pathway, PathwayCost, Place};
-use crate::problem::Problem;
-use crate::report::csv;
-use crate::report::plots::Scene;
+use crate::csv;
+use crate::plots::Scene;
+use physics::dynamics::Snapshot;
+use physics::landscape::{Barrier, Pathway, PathwayCost, Place};
+use physics::problem::Problem;
 
 /// Most pathways of a page.
 const MOST: usize = 24;

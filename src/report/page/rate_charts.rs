@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::word_charts::{AREA, chart, label};
-use crate::kinetics::map::Map;
-use crate::order::Order;
-use crate::report::plots::scale;
-use crate::report::rates::{AtKt, Table};
-use crate::units::{plain, si};
+use crate::plots::scale;
+use crate::rates::{AtKt, Table};
+use physics::kinetics::map::Map;
+use physics::order::Order;
+use physics::units::{plain, si};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
 const COLOURS: [&str; 6] = [

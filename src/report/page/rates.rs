@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use super::{Column, Fact, Page, Table as Sorted, illustrations, rate_charts};
-use crate::report::rates::{
+use crate::rates::{
     AtKt, FAR, NOT_PROVED, PROVED, Place, Table, mean_exit_ends, outwards, per_second, share,
 };
-use crate::units::{duration, si};
+use physics::units::{duration, si};
 
 impl Page {
     /// The page of rates between states and `free`.

@@ -6,15 +6,15 @@ use serde_json::json;
 
 use super::pathways::Played;
 use super::{Column, Fact, Table, finite};
-use crate::design::Design;
-use crate::landscape::{Kind, Place};
-use crate::pipeline::Analysis;
-use crate::report::columns::{self, Cell, Output, StateRow};
-use crate::report::figures::percent;
-use crate::report::plots::Scene;
-use crate::report::plots::scale::minus;
-use crate::report::summary::{ended_by, left_out};
-use crate::units::{si, si_range};
+use crate::columns::{self, Cell, Output, StateRow};
+use crate::figures::percent;
+use crate::plots::Scene;
+use crate::plots::scale::minus;
+use crate::summary::{ended_by, left_out};
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::{Kind, Place};
+use physics::units::{si, si_range};
 
 /// Significant digits of numbers in tables.
 const DIGITS: usize = 7;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::landscape::{Drawn, pose};
-use crate::report::sweep::Sweep;
-use crate::sweep::Point;
+use crate::sweep::Sweep;
+use jobs::sweep::Point;
 
 /// With more points the page would grow large.
 const MOST_POINTS: usize = 200;

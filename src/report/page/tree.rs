@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::rounded;
-use crate::landscape::Kind;
-use crate::report::plots::disconnectivity::{merge_tree, why_apart};
-use crate::report::plots::merge_tree::Tree;
-use crate::report::plots::scale::EnergyScale;
-use crate::report::plots::scene::Scene;
+use crate::plots::disconnectivity::{merge_tree, why_apart};
+use crate::plots::merge_tree::Tree;
+use crate::plots::scale::EnergyScale;
+use crate::plots::scene::Scene;
+use physics::landscape::Kind;
 
 /// Most classes of states in the graph.
 const MOST: usize = 24;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::words::Answer;
+use physics::words::Answer;
 
 const OPEN: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" font-family=\"Noto Sans, Helvetica, \
                     Arial, sans-serif\"";

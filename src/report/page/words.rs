@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use super::meetings::{Carrier, Met};
 use super::word_charts::{frontier, histogram};
 use super::{Column, Fact, Illustration, Meetings, Page, Table};
-use crate::report::words::{Request, headline, meetings, name};
-use crate::units::si;
-use crate::words::{Answer, Word};
+use crate::words::{Request, headline, meetings, name};
+use physics::units::si;
+use physics::words::{Answer, Word};
 
 /// Sets of more words have no heat map.
 const MOST_DRAWN: usize = 80;

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::word_charts::{AREA, chart, label};
-use crate::order::Order;
-use crate::units::{duration, si};
-use crate::yields::{Outcome, Question, Yields};
+use jobs::yields::{Outcome, Question, Yields};
+use physics::order::Order;
+use physics::units::{duration, si};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
 const COLOURS: [&str; 6] = [

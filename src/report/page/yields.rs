@@ -1,10 +1,10 @@
 //! The page of a yield.
 
 use super::{Fact, Page, illustrations, yield_charts};
-use crate::design::Design;
-use crate::report::yields::{headline, phases};
-use crate::units::si;
-use crate::yields::{Question, Yields};
+use crate::yields::{headline, phases};
+use jobs::design::Design;
+use jobs::yields::{Question, Yields};
+use physics::units::si;
 
 impl Page {
     /// The page of what a shaken table yields.

@@ -12,12 +12,12 @@ use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Axis, INK, LABEL, Text, chart, pixel, units};
 use super::{energy, length};
-use crate::landscape::approach::{Approach, ApproachSlices, SliceSettings};
-use crate::landscape::map::{Grid, Sample};
-use crate::order::Order;
-use crate::report::csv::table;
-use crate::report::names::face;
-use crate::units::prefix_of;
+use crate::csv::table;
+use crate::names::face;
+use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};
+use physics::landscape::map::{Grid, Sample};
+use physics::order::Order;
+use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
 /// The least width (pixels) of a panel beside the other.

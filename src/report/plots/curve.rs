@@ -8,7 +8,7 @@ use super::marks::{Pixel, polygon, polyline};
 use super::picture::{Area, PictureError};
 use super::ranking::disc;
 use super::style::{Chart, LABEL, Text, pixel};
-use crate::comparison::{Estimate, Quantity};
+use jobs::comparison::{Estimate, Quantity};
 
 /// How values stand along a panel's axis.
 #[derive(Clone, Copy)]

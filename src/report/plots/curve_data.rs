@@ -3,11 +3,11 @@
 use super::curve_names::{Common, LENGTHS, common, file, titled};
 use super::style::Axis;
 use super::{Figure, PictureError, Sheet, curve_map, curves};
-use crate::comparison::Assessment;
-use crate::order::Order;
-use crate::report::sweep::Sweep;
-use crate::sweep::{Point, Value};
+use crate::sweep::Sweep;
+use jobs::comparison::Assessment;
+use jobs::sweep::{Point, Value};
 use ordered_float::OrderedFloat;
+use physics::order::Order;
 
 /// Most pictures of a sweep.
 const MOST_PICTURES: usize = 24;

@@ -13,10 +13,10 @@ use super::ranking::block;
 use super::scale::{colour, minus};
 use super::style::{GRID, INK, LABEL, SMALL, SOFT, Text};
 use super::{Figure, Sheet};
-use crate::comparison::quantity::{NO_TRAPS, placed};
-use crate::comparison::{Assessment, Quantity};
-use crate::report::csv::{number, table};
-use crate::report::figures::Shown;
+use crate::csv::{number, table};
+use crate::figures::Shown;
+use jobs::comparison::quantity::{NO_TRAPS, placed};
+use jobs::comparison::{Assessment, Quantity};
 
 const WIDTH: f64 = 1200.0;
 const HEIGHT: f64 = 380.0;

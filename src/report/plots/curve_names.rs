@@ -1,9 +1,9 @@
 //! What the pictures, series and points of a sweep are called.
 
 use super::curve_data::variables;
-use crate::report::csv::number;
-use crate::report::sweep::Sweep;
-use crate::sweep::{Point, Value};
+use crate::csv::number;
+use crate::sweep::Sweep;
+use jobs::sweep::{Point, Value};
 
 /// Keys of the design that are lengths: their axes are in mm.
 pub const LENGTHS: [&str; 12] = [

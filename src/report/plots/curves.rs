@@ -10,10 +10,10 @@ use super::marks::{Box4, Pixel, polyline};
 use super::picture::{Area, PictureError};
 use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
 use super::{Figure, Sheet};
-use crate::comparison::quantity::{Measure, NO_TRAPS, placed};
-use crate::comparison::{Assessment, Estimate, Quantity};
-use crate::report::csv::{number, table};
-use crate::report::figures::Shown;
+use crate::csv::{number, table};
+use crate::figures::Shown;
+use jobs::comparison::quantity::{Measure, NO_TRAPS, placed};
+use jobs::comparison::{Assessment, Estimate, Quantity};
 
 const WIDTH: f64 = 1200.0;
 const PANEL_HEIGHT: f64 = 262.0;

@@ -17,8 +17,8 @@ use super::scene::Scene;
 use super::sheet::Sheet;
 use super::style::{Axis, INK, SMALL, SOFT, Text, chart, pixel};
 use super::tree_lines::Drawing;
-use crate::landscape::{Kind, Place, State};
-use crate::report::csv::table;
+use crate::csv::table;
+use physics::landscape::{Kind, Place, State};
 
 const WIDTH: f64 = 1000.0;
 /// Height (pixels) on wide and on narrow sheets.

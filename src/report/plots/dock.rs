@@ -10,9 +10,9 @@ use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::colour;
 use super::style::{Axis, INK, SMALL, Text, chart, pixel, units};
 use super::{Figure, Sheet};
-use crate::design::Design;
-use crate::dynamics::docking::DockingMap;
-use crate::report::docking::map_csv;
+use crate::docking::map_csv;
+use jobs::design::Design;
+use physics::dynamics::docking::DockingMap;
 
 const WIDTH: f64 = 860.0;
 /// Space around a plot (pixels): top, right, bottom, left.

@@ -15,11 +15,11 @@ use super::scene::Scene;
 use super::sheet::Sheet;
 use super::style::{Axis, FIXED_FILL, INK, LABEL, Text, chart, units};
 use super::{energy, length};
-use crate::configuration::Configuration;
-use crate::landscape::map::{EnergyMap, Window};
-use crate::report::csv::table;
-use crate::tile::Pair;
-use crate::units::prefix_of;
+use crate::csv::table;
+use physics::configuration::Configuration;
+use physics::landscape::map::{EnergyMap, Window};
+use physics::tile::Pair;
+use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
 /// Space around a plot (pixels): top, right, bottom, left.

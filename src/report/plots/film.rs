@@ -12,11 +12,11 @@ use super::scale::{EnergyScale, minus};
 use super::scene::Scene;
 use super::style::{FIXED_FILL, GRID, LABEL, MOVING_FILL, SMALL, SOFT, Text};
 use super::{energy, length};
-use crate::configuration::Configuration;
-use crate::landscape::{Pathway, PathwayPoint};
-use crate::report::csv::table;
-use crate::tile::Tile;
-use crate::units::si;
+use crate::csv::table;
+use physics::configuration::Configuration;
+use physics::landscape::{Pathway, PathwayPoint};
+use physics::tile::Tile;
+use physics::units::si;
 
 /// Least width of a frame (pixels), and the most side by side.
 const FRAME: f64 = 190.0;

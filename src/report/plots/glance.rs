@@ -10,15 +10,15 @@ use super::sheet::Sheet;
 use super::style::{
     BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION,
 };
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::inspection::Inspection;
-use crate::order::Order;
-use crate::potential::MagnetModel;
-use crate::report::inspection::{force, pole, wrong};
-use crate::tile::barcode::Pole;
-use crate::tile::{Face, Magnet, Tile};
-use crate::units::si;
+use crate::inspection::{force, pole, wrong};
+use jobs::design::Design;
+use jobs::inspection::Inspection;
+use physics::configuration::Configuration;
+use physics::order::Order;
+use physics::potential::MagnetModel;
+use physics::tile::barcode::Pole;
+use physics::tile::{Face, Magnet, Tile};
+use physics::units::si;
 
 const SIZE: (u32, u32) = (1000, 640);
 /// Space for the title above and the figures below the tiles (pixels).

@@ -1,8 +1,8 @@
 //! Labels that keep out of each other's way.
 
-use crate::order::Order;
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
+use physics::order::Order;
 use plotters::prelude::{Color, WHITE};
 use plotters::style::text_anchor::{HPos, VPos};
 

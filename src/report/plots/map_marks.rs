@@ -8,9 +8,9 @@ use super::picture::{Area, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{INK, SMALL, Text};
-use crate::configuration::Configuration;
-use crate::landscape::{Kind, StateKind};
-use crate::order::Order;
+use physics::configuration::Configuration;
+use physics::landscape::{Kind, StateKind};
+use physics::order::Order;
 
 /// Pathways drawn.
 const PATHWAYS: usize = 8;

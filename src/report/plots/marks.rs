@@ -6,9 +6,9 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::picture::{Area, PictureError};
 use super::style::{BLUE, INK, Text, VERMILLION, YELLOW, line, point};
-use crate::configuration::Configuration;
-use crate::landscape::StateKind;
-use crate::tile::{Magnet, Tile};
+use physics::configuration::Configuration;
+use physics::landscape::StateKind;
+use physics::tile::{Magnet, Tile};
 
 /// A point (pixels).
 pub type Pixel = (f64, f64);

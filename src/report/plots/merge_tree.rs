@@ -1,7 +1,7 @@
 //! The merge tree of a disconnectivity graph.
 
-use crate::order::Order;
 use ordered_float::OrderedFloat;
+use physics::order::Order;
 
 use super::scale::EnergyScale;
 

@@ -10,11 +10,11 @@ use super::scale::minus;
 use super::scene::Scene;
 use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel};
 use super::{energy, length};
-use crate::landscape::StateKind;
-use crate::landscape::approach::Approach;
-use crate::potential::{Interaction, MagnetModel, Potential};
-use crate::report::csv::table;
-use crate::units::{prefix_of, si};
+use crate::csv::table;
+use physics::landscape::StateKind;
+use physics::landscape::approach::Approach;
+use physics::potential::{Interaction, MagnetModel, Potential};
+use physics::units::{prefix_of, si};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 390.0;

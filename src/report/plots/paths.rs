@@ -8,12 +8,12 @@ use super::marks::{Box4, View, polyline, tile};
 use super::picture::{Area, PictureError};
 use super::style::{Axis, FIXED_FILL, GREEN, INK, MOVING_FILL, chart, pixel};
 use super::{Figure, Sheet};
-use crate::configuration::Configuration;
-use crate::design::Design;
-use crate::dynamics::Snapshot;
-use crate::dynamics::docking::End;
-use crate::report::csv::table;
-use crate::tile::Pair;
+use crate::csv::table;
+use jobs::design::Design;
+use physics::configuration::Configuration;
+use physics::dynamics::Snapshot;
+use physics::dynamics::docking::End;
+use physics::tile::Pair;
 
 const WIDTH: f64 = 860.0;
 /// Space around the plot (pixels): top, right, bottom, left.

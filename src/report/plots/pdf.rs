@@ -12,7 +12,7 @@ use tiny_skia::{Path, PathSegment, Point, Transform};
 
 use super::picture::{Bitmap, Underlay};
 use super::shapes::Painter;
-use crate::report::packing::deflated;
+use crate::packing::deflated;
 
 /// Points of print in a millimetre.
 const POINTS_A_MILLIMETRE: f64 = 72.0 / 25.4;

@@ -13,10 +13,10 @@ use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
 use super::{energy, length};
-use crate::landscape::{Barrier, Place, SaddleBounds};
-use crate::report::csv::{SEEN, table, thinned};
-use crate::report::names::place_name;
-use crate::units::prefix_of;
+use crate::csv::{SEEN, table, thinned};
+use crate::names::place_name;
+use physics::landscape::{Barrier, Place, SaddleBounds};
+use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
 const PANEL_HEIGHT: f64 = 306.0;

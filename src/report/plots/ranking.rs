@@ -12,10 +12,10 @@ use super::style::{
     Axis, BLUE, Chart, GREEN, GRID, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel,
 };
 use super::{Figure, Sheet};
-use crate::comparison::quantity::{Measure, Place, placed};
-use crate::comparison::{Assessment, Quantity};
-use crate::report::comparison::Comparison;
-use crate::report::figures::Shown;
+use crate::comparison::Comparison;
+use crate::figures::Shown;
+use jobs::comparison::quantity::{Measure, Place, placed};
+use jobs::comparison::{Assessment, Quantity};
 
 const WIDTH: f64 = 1120.0;
 /// Above the rows: the heading and its key (pixels).

@@ -1,7 +1,7 @@
 //! Energies as positions and colours.
 
-use crate::order::Order;
-use crate::units::si;
+use physics::order::Order;
+use physics::units::si;
 
 /// The diverging colour map "vik", attraction blue and repulsion brown, pale at zero: perceptually
 /// uniform and safe for colour-blind readers. Every sixteenth of its colours; straight lines

@@ -3,12 +3,12 @@
 use ordered_float::OrderedFloat;
 
 use super::marks::Mark;
-use crate::design::Design;
-use crate::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
-use crate::order::Order;
-use crate::potential::Interaction;
-use crate::problem::Problem;
-use crate::tile::Pair;
+use jobs::design::Design;
+use physics::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
+use physics::order::Order;
+use physics::potential::Interaction;
+use physics::problem::Problem;
+use physics::tile::Pair;
 
 /// A pair of tiles and what was found out about it.
 #[derive(Clone, Copy)]

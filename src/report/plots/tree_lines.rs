@@ -9,7 +9,7 @@ use super::picture::{Area, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{GREEN, INK, SMALL, SOFT, Text};
-use crate::landscape::{Kind, Place};
+use physics::landscape::{Kind, Place};
 
 /// A graph in the making.
 pub struct Drawing<'a, 'b> {

@@ -8,12 +8,12 @@ use super::{
     Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, area,
     digits, finite, leaving_set, mean_exit_words, proved_entry, proved_words,
 };
-use crate::design::Design;
-use crate::dynamics::exits::ExitRuns;
-use crate::kinetics::exit::{Exit, ExitSettings};
-use crate::kinetics::{OVERDAMPED, Way};
-use crate::report::values;
-use crate::units::{duration, duration_to, si};
+use crate::values;
+use jobs::design::Design;
+use physics::dynamics::exits::ExitRuns;
+use physics::kinetics::exit::{Exit, ExitSettings};
+use physics::kinetics::{OVERDAMPED, Way};
+use physics::units::{duration, duration_to, si};
 
 /// Bounds of the mean exit time (s), those that are numbers.
 fn bounds(motion: &Motion, exit: &Exit) -> Option<[Option<f64>; 2]> {

@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use super::{AtKt, Table};
-use crate::kinetics::map::Map;
-use crate::report::csv::{self, number};
-use crate::report::files::{Files, PICTURES};
-use crate::report::page::rate_charts;
+use crate::csv::{self, number};
+use crate::files::{Files, PICTURES};
+use crate::page::rate_charts;
+use physics::kinetics::map::Map;
 
 /// The answer as `report.json` has it.
 pub fn report(table: &Table, over_kt: &[AtKt], seed: u64) -> Value {

@@ -16,9 +16,9 @@ pub use table::Table;
 
 use serde_json::{Value, json};
 
-use crate::design::Design;
-use crate::kinetics::Capacity;
-use crate::units::{duration_to, plain};
+use jobs::design::Design;
+use physics::kinetics::Capacity;
+use physics::units::{duration_to, plain};
 
 /// Overdamped motion on an air table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ fn mean_exit(motion: &Motion, proved: &Capacity) -> [f64; 2] {
 }
 
 /// Bounds rounded outwards, to three digits of either.
-pub(in crate::report) fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
     let unit = |end: f64| 10f64.powi(libm::log10(end).floor() as i32 - 2);
     let to = |end: f64, round: fn(f64) -> f64| match end > 0.0 && end.is_finite() {
         true => round(end / unit(end)) * unit(end),
@@ -111,13 +111,10 @@ fn proved_words([lower, upper]: [f64; 2]) -> String {
 }
 
 /// Bounds that are farther apart than so many times say nothing worth telling.
-pub(in crate::report) const FAR: f64 = 10.0;
+pub(crate) const FAR: f64 = 10.0;
 
 /// Proved bounds (s) of a mean exit time that are worth telling, with their words, rounded outwards.
-pub(in crate::report) fn mean_exit_ends(
-    motion: &Motion,
-    proved: &Capacity,
-) -> [Option<(f64, String)>; 2] {
+pub(crate) fn mean_exit_ends(motion: &Motion, proved: &Capacity) -> [Option<(f64, String)>; 2] {
     let [least, most] = mean_exit(motion, proved);
     [
         Some((least, duration_to(least, 3, f64::floor))),
@@ -136,12 +133,11 @@ fn mean_exit_words(motion: &Motion, proved: &Capacity) -> String {
 }
 
 /// What is said where a proof was asked for and there is none.
-pub(in crate::report) const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres \
+pub(crate) const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres \
                           of mass, of few corners,\n  an energy with bounds over cells, and sets \
                           that the mesh tells apart";
 /// What is proved.
-pub(in crate::report) const PROVED: &str =
-    "proved (integrals and sets enclosed, rounding included)";
+pub(crate) const PROVED: &str = "proved (integrals and sets enclosed, rounding included)";
 
 /// How far apart bounds are, in percent of the lower one, or how many times it.
 fn apart([lower, upper]: [f64; 2]) -> String {
@@ -153,18 +149,18 @@ fn apart([lower, upper]: [f64; 2]) -> String {
 }
 
 /// A rate, to so many digits.
-pub(in crate::report) fn per_second(rate: f64, digits: usize) -> String {
+pub(crate) fn per_second(rate: f64, digits: usize) -> String {
     format!("{} /s", plain(rate, digits))
 }
 
 /// A share of all, to three digits.
-pub(in crate::report) fn share(part: f64) -> String {
+pub(crate) fn share(part: f64) -> String {
     // 1 - 1e-9 is all but nothing, and no more is known of it.
     format!("{} %", plain(100.0 * part, 3))
 }
 
 /// How many digits a figure has that is off by this share of it.
-pub(in crate::report) fn digits(error: f64) -> usize {
+pub(crate) fn digits(error: f64) -> usize {
     match error {
         _ if error < 0.005 => 3,
         _ if error < 0.1 => 2,

@@ -1,11 +1,11 @@
 //! Rates out of states over kT, and what corner wells in closed form say of them.
 
 use super::{Motion, Place};
-use crate::design::Design;
-use crate::kinetics::corner;
-use crate::kinetics::rates::{RateSettings, Rates, rates};
-use crate::parallel;
-use crate::problem::Problem;
+use jobs::design::Design;
+use physics::kinetics::corner;
+use physics::kinetics::rates::{RateSettings, Rates, rates};
+use physics::parallel;
+use physics::problem::Problem;
 
 /// kT over the one asked for.
 const SHAKINGS: [f64; 5] = [0.6, 0.8, 1.0, 1.3, 1.7];

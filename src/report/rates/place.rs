@@ -1,9 +1,9 @@
 //! The states that rates are told of.
 
-use crate::configuration::Configuration;
-use crate::kinetics::rates::Basin;
-use crate::landscape;
-use crate::pipeline::Analysis;
+use jobs::pipeline::Analysis;
+use physics::configuration::Configuration;
+use physics::kinetics::rates::Basin;
+use physics::landscape;
 
 /// Energies that differ by less than this share are those of twins.
 const TWINS: f64 = 1e-6;

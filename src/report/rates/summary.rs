@@ -6,10 +6,10 @@ use super::{
     NO_BOUNDS, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, Table, apart, mean_exit_words,
     outwards, per_second, share,
 };
-use crate::kinetics::Way;
-use crate::kinetics::bond::LEAST_DEPTH;
-use crate::report::terminal::write_table;
-use crate::units::{plain, si};
+use crate::terminal::write_table;
+use physics::kinetics::Way;
+use physics::kinetics::bond::LEAST_DEPTH;
+use physics::units::{plain, si};
 
 /// Meshes that differ by this share say nothing of a rate.
 const UNSETTLED: f64 = 0.5;
@@ -18,7 +18,7 @@ const MOSTLY: f64 = 1.5;
 
 impl Table<'_> {
     /// What was asked, in a line.
-    pub(in crate::report) fn headline(&self) -> String {
+    pub(crate) fn headline(&self) -> String {
         let free = self.places.len();
         let [width, height] = self.design.space().half_size.map(|half| 2.0 * half);
         let table = format!("on a table of {width} by {height} m");

@@ -4,12 +4,12 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::{Motion, NOT_BOUNDED, Place, digits, digits_between, finite, proved_entry};
-use crate::design::Design;
-use crate::kinetics::Way;
-use crate::kinetics::chain::Chain;
-use crate::kinetics::map::Map;
-use crate::kinetics::rates::{Leaving, RateSettings, Rates};
-use crate::report::values;
+use crate::values;
+use jobs::design::Design;
+use physics::kinetics::Way;
+use physics::kinetics::chain::Chain;
+use physics::kinetics::map::Map;
+use physics::kinetics::rates::{Leaving, RateSettings, Rates};
 
 /// Rates between states and `free`.
 pub struct Table<'a> {
@@ -26,56 +26,56 @@ pub struct Table<'a> {
 }
 
 impl Table<'_> {
-    pub(in crate::report) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.places.len() + 1
     }
 
-    pub(in crate::report) fn name(&self, place: usize) -> &str {
+    pub(crate) fn name(&self, place: usize) -> &str {
         self.places.get(place).map_or("free", |place| &place.name)
     }
 
     /// The map of the committor, where tiles come to the bond at all.
-    pub(in crate::report) fn map(&self) -> Option<&Map> {
+    pub(crate) fn map(&self) -> Option<&Map> {
         let bind = self.known_rate(self.places.len(), 0)?;
         self.found.map.as_ref().filter(|_| bind > 0.0)
     }
 
     /// Rate (1/s) from one place to another, where anything is known of it.
-    pub(in crate::report) fn known_rate(&self, from: usize, to: usize) -> Option<f64> {
+    pub(crate) fn known_rate(&self, from: usize, to: usize) -> Option<f64> {
         let is_known = self.found.is_known(from, to);
         is_known.then(|| self.rate(from, to))
     }
 
     /// Rate (1/s) out of a place, where anything is known of it.
-    pub(in crate::report) fn known_rate_out(&self, from: usize) -> Option<f64> {
+    pub(crate) fn known_rate_out(&self, from: usize) -> Option<f64> {
         let is_known = self.found.is_known_out(from);
         is_known.then(|| self.rate_out(from))
     }
 
     /// A share of time spent in or about a place, where anything is known of it: a basin without a way
     /// may be one between contacts that the mesh has no cell in.
-    pub(in crate::report) fn known_share(&self, place: usize, part: f64) -> Option<f64> {
+    pub(crate) fn known_share(&self, place: usize, part: f64) -> Option<f64> {
         let is_known = place == self.places.len() || self.found.ways[place] != Way::Lost;
         is_known.then_some(part)
     }
 
     /// The probability that one place is the first that is reached from another.
-    pub(in crate::report) fn first(&self, from: usize, to: usize) -> Option<f64> {
+    pub(crate) fn first(&self, from: usize, to: usize) -> Option<f64> {
         finite(self.known_rate(from, to)? / self.known_rate_out(from)?)
     }
 
     /// Rate (1/s) from one place to another, 0 where no way is known.
-    pub(in crate::report) fn rate(&self, from: usize, to: usize) -> f64 {
+    pub(crate) fn rate(&self, from: usize, to: usize) -> f64 {
         self.found.finest().rates[from][to] * self.motion.diffusion
     }
 
-    pub(in crate::report) fn rate_out(&self, from: usize) -> f64 {
+    pub(crate) fn rate_out(&self, from: usize) -> f64 {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
     /// How many digits of a rate are known, as far as meshes tell; or as many as keep it between its
     /// bounds.
-    pub(in crate::report) fn digits(&self, from: usize, to: usize) -> usize {
+    pub(crate) fn digits(&self, from: usize, to: usize) -> usize {
         let spread = finite(self.found.spread(from, to)).unwrap_or(0.0);
         let known = digits(spread.max(self.found.error()));
         digits_between(self.rate(from, to), known, self.bounds(from, to))
@@ -83,7 +83,7 @@ impl Table<'_> {
 
     /// How many digits of the rate out of a place are known: as many as of the largest that it is made
     /// of.
-    pub(in crate::report) fn digits_out(&self, from: usize) -> usize {
+    pub(crate) fn digits_out(&self, from: usize) -> usize {
         let others = (0..self.count()).filter(|to| *to != from);
         let largest = others.max_by(|a, b| self.rate(from, *a).total_cmp(&self.rate(from, *b)));
         let known = largest.map_or(1, |to| self.digits(from, to));
@@ -91,7 +91,7 @@ impl Table<'_> {
     }
 
     /// Bounds (1/s) of the rate from one place to another, where there are any.
-    pub(in crate::report) fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
+    pub(crate) fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
         self.scaled(
             self.found
                 .bounds
@@ -101,7 +101,7 @@ impl Table<'_> {
     }
 
     /// Bounds (1/s) of the rate out of a place, where there are any.
-    pub(in crate::report) fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
+    pub(crate) fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
         self.scaled(
             self.found
                 .bounds
@@ -123,14 +123,14 @@ impl Table<'_> {
 
     /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
     /// does not count.
-    pub(in crate::report) fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
+    pub(crate) fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
         let rate = |i: usize, j: usize| self.rate(i, j);
         let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
         chain.mean_times(&[to])[from]
     }
 
     /// Every two places, from and to.
-    pub(in crate::report) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let count = self.count();
         (0..count).flat_map(move |i| (0..count).filter(move |j| *j != i).map(move |j| (i, j)))
     }
@@ -187,7 +187,7 @@ impl Table<'_> {
     }
 
     /// What is proved of how a basin is left.
-    pub(in crate::report) fn proved(&self, place: usize) -> Option<&Leaving> {
+    pub(crate) fn proved(&self, place: usize) -> Option<&Leaving> {
         self.found.proved[place].as_ref()
     }
 
@@ -201,7 +201,7 @@ impl Table<'_> {
     }
 
     /// Whether a proof was asked for.
-    pub(in crate::report) fn is_to_be_proved(&self) -> bool {
+    pub(crate) fn is_to_be_proved(&self) -> bool {
         let certify = self.asked.certify;
         certify.is_some_and(|certify| certify.pieces > 0)
     }

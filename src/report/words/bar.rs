@@ -1,7 +1,7 @@
 //! The magnets that words are made of.
 
-use crate::design::{Design, MagnetModel};
-use crate::words::Bar;
+use jobs::design::{Design, MagnetModel};
+use physics::words::Bar;
 
 /// The magnets of a design's target face and the face's length (m), or the paper's magnets without
 /// one, which are on a face as long as it takes. A pitch (m) or a model that is given goes before

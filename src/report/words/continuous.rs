@@ -5,16 +5,16 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{files::set_toml, name};
-use crate::design::WordSet;
-use crate::report::crosstalk;
-use crate::report::csv::table;
-use crate::report::files::{Files, with_report};
-use crate::report::json as layout;
-use crate::report::page::Page;
-use crate::report::values::positive_zero;
-use crate::words::continuous::SpacedWord;
-use crate::words::crosstalk::Crosstalk;
-use crate::words::{Bar, Question};
+use crate::crosstalk;
+use crate::csv::table;
+use crate::files::{Files, with_report};
+use crate::json as layout;
+use crate::page::Page;
+use crate::values::positive_zero;
+use jobs::design::WordSet;
+use physics::words::continuous::SpacedWord;
+use physics::words::crosstalk::Crosstalk;
+use physics::words::{Bar, Question};
 
 /// Positions are told to so many metres.
 const STEP: f64 = 1e-6;

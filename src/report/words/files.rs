@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use super::{Request, headline, name, value};
-use crate::potential::MagnetModel;
-use crate::report::csv::table;
-use crate::report::files::{Files, with_report};
-use crate::report::page::Page;
-use crate::report::values::positive_zero;
-use crate::units::MU0;
-use crate::words::{Answer, Bar};
+use crate::csv::table;
+use crate::files::{Files, with_report};
+use crate::page::Page;
+use crate::values::positive_zero;
+use physics::potential::MagnetModel;
+use physics::units::MU0;
+use physics::words::{Answer, Bar};
 
 /// All files of an answer, made by `command`.
 pub fn files(request: &Request, answer: &Answer, command: &str) -> Files {

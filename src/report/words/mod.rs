@@ -17,9 +17,9 @@ pub use text::{headline, meetings, summary};
 
 use super::json as layout;
 use super::values::positive_zero;
-use crate::words::frontier::Point;
-pub use crate::words::set::name;
-use crate::words::{Answer, Bar, Fault, Judgement, Lags, Meeting, Question, Shape, Task, Word};
+use physics::words::frontier::Point;
+pub use physics::words::set::name;
+use physics::words::{Answer, Bar, Fault, Judgement, Lags, Meeting, Question, Shape, Task, Word};
 
 /// What is written, for the terminal.
 pub const FILES: &str = "report.html to look at; words.csv, crosstalk.csv, words.toml, report.json";

@@ -2,13 +2,13 @@
 //! as its file tells it.
 
 use super::{Spaced, rounded, spaced_toml};
-use crate::budget::Budget;
-use crate::design::{DesignError, WordSet};
-use crate::words::Question;
-use crate::words::continuous::{SpacedWord, Wanted, search};
-use crate::words::crosstalk::{Crosstalk, Stage, sampling_work};
-use crate::words::search::Effort;
-use crate::words::word::MOST_PLACES;
+use jobs::design::{DesignError, WordSet};
+use physics::budget::Budget;
+use physics::words::Question;
+use physics::words::continuous::{SpacedWord, Wanted, search};
+use physics::words::crosstalk::{Crosstalk, Stage, sampling_work};
+use physics::words::search::Effort;
+use physics::words::word::MOST_PLACES;
 
 /// Share of the work left for one more word.
 const FOR_A_WORD: f64 = 0.2;

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::{Request, fault, name};
-use crate::units::si;
-use crate::words::{Answer, Faces, Fault, Meeting, Question, Shape, Word};
+use physics::units::si;
+use physics::words::{Answer, Faces, Fault, Meeting, Question, Shape, Word};
 
 /// What the terminal is told.
 pub fn summary(request: &Request, answer: &Answer) -> String {

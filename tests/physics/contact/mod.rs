@@ -2,11 +2,14 @@
 
 mod cells;
 mod constraint;
+mod distance;
+mod leaving;
 mod lift;
 mod matching;
 mod motion;
 mod points;
 mod possible;
+mod stretch;
 
 use std::f64::consts::TAU;
 

@@ -153,7 +153,7 @@ fn an_independent_validator_takes_sound_designs_and_refuses_faulty_ones() {
             }
         }
     }
-    sound.push(format!("{root}/src/design/starter.toml").into());
+    sound.push(format!("{root}/src/jobs/design/starter.toml").into());
     let faulty = FAULTY.map(|name| format!("{root}/tests/designs/bad/{name}.toml"));
     let input = serde_json::json!([json(&["schema"]), sound, faulty]);
 

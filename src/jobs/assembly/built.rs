@@ -1,0 +1,279 @@
+//! A tile set as magnets build it, for one shaking and one coverage of the table.
+//!
+//! In kTAM a tile comes to a free place with the rate `k_f exp(-Gmc)` and leaves it with
+//! `k_f exp(-b Gse)`, b the strength that holds it there. Their ratio is the equilibrium constant of
+//! one bond, so with U its energy and Z0 its partition function about the bond
+//!
+//! ```text
+//! b Gse = -U / kT,    Gmc = -ln(rho Z0 / 2 pi) + ln(sum of shares),
+//! ```
+//!
+//! where rho is the coverage over a tile's area, of all tiles together; each kind has its share of
+//! it, and turns into its place in one of its four directions. Gse is that of the weakest bond of
+//! strength 1, Z0 that bond's. A tile that two bonds hold moves less than that: engines leave this
+//! out, so a real corner holds a little less.
+
+use super::assignment::assign;
+use super::depths::Depths;
+use super::growth::{Grown, Holds, Met, grow, neighbours};
+use super::matrix::Matrix;
+use super::rests::{Faces, Rests};
+use super::wiring::{Wiring, WiringError};
+use super::{Glue, TileSet};
+use crate::design::WordSet;
+use physics::kinetics::bond::Shaking;
+use physics::kinetics::corner;
+use physics::words::crosstalk::Stage;
+use physics::words::{Lags, Word};
+
+/// A tile set with its words and energies.
+pub struct Built {
+    /// The set.
+    pub set: TileSet,
+    /// Its bonds, each with the word at the same place of the matrix.
+    pub wiring: Wiring,
+    /// Energies of all faces.
+    pub matrix: Matrix,
+    /// The shaking.
+    pub shaking: Shaking,
+    /// Depth (J) of the weakest bond, over its strength.
+    pub unit: f64,
+    /// The integral Z0 (m^2 rad) about that bond.
+    pub volume: f64,
+    /// What it costs a tile to dock, were all tiles of its kind (kT).
+    pub docking_cost: f64,
+    /// Gmc (kT): of a tile of share 1 among its kinds.
+    pub gmc: f64,
+    /// What grows without errors.
+    pub grown: Grown,
+    /// What the other faces of two tiles add to their bond.
+    pub rests: Rests,
+}
+
+/// Why a set cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuiltError {
+    /// Words cannot stand for its glues.
+    #[error(transparent)]
+    Wiring(#[from] WiringError),
+    /// Not enough words.
+    #[error(
+        "the tile set needs {needed} words and there are {there}: find more with `tilebind words`, on a longer face or with a narrower gap"
+    )]
+    Words {
+        /// Needed.
+        needed: usize,
+        /// There.
+        there: usize,
+    },
+    /// A word does not hold its mate.
+    #[error("the word {0} does not hold its mate in place: take another one")]
+    Loose(Word),
+}
+
+/// Tiles that grow without errors where they would not end.
+pub const MOST_GROWN: usize = 2500;
+/// Free rows and columns about what grows.
+const MARGIN: i32 = 4;
+
+impl Built {
+    /// A set built with words: each goes where wrong meetings weigh least.
+    ///
+    /// # Errors
+    /// Where that is impossible.
+    pub fn new(set: &TileSet, words: &WordSet, shaking: Shaking) -> Result<Self, BuiltError> {
+        let wiring = Wiring::new(set)?;
+        let (needed, there) = (wiring.bonds.len(), words.words.len());
+        if there < needed {
+            return Err(BuiltError::Words { needed, there });
+        }
+        let grown = grow(set, MOST_GROWN);
+        let rests = Rests::new(words);
+        let all = Matrix::new(words, &words.words);
+        let depths = Depths::new(&all, &rests, set, &wiring, &grown);
+        let chosen = assign(&all, &wiring, depths.as_ref());
+        let matrix = Matrix::new(words, &chosen);
+        if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
+            return Err(BuiltError::Loose(chosen[loose]));
+        }
+        let least = wiring.least_strength();
+        let depth = |bond: &usize| matrix.bond(*bond) / wiring.bonds[*bond].strength;
+        let weakest = (0..needed).filter(|bond| wiring.bonds[*bond].strength == least);
+        let weakest = weakest
+            .min_by(|a, b| depth(a).total_cmp(&depth(b)))
+            .unwrap_or(0);
+        let stage = Stage::new(
+            words.stage.pair.as_ref().clone(),
+            words.stage.interaction.clone(),
+        );
+        let problem = stage.problem_of(chosen[weakest], chosen[weakest].mate());
+        let bound = words.stage.pair.bound;
+        let volume = corner::volume(&problem, &bound, shaking.kt)
+            .ok_or(BuiltError::Loose(chosen[weakest]))?;
+        let area = words.stage.pair.moving.outline.area();
+        let docking_cost = -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU);
+        let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
+        Ok(Self {
+            set: set.clone(),
+            unit: depth(&weakest),
+            volume,
+            docking_cost,
+            gmc: docking_cost + libm::log(shares.max(f64::MIN_POSITIVE)),
+            grown,
+            rests,
+            wiring,
+            matrix,
+            shaking,
+        })
+    }
+
+    /// Gse (kT): the weakest bond of strength 1.
+    pub fn gse(&self) -> f64 {
+        self.unit / self.shaking.kt
+    }
+
+    /// The word (place in the matrix; mates lie behind the words) that a face carries.
+    pub fn face(&self, tile: usize, side: usize) -> Option<usize> {
+        let bond = self.wiring.of(&self.set, tile, side)?;
+        // East and north carry words.
+        Some(if side < 2 {
+            bond
+        } else {
+            bond + self.matrix.words.len()
+        })
+    }
+
+    /// Of two tiles that meet by a bond: its word, and what their other faces add to it (J).
+    pub fn whole(&self, (first, axis, second): &Met) -> Option<(usize, f64)> {
+        let [out, back] = axis.sides();
+        let bonds = [(*first, out), (*second, back)];
+        let [Some(bond), other] = bonds.map(|(tile, side)| self.wiring.of(&self.set, tile, side))
+        else {
+            return None;
+        };
+        let faces = |tile: usize| -> Faces {
+            std::array::from_fn(|side| Some(self.matrix.code(self.face(tile, side)?)))
+        };
+        let rest = || self.rests.of(*axis, &faces(*first), &faces(*second));
+        (other == Some(bond)).then(|| (bond, rest()))
+    }
+
+    /// The set as engines run it: glues are faces, strengths their energies over Gse, seed and
+    /// canvas as the growth needs them.
+    pub fn engine(&self) -> TileSet {
+        let faces = self.matrix.energies.len();
+        let scale = -1.0 / self.unit;
+        let strength = |i: usize, j: usize| scale * self.matrix.energies[i][j] + 0.0;
+        let name = |face: usize| face_name(face, self.matrix.words.len());
+        let mut set = TileSet {
+            glues: (0..faces)
+                .map(|face| Glue {
+                    name: name(face),
+                    strength: strength(face, face),
+                })
+                .collect(),
+            links: (0..faces)
+                .flat_map(|i| (i + 1..faces).map(move |j| (i, j)))
+                .map(|(i, j)| (i, j, strength(i, j)))
+                .filter(|link| link.2 != 0.0)
+                .collect(),
+            gse: Some(self.gse()),
+            gmc: Some(self.gmc),
+            ..self.set.clone()
+        };
+        for (number, tile) in set.tiles.iter_mut().enumerate() {
+            tile.glues = std::array::from_fn(|side| self.face(number, side));
+        }
+        self.place(&mut set);
+        set
+    }
+
+    /// Seed and canvas: what the set says where there is room, else as what grows needs it.
+    fn place(&self, set: &mut TileSet) {
+        let [low, high] = self.grown.extent();
+        let room = |reach: i32| match self.grown.complete {
+            true => reach + MARGIN,
+            false => reach + reach / 3 + MARGIN,
+        };
+        let [west, south] = [-low.0, -low.1].map(room);
+        let [east, north] = [high.0, high.1].map(room);
+        let (rows, columns) = ((north + south + 1) as usize, (west + east + 1) as usize);
+        let first = set.seed.first().copied().unwrap_or((0, 0, 0));
+        let fits = |at: usize, size: usize, before: i32, after: i32| {
+            at as i32 >= before.min(MARGIN) && size as i32 - 1 - at as i32 >= after.min(MARGIN)
+        };
+        let keeps = !set.seed.is_empty()
+            && set.size.is_some_and(|[height, width]| {
+                height >= rows
+                    && width >= columns
+                    && fits(first.0, height, north, south)
+                    && fits(first.1, width, west, east)
+            });
+        if keeps {
+            return;
+        }
+        let shift = |row: usize, column: usize| {
+            let (dy, dx) = (row as i32 - first.0 as i32, column as i32 - first.1 as i32);
+            ((north + dy) as usize, (west + dx) as usize)
+        };
+        if set.seed.is_empty() {
+            set.seed.push((0, 0, 0));
+        }
+        for seed in &mut set.seed {
+            (seed.0, seed.1) = shift(seed.0, seed.1);
+        }
+        let side = rows.max(columns);
+        set.size = Some([side, side]);
+    }
+
+    /// Errors a tile where every tile stays as briefly as may be (growth just above standstill):
+    /// the mean over places of what grows of the weights of all wrong tiles against the right one,
+    /// held by those neighbours that came before.
+    pub fn errors_at_standstill(&self) -> f64 {
+        let engine = Holds::new(&self.engine());
+        let gse = self.gse();
+        let mut there = std::collections::BTreeMap::new();
+        let mut sum = 0.0;
+        for place in &self.grown.order {
+            let tile = self.grown.tiles[place];
+            let near = neighbours(*place).any(|(_, near)| there.contains_key(&near));
+            if near {
+                let held = |tile: usize| gse * engine.at(&there, *place, tile);
+                let right =
+                    held(tile) + libm::log(self.set.tiles[tile].stoic.max(f64::MIN_POSITIVE));
+                let others = (0..self.set.tiles.len()).filter(|other| *other != tile);
+                let weight =
+                    |other: usize| self.set.tiles[other].stoic * libm::exp(held(other) - right);
+                let wrong: f64 = others.map(weight).sum();
+                sum += wrong / (1.0 + wrong);
+            }
+            there.insert(*place, tile);
+        }
+        sum / self.grown.order.len().max(1) as f64
+    }
+
+    /// Energies of magnets by how many places lie between them; `None` of words whose places are
+    /// not a pitch apart.
+    pub fn lags(words: &WordSet) -> Option<Lags> {
+        let design = &words.stage;
+        if words.places.is_some() {
+            return None;
+        }
+        let pair = &design.pair;
+        let bar = physics::words::Bar::of_face(
+            &pair.fixed,
+            pair.target.0,
+            &design.interaction,
+            design.pitch?,
+        );
+        Some(Lags::new(&bar.ok()?, words.words.first()?.places()))
+    }
+}
+
+/// `A` for a word, `A*` for its mate, of so many words.
+pub fn face_name(face: usize, words: usize) -> String {
+    match face < words {
+        true => physics::words::set::name(face),
+        false => physics::words::set::name(face - words) + "*",
+    }
+}

@@ -1,0 +1,313 @@
+//! Words for a tile set: as many of each strength as it needs.
+//!
+//! A bond of half the strength has half the magnets, on a face of the same length: its word has
+//! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones
+//! included, attract by at most (1 - gap) of the weakest bond of strength 1.
+
+use physics::budget::Budget;
+use physics::order::Order;
+use physics::words::candidates::{Candidates, number};
+use physics::words::graph::Graph;
+use physics::words::search::{self, Effort};
+use physics::words::{Bar, Constraints, Lags, Rules, Task, Word, local};
+
+/// What words are wanted.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// The magnets.
+    pub bar: Bar,
+    /// Magnets of a word of the strongest bonds; as many as places where it is not given.
+    pub magnets: Option<usize>,
+    /// Which meetings are wrong.
+    pub rules: Rules,
+    /// The least gap; the widest there is where it is not given.
+    pub gap: Option<f64>,
+    /// Of all random numbers.
+    pub seed: u64,
+    /// Work (s).
+    pub seconds: f64,
+}
+
+/// Whether there is a set of words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It was found.
+    Found,
+    /// There is none, proved.
+    Refuted,
+    /// Neither.
+    Open,
+}
+
+/// The answer for a face of so many places.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// Places of the face.
+    pub places: usize,
+    /// The gap asked for, or the widest that was reached.
+    pub gap: f64,
+    /// Whether there are such words.
+    pub verdict: Verdict,
+    /// The words, strongest first; as many as were found.
+    pub words: Vec<Word>,
+    /// What is known of each strength, the strongest first.
+    pub classes: Vec<Class>,
+}
+
+/// Words of one strength.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// Magnets of a word.
+    pub magnets: usize,
+    /// Words needed.
+    pub needed: usize,
+    /// Words found, beside those of the stronger classes.
+    pub found: usize,
+    /// There are no more than so many, whatever the other classes are; `usize::MAX` where nothing is
+    /// known. Bounds are asked for only where too few were found.
+    pub upper: usize,
+}
+
+/// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
+const WEAKER: f64 = 0.97;
+/// Share of the work left for bounds, where there are several strengths.
+const FOR_BOUNDS: f64 = 0.3;
+/// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
+const MOST_JUDGED: usize = 1 << 16;
+const LEAST_BESIDE: usize = 256;
+/// The longest face that is looked at.
+pub const MOST_PLACES: usize = 48;
+
+impl Asked {
+    /// How many magnets a word of some strength has on a face of so many places.
+    fn magnets(&self, places: usize, strength: f64, strongest: f64) -> usize {
+        let most = self.magnets.unwrap_or(places).min(places);
+        ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
+}
+
+/// Words for a face of so many places, with the gap asked for or the widest that is reached: all
+/// trials, of which the last one is the answer. `demand` as [`super::Wiring::demand`] gives it.
+pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choice> {
+    let weakest = demand.last().map_or(1.0, |last| last.0);
+    let strongest = demand.first().map_or(1.0, |first| first.0);
+    let unit = asked.magnets(places, weakest, strongest);
+    let trial = |gap: f64, trials: f64| {
+        let seconds = asked.seconds / trials;
+        let budget = Budget::seconds(seconds);
+        let mut effort = Effort {
+            seed: asked.seed,
+            budget,
+        };
+        at_gap(demand, places, gap, asked, &mut effort)
+    };
+    if let Some(gap) = asked.gap {
+        return vec![trial(gap, 1.0)];
+    }
+    // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
+    let (mut low, mut high) = (0, unit);
+    let count = f64::from(usize::BITS - unit.leading_zeros());
+    let mut trials: Vec<Choice> = Vec::new();
+    while low < high {
+        let contacts = (low + high) / 2;
+        let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, count);
+        match choice.verdict {
+            Verdict::Found => high = contacts,
+            _ => low = contacts + 1,
+        }
+        trials.push(choice);
+    }
+    // What was found with the widest gap, else what failed with the narrowest one.
+    let last = |choice: &Choice| match choice.verdict {
+        Verdict::Found => (true, choice.gap),
+        _ => (false, -choice.gap),
+    };
+    trials.order_by(|a, b| {
+        let (a, b) = (last(a), last(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    trials
+}
+
+/// The answers for longer and longer faces, up to the first that carries the words.
+pub fn shortest(demand: &[(f64, usize)], asked: &Asked, most: usize) -> Vec<Choice> {
+    let mut tried = Vec::new();
+    for places in asked.magnets.unwrap_or(1)..=most {
+        tried.extend(choose(demand, places, asked));
+        if tried
+            .last()
+            .is_some_and(|it: &Choice| it.verdict == Verdict::Found)
+        {
+            break;
+        }
+    }
+    tried
+}
+
+fn task(asked: &Asked, places: usize, magnets: usize) -> Task {
+    let width = asked.bar.size[1];
+    Task {
+        places,
+        magnets,
+        lags: Lags::new(&asked.bar, places),
+        rules: asked.rules,
+        constraints: Constraints {
+            least_spacing: (width / asked.bar.pitch * (1.0 - 1e-9)).ceil() as usize,
+            ..Constraints::default()
+        },
+    }
+}
+
+fn at_gap(
+    demand: &[(f64, usize)],
+    places: usize,
+    gap: f64,
+    asked: &Asked,
+    effort: &mut Effort,
+) -> Choice {
+    let strongest = demand.first().map_or(1.0, |first| first.0);
+    let class = |(strength, needed): &(f64, usize)| Class {
+        magnets: asked.magnets(places, *strength, strongest),
+        needed: *needed,
+        found: 0,
+        upper: usize::MAX,
+    };
+    let mut choice = Choice {
+        places,
+        gap,
+        verdict: Verdict::Found,
+        words: Vec::new(),
+        classes: demand.iter().map(class).collect(),
+    };
+    let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
+    // Of several strengths bounds are searched apart.
+    let several = demand.len() > 1;
+    let mut proof = Effort {
+        seed: effort.seed,
+        budget: effort.budget.share(if several { FOR_BOUNDS } else { 0.0 }),
+    };
+    for part in 0..demand.len() {
+        let Class {
+            magnets, needed, ..
+        } = choice.classes[part];
+        let task = task(asked, places, magnets);
+        let words = if part == 0 {
+            // The gap is of the weakest bond.
+            let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
+            let mut share = Effort {
+                seed: effort.seed,
+                budget: effort.budget.share(1.0 / demand.len() as f64),
+            };
+            let found = search::largest(&task, own_gap, needed, &mut share);
+            effort.budget.give_back(&share.budget);
+            if !several {
+                choice.classes[0].upper = found.upper;
+            }
+            found.words
+        } else {
+            let limit = (1.0 - gap) * unit * WEAKER * task.lags.contact();
+            beside(&task, &choice.words, limit, needed, unit, effort)
+        };
+        choice.words.extend(words.iter().take(needed));
+        choice.classes[part].found = words.len().min(needed);
+        if words.len() < needed {
+            if several {
+                bound(&mut choice, asked, &mut proof);
+            }
+            let refuted = choice.classes.iter().any(|it| it.upper < it.needed);
+            choice.verdict = if refuted {
+                Verdict::Refuted
+            } else {
+                Verdict::Open
+            };
+            break;
+        }
+    }
+    choice
+}
+
+/// Bounds the classes, each as if it stood alone: no wrong meeting among its words attracts by more
+/// than (1 - gap) of the weakest bond, of which no more is known here than that it lies below the
+/// deepest one that a word of the weakest class may have.
+fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
+    let last = choice.classes.len() - 1;
+    let reach = |task: &Task, sign: f64| {
+        let magnets = task.magnets as u32;
+        f64::from(magnets) * task.lags.contact() + sign * task.lags.rest(magnets, magnets)
+    };
+    let deepest = reach(
+        &task(asked, choice.places, choice.classes[last].magnets),
+        1.0,
+    );
+    for part in (0..=last).rev() {
+        let class = &mut choice.classes[part];
+        let task = task(asked, choice.places, class.magnets);
+        let own_gap = match part == last {
+            true => choice.gap,
+            false => 1.0 - (1.0 - choice.gap) * deepest / reach(&task, -1.0),
+        };
+        // Of many words with empty places nothing can be proved.
+        let hopeless = class.magnets < choice.places && !few(&task);
+        if hopeless || !(0.0..=1.0).contains(&own_gap) {
+            continue;
+        }
+        let mut share = Effort {
+            seed: effort.seed,
+            budget: effort.budget.share(1.0 / (part + 1) as f64),
+        };
+        class.upper = search::largest(&task, own_gap, class.needed, &mut share).upper;
+        effort.budget.give_back(&share.budget);
+        if class.upper < class.needed {
+            return;
+        }
+    }
+}
+
+/// Whether there are few enough words to look at them all.
+fn few(task: &Task) -> bool {
+    number(task.places, task.magnets) <= 4.0 * MOST_JUDGED as f64
+}
+
+/// Words from all over a list: at most so many, or [`LEAST_BESIDE`] if that is more.
+fn thinned(words: Vec<Word>, most: usize) -> Vec<Word> {
+    let step = words.len().div_ceil(most.clamp(LEAST_BESIDE, MOST_JUDGED));
+    words.into_iter().step_by(step.max(1)).collect()
+}
+
+/// Words of a weaker class beside those that are there.
+fn beside(
+    task: &Task,
+    there: &[Word],
+    limit: f64,
+    needed: usize,
+    unit: f64,
+    effort: &mut Effort,
+) -> Vec<Word> {
+    let least = unit * WEAKER * task.lags.contact();
+    let all = match few(task) {
+        true => Candidates::new(task, limit, effort.seed, u64::MAX),
+        false => Candidates::sampled(task, limit, effort.seed, 2 * MOST_JUDGED),
+    };
+    let mut words = thinned(all.words, MOST_JUDGED);
+    let judged = words.len() as u64 * (1 + there.len() as u64) * task.judgement();
+    effort
+        .budget
+        .spend((all.work + judged).min(effort.budget.left() / 2));
+    words.retain(|word| {
+        task.rules.bond(&task.lags, *word) >= least
+            && there
+                .iter()
+                .all(|other| task.rules.within(&task.lags, *word, *other, limit))
+    });
+    // No more than can be joined with half the work.
+    let pairs = effort.budget.left() / task.judgement();
+    let words = thinned(words, (pairs as f64).sqrt() as usize);
+    let graph = Graph::new(task, words, limit, effort.budget.left());
+    effort.budget.spend(graph.work());
+    let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
+    found
+        .iter()
+        .take(needed)
+        .map(|at| graph.words[*at])
+        .collect()
+}

@@ -1,0 +1,93 @@
+//! What the other faces of two tiles add to the bond of the two that meet.
+//!
+//! The matrix knows two faces, as glues do. But a row of magnets ends half a pitch from the corner,
+//! and the row of the neighbour begins as far beyond it: with all four faces of either tile a bond is
+//! deeper or shallower by about a hundredth.
+
+use nalgebra::{DMatrix, DVector, Rotation2};
+
+use super::wiring::Axis;
+use crate::design::WordSet;
+use physics::matrix::product;
+use physics::tile::{Magnet, Tile};
+use physics::words::Word;
+
+/// The words or mates that a tile carries, in the order of [`super::SIDES`].
+pub type Faces = [Option<Word>; 4];
+
+/// The energies (J) of magnets of two tiles, the second one east of the first, by the side of either:
+/// of place k of the first tile's face and j of the second one's, north poles out.
+pub struct Rests {
+    magnets: [[DMatrix<f64>; 4]; 4],
+}
+
+impl Rests {
+    /// For tiles with these words' magnets.
+    pub fn new(set: &WordSet) -> Self {
+        let pair = &set.stage.pair;
+        // The stage's fixed tile has its magnets in the east.
+        let east = &pair.fixed;
+        let on = |side: usize| turned(east, 1.0 - side as f64);
+        let sides: [Vec<Tile>; 4] = std::array::from_fn(on);
+        let between = |a: usize, b: usize| {
+            DMatrix::from_fn(sides[a].len(), sides[b].len(), |k, j| {
+                let energy = set.stage.interaction.between(&sides[a][k], &sides[b][j]);
+                energy.potential.energy(&pair.bound)
+            })
+        };
+        Self {
+            magnets: std::array::from_fn(|a| std::array::from_fn(|b| between(a, b))),
+        }
+    }
+
+    /// What all faces but the two that meet add (J) to a bond along an axis, the first tile in the
+    /// west or south.
+    pub fn of(&self, axis: Axis, first: &Faces, second: &Faces) -> f64 {
+        let poles = |word: Word| DVector::from_fn(word.places(), |k, _| f64::from(word.at(k)));
+        let energy = |[a, b]: [usize; 2]| {
+            let (u, v) = (poles(first[a]?), poles(second[b]?));
+            let [a, b] = [a, b].map(|side| eastern(axis, side));
+            Some(u.dot(&(&self.magnets[a][b] * v)))
+        };
+        others(axis).filter_map(energy).sum()
+    }
+
+    /// The same of every two of some faces, by the sides of two tiles in which the second one lies
+    /// east of the first: rows are faces of the first one.
+    pub(super) fn table(&self, faces: &[Word]) -> [[DMatrix<f64>; 4]; 4] {
+        let places = faces.first().map_or(0, |face| face.places());
+        let poles = DMatrix::from_fn(faces.len(), places, |i, k| f64::from(faces[i].at(k)));
+        let across = poles.transpose();
+        let of = |magnets: &DMatrix<f64>| product(&product(&poles, magnets), &across);
+        self.magnets.each_ref().map(|row| row.each_ref().map(of))
+    }
+}
+
+/// The sides of two tiles along an axis, but for the two that meet.
+pub(super) fn others(axis: Axis) -> impl Iterator<Item = [usize; 2]> {
+    let pairs = (0..4).flat_map(|a| (0..4).map(move |b| [a, b]));
+    pairs.filter(move |sides| *sides != axis.sides())
+}
+
+/// What a side becomes where two tiles along an axis are turned so that the second one lies in the
+/// east.
+pub(super) fn eastern(axis: Axis, side: usize) -> usize {
+    match axis {
+        Axis::Horizontal => side,
+        Axis::Vertical => (side + 1) % 4,
+    }
+}
+
+/// A tile for each magnet of a tile, with that magnet alone, turned by so many quarters.
+fn turned(tile: &Tile, quarters: f64) -> Vec<Tile> {
+    let angle = quarters * std::f64::consts::FRAC_PI_2;
+    let alone = |magnet: &Magnet| Tile {
+        magnets: vec![Magnet {
+            position: Rotation2::new(angle) * magnet.position,
+            angle: magnet.angle + angle,
+            ..magnet.clone()
+        }],
+        ..tile.clone()
+    };
+    tile.magnets.iter().map(alone).collect()
+}

@@ -1,0 +1,291 @@
+//! Tile sets: what is read is what was written, and what grows is what the definitions say.
+
+use super::choice::{self, Asked, Verdict};
+use super::growth::{Grown, grow};
+use physics::kinetics::bond::Shaking;
+
+use super::{Axis, Built, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
+use crate::design::WordSet;
+use physics::words::{Bar, Rules};
+
+fn shipped(name: &str) -> TileSet {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shapes/assemblies/");
+    TileSet::load(format!("{folder}{name}.yaml").as_ref()).expect("it is shipped")
+}
+
+const SHIPPED: [&str; 6] = [
+    "unary-square",
+    "binary-tree",
+    "binary-counter",
+    "beaver-square",
+    "spiral",
+    "sierpinski",
+];
+
+#[test]
+fn what_is_written_is_read_again() {
+    let mut sets: Vec<TileSet> = SHIPPED.map(shipped).into();
+    sets.extend([lattice::unique(2, 3), square::counted(8)]);
+    for set in &mut sets {
+        set.gse = Some(8.125);
+        set.gmc = Some(15.75);
+        set.links = vec![(0, 1, -0.25)];
+        set.tiles[0].stoic = 0.5;
+        let again = rgrow::read(&rgrow::write(set, &["a remark".to_owned()]), "a").unwrap();
+        assert_eq!(
+            again,
+            TileSet {
+                name: String::new(),
+                ..set.clone()
+            }
+        );
+        let again = xgrow::read(&xgrow::write(set, &["a remark".to_owned()]), "a").unwrap();
+        assert_eq!((&again.glues, &again.links), (&set.glues, &set.links));
+        for (one, other) in again.tiles.iter().zip(&set.tiles) {
+            assert_eq!((one.glues, one.stoic), (other.glues, other.stoic));
+        }
+        assert_eq!((again.gse, again.gmc), (set.gse, set.gmc));
+    }
+}
+
+#[test]
+fn files_of_the_engines_are_read() {
+    let text = "% a remark\ntile edges matches {{N E S W}*}\nnum tile types=2\nnum binding types=2\n\
+                tile edges={\n{1 0 2 0}[.5](red) % one\n{2 1 0 0}\n}\nbinding strengths={2 1}\n\
+                g(1,2)=0.5\nblock=2\nseed=3,4,2\nGse=8.5\nT=2\n";
+    let set = TileSet::parse(text, "a.tiles").unwrap();
+    assert_eq!(set.tiles[0].glues, [Some(0), None, Some(1), None]);
+    assert_eq!(
+        (set.tiles[0].stoic, set.strength(0, 1), set.strength(0, 0)),
+        (0.5, 0.5, 2.0)
+    );
+    assert_eq!(
+        (set.seed[0], set.gse, set.tau),
+        ((3, 4, 1), Some(8.5), Some(2.0))
+    );
+    let json = r#"{"tiles": [{"name": "a", "edges": ["x", 0, "y", "x"]}], "glues": [["x", "y", 0.5]],
+                   "bonds": [{"name": "x", "strength": 2}], "options": {"Gse": 9.0, "size": 8}}"#;
+    let set = TileSet::parse(json, "a.json").unwrap();
+    assert_eq!((set.strength(0, 1), set.strength(1, 1)), (0.5, 1.0));
+    assert_eq!((set.gse, set.size), (Some(9.0), Some([8, 8])));
+}
+
+#[test]
+fn faults_are_told_with_their_place() {
+    let tiles = |rest: &str| format!("tiles:\n- {{name: t, edges: [a, a, a{rest}\n");
+    for (text, line) in [
+        (tiles("]}"), Some(2)),
+        (tiles(", a], stoic: -1}"), Some(2)),
+        (tiles(", a], stoic: much}"), Some(2)),
+        (tiles(", a]}") + "glues:\n- [a, b, 1]", Some(3)),
+        (tiles(", a]}") + "seed: [1, 1, u]", Some(3)),
+        (tiles(", a]}") + "hdoubletiles: [[t, t]]", Some(3)),
+        (
+            "num tile types=1\nnum binding types=1\ntile edges={\n{1 9 0 0}\n}".to_owned(),
+            Some(4),
+        ),
+        (
+            "num tile types=1\nnum binding types=x\ntile edges={".to_owned(),
+            Some(2),
+        ),
+        ("[1, 2".to_owned(), None),
+        (String::new(), None),
+    ] {
+        let fault = TileSet::parse(&text, "a").expect_err(&text);
+        assert!(!fault.help.is_empty(), "{fault}");
+        if line.is_some() {
+            assert_eq!(
+                fault.place.as_ref().map(|place| place.line),
+                line,
+                "{fault}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_glue_on_both_axes_needs_two_words() {
+    let words = |name: &str| Wiring::new(&shipped(name)).unwrap().bonds.len();
+    assert_eq!(
+        ["unary-square", "binary-counter", "spiral", "beaver-square"].map(words),
+        [10, 6, 17, 64]
+    );
+    let wiring = Wiring::new(&lattice::homogeneous(3, 3)).unwrap();
+    assert_eq!(
+        wiring
+            .bonds
+            .iter()
+            .map(|bond| bond.axis)
+            .collect::<Vec<_>>(),
+        [Axis::Vertical, Axis::Horizontal]
+    );
+    for (m, n) in [(1, 2), (3, 3), (4, 7)] {
+        let needed = Wiring::new(&lattice::unique(m, n)).unwrap().bonds.len();
+        assert_eq!(needed, m * (n - 1) + n * (m - 1));
+        assert_eq!(needed, lattice::words(m, n));
+    }
+}
+
+#[test]
+fn glues_that_hold_others_share_their_word() {
+    let text = "tiles:\n- {name: t, edges: [0, a, 0, b]}\n- {name: u, edges: [0, c, 0, d]}\n\
+                bonds: [{name: a, strength: 0}, {name: b, strength: 0}, {name: c, strength: 0}, \
+                {name: d, strength: 0}]\nglues:\n- [a, b, 1]\n- [c, d, 1]\n";
+    let wiring = Wiring::new(&TileSet::parse(text, "a").unwrap()).unwrap();
+    assert_eq!(wiring.bonds.len(), 2);
+    // a holds b and d, c holds d alone: no word does that.
+    let mixed = TileSet::parse(&(text.to_owned() + "- [a, d, 1]\n"), "a").unwrap();
+    assert!(
+        Wiring::new(&mixed)
+            .unwrap_err()
+            .to_string()
+            .contains("glues of their own")
+    );
+}
+
+fn side(grown: &Grown) -> [i32; 2] {
+    let [low, high] = grown.extent();
+    [high.0 - low.0 + 1, high.1 - low.1 + 1]
+}
+
+#[test]
+fn shipped_sets_grow_into_what_they_are_called() {
+    for (name, tiles) in [
+        ("unary-square", 25),
+        ("binary-tree", 223),
+        ("beaver-square", 961),
+    ] {
+        let grown = grow(&shipped(name), 2000);
+        assert_eq!(
+            (grown.tiles.len(), grown.complete, grown.choices),
+            (tiles, true, 0),
+            "{name}"
+        );
+    }
+    // The busy beaver writes six ones, in each of four copies.
+    let set = shipped("beaver-square");
+    let halts = grow(&set, 2000)
+        .tiles
+        .into_values()
+        .filter(|it| set.tiles[*it].name.starts_with("halt"));
+    assert_eq!(halts.count(), 4);
+    let counter = shipped("binary-counter");
+    let grown = grow(&counter, 1500);
+    for row in 1..20 {
+        let shows = |x: i32| {
+            let tile = &counter.tiles[grown.tiles[&(-x, row)]];
+            i32::from(tile.glues[0].is_some_and(|glue| counter.glues[glue].name == "one"))
+        };
+        let value: i32 = (1..8).map(|x| shows(x) << (x - 1)).sum();
+        assert_eq!(value, row);
+    }
+    let spiral = grow(&shipped("spiral"), 1681);
+    assert_eq!((spiral.choices, spiral.tiles.len()), (0, 1681));
+    assert!(
+        side(&spiral).iter().all(|side| (40..=43).contains(side)),
+        "{:?}",
+        side(&spiral)
+    );
+}
+
+#[test]
+fn squares_are_counted_with_few_tiles() {
+    for n in [8, 9, 12, 15, 16, 17, 31, 32, 33, 40] {
+        let set = square::counted(n);
+        let grown = grow(&set, n * n + 10);
+        assert!(grown.complete && grown.choices == 0, "{n}");
+        assert_eq!(
+            (grown.tiles.len(), side(&grown)),
+            (n * n, [n as i32; 2]),
+            "{n}"
+        );
+        let bits = libm::log2(n as f64 / 2.0).ceil() as usize + 1;
+        assert!(set.tiles.len() <= 2 * bits + 42, "{n}: {}", set.tiles.len());
+    }
+}
+
+#[test]
+fn blocks_grow_into_the_same_pattern() {
+    for name in ["sierpinski", "binary-counter", "unary-square", "spiral"] {
+        let set = shipped(name);
+        let plain = grow(&set, 300);
+        for k in [2, 3] {
+            let blocks = proofread::blocks(&set, k);
+            assert_eq!(blocks.tiles.len(), set.tiles.len() * k * k);
+            let grown = grow(&blocks, 6000);
+            assert_eq!(grown.choices, 0, "{name} {k}");
+            let k = k as i32;
+            for ((x, y), tile) in &plain.tiles {
+                // The seed is the block's north-west... its corner of row and column 0.
+                let there = grown.tiles.get(&(x * k, y * k));
+                let expected = tile * (k * k) as usize;
+                assert_eq!(there, Some(&expected), "{name} {k} at {x}, {y}");
+            }
+        }
+    }
+}
+
+fn words(set: &TileSet, places: usize) -> WordSet {
+    let asked = Asked {
+        bar: Bar::paper(),
+        magnets: None,
+        rules: Rules::default(),
+        gap: None,
+        seed: 1,
+        seconds: 2.0,
+    };
+    let tried = choice::choose(&Wiring::new(set).unwrap().demand(), places, &asked);
+    let choice = tried.last().unwrap();
+    assert_eq!(choice.verdict, Verdict::Found);
+    let list: Vec<String> = choice
+        .words
+        .iter()
+        .map(|word| format!("\"{word}\""))
+        .collect();
+    WordSet::parse(&format!("words = [{}]", list.join(", ")), "found", None).unwrap()
+}
+
+#[test]
+fn engines_get_the_energies_of_faces() {
+    let set = shipped("binary-counter");
+    let shaking = Shaking {
+        kt: 2e-3,
+        coverage: 0.1,
+    };
+    let built = Built::new(&set, &words(&set, 8), shaking).unwrap();
+    let engine = built.engine();
+    let table = engine.strengths();
+    for (i, row) in built.matrix.energies.iter().enumerate() {
+        for (j, energy) in row.iter().enumerate() {
+            let in_kt = -energy / shaking.kt;
+            assert!((table[i][j] * built.gse() - in_kt).abs() <= 1e-12 * (1.0 + in_kt.abs()));
+        }
+    }
+    // Bonds of strength 2 have twice the magnets, and the weakest of strength 1 is Gse.
+    let depth = |word: usize| built.matrix.bond(word) / built.unit;
+    for (word, bond) in built.wiring.bonds.iter().enumerate() {
+        assert!(
+            (depth(word) / bond.strength - 1.0).abs() < 0.05,
+            "{}",
+            depth(word)
+        );
+    }
+    // As real magnets grow it, without errors: the same.
+    let grown = grow(
+        &TileSet {
+            tau: Some(1.9),
+            ..engine
+        },
+        400,
+    );
+    let plain = grow(&set, 400);
+    assert_eq!(grown.tiles, plain.tiles);
+    // Twice the tiles on the table, ln 2 less to pay; all of seven kinds.
+    let more = Shaking {
+        coverage: 0.2,
+        ..shaking
+    };
+    let dense = Built::new(&set, &words(&set, 8), more).unwrap();
+    assert!((built.gmc - dense.gmc - libm::log(2f64)).abs() < 1e-9);
+    assert!((built.gmc - built.docking_cost - libm::log(7f64)).abs() < 1e-9);
+}

@@ -1,0 +1,276 @@
+//! From pairs that bind and part to the effective kT of their shaking.
+//!
+//! In equilibrium a pair is bound for K / S times as long as it is apart, K being the bond's constant
+//! of association at kT (see [`physics::kinetics::bond::Hold::association`]) and S the area that the
+//! two have for themselves.
+//!
+//! Intervals of a Markov process are exponential, of some mean t. Of n that were seen to their ends
+//! and some that were cut off by the end of watching, all time together over n is the likeliest t
+//! (leaving those out that were cut off would favour the short ones), and that time over t has the
+//! gamma distribution of the shape n: exactly where none was cut off, nearly otherwise (Epstein and
+//! Sobel 1953, doi:10.1080/01621459.1953.10483488). The ratio of two such is Fisher's, which gives the
+//! interval for few times as for many.
+
+use csv::{ReaderBuilder, Trim};
+use statrs::distribution::{Beta, ContinuousCDF};
+
+use physics::dynamics::docking::exponential_statistic;
+use physics::units::to_digits;
+
+/// The columns of a file of intervals: how long a pair was bound, and how long apart (s). Each entry
+/// is one interval, with `>` before it where watching ended first; entries may be left empty.
+pub const COLUMNS: [&str; 2] = ["bound_s", "apart_s"];
+
+/// Before an interval that was not seen to its end.
+const CUT: char = '>';
+/// What lies beyond either end of an interval of 95 %.
+const TAIL: f64 = 0.025;
+
+/// Intervals of one kind (s).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Times {
+    /// Those that were seen to their ends.
+    pub whole: Vec<f64>,
+    /// Those that still lasted when watching ended.
+    pub cut: Vec<f64>,
+}
+
+impl Times {
+    /// All time together (s).
+    fn total(&self) -> f64 {
+        self.whole.iter().chain(&self.cut).sum()
+    }
+
+    /// The likeliest mean (s).
+    pub fn mean(&self) -> f64 {
+        self.total() / self.whole.len() as f64
+    }
+
+    /// The statistic of Kolmogorov and Smirnov for exponential intervals; above
+    /// [`physics::dynamics::docking::OnRate::CRITICAL`] they are not exponential. `None` where some were
+    /// cut off, of which it knows nothing.
+    pub fn statistic(&self) -> Option<f64> {
+        self.cut
+            .is_empty()
+            .then(|| exponential_statistic(&self.whole))
+    }
+}
+
+/// Intervals that were measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairTimes {
+    /// How long pairs were bound, each from attachment to detachment.
+    pub bound: Times,
+    /// How long they were apart.
+    pub apart: Times,
+}
+
+/// What is wrong with a file of intervals, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TimesError {
+    /// A column is not there, or another one is.
+    #[error(
+        "the first line must name the columns bound_s,apart_s (in any order) or distance_m alone, not \
+         `{0}`"
+    )]
+    Columns(String),
+    /// A line has too many entries, or cannot be read.
+    #[error("line {0} has not two entries; leave one empty, but keep its comma")]
+    Entries(usize),
+    /// An entry is no positive number.
+    #[error("line {line}: `{text}` is no time above 0 (s), nor one with > before it")]
+    NoTime {
+        /// Which line, from 1.
+        line: usize,
+        /// The entry.
+        text: String,
+    },
+    /// One of the columns has too few entries.
+    #[error("{column}: {found} intervals seen to their ends are too few; measure 5 or more")]
+    TooFew {
+        /// Which column.
+        column: &'static str,
+        /// How many entries it has.
+        found: usize,
+    },
+}
+
+/// Fewest whole intervals of either kind.
+const FEWEST: usize = 5;
+
+impl PairTimes {
+    /// Reads intervals; empty lines and lines that begin with `#` are skipped.
+    ///
+    /// # Errors
+    /// Where the text is no table of [`COLUMNS`], or has fewer than five whole intervals of a kind.
+    pub fn read(text: &str) -> Result<Self, TimesError> {
+        let mut reader = ReaderBuilder::new()
+            .flexible(true)
+            .trim(Trim::All)
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let header: Vec<String> = reader
+            .headers()
+            .map(|header| header.iter().map(str::to_owned).collect())
+            .unwrap_or_default();
+        let place = |name: &str| header.iter().position(|column| column == name);
+        let (Some(bound), Some(apart), 2) = (place(COLUMNS[0]), place(COLUMNS[1]), header.len())
+        else {
+            return Err(TimesError::Columns(header.join(",")));
+        };
+        let mut times = Self::default();
+        for record in reader.records() {
+            let record = record.map_err(|_| TimesError::Entries(0))?;
+            let line = record.position().map_or(0, |at| at.line() as usize);
+            if record.len() != 2 {
+                return Err(TimesError::Entries(line));
+            }
+            for (column, list) in [(bound, &mut times.bound), (apart, &mut times.apart)] {
+                let text = &record[column];
+                if text.is_empty() {
+                    continue;
+                }
+                let (list, number) = match text.strip_prefix(CUT) {
+                    Some(number) => (&mut list.cut, number.trim()),
+                    None => (&mut list.whole, text),
+                };
+                let number = number.parse().ok();
+                let time = number.filter(|time: &f64| time.is_finite() && *time > 0.0);
+                let wrong = || TimesError::NoTime {
+                    line,
+                    text: text.to_owned(),
+                };
+                list.push(time.ok_or_else(wrong)?);
+            }
+        }
+        for (column, list) in COLUMNS.into_iter().zip([&times.bound, &times.apart]) {
+            let found = list.whole.len();
+            if found < FEWEST {
+                return Err(TimesError::TooFew { column, found });
+            }
+        }
+        Ok(times)
+    }
+
+    /// ln of the time bound over the time apart, and its 95 % interval.
+    pub fn log_odds(&self) -> (f64, [f64; 2]) {
+        let value = libm::log(self.bound.mean() / self.apart.mean());
+        let [n, m] = [&self.bound, &self.apart].map(|times| times.whole.len() as f64);
+        let share = Beta::new(n, m);
+        let end = |p: f64| {
+            // Of unit means: part of all time, then ratio of the two.
+            let share = share.map_or(f64::NAN, |share| to_digits(share.inverse_cdf(p), 6));
+            value - libm::log(share / (1.0 - share) * m / n)
+        };
+        (value, [end(1.0 - TAIL), end(TAIL)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use physics::dynamics::docking::stream;
+    use rand::RngExt;
+
+    #[test]
+    fn files_of_intervals() {
+        let text = "# a table\napart_s, bound_s\n1,2\n,3\n4,\n5,6\n1,1\n2,2\n3,1\n";
+        let times = PairTimes::read(text).unwrap();
+        assert_eq!(times.bound.whole, [2.0, 3.0, 6.0, 1.0, 2.0, 1.0]);
+        assert_eq!(times.apart.whole, [1.0, 4.0, 5.0, 1.0, 2.0, 3.0]);
+        let text = "bound_s,apart_s\n1,> 7\n2,>3\n3,1\n4,1\n5,1\n,1\n,1\n";
+        let cut = PairTimes::read(text).unwrap().apart;
+        assert_eq!((cut.whole.len(), &cut.cut[..]), (5, &[7.0, 3.0][..]));
+        assert!((cut.mean() - 3.0).abs() < 1e-12 && cut.statistic().is_none());
+        let (value, [low, high]) = times.log_odds();
+        assert!(value.abs() < 0.1 && low < value && value < high);
+        for (wrong, what) in [
+            ("", "columns"),
+            ("bound_s\n1\n", "columns"),
+            ("bound_s,apart_s\n1,-2\n", "line 2"),
+            ("bound_s,apart_s\n1,>\n", "line 2"),
+            (
+                "bound_s,apart_s\n>1,>1\n>1,>1\n>1,1\n>1,1\n>1,1\n",
+                "too few",
+            ),
+            ("bound_s,apart_s\n1,x\n", "line 2"),
+            ("bound_s,apart_s\n1,2,3\n", "line 2"),
+            ("bound_s,apart_s\n1,2\n", "too few"),
+        ] {
+            let error = PairTimes::read(wrong).unwrap_err().to_string();
+            assert!(error.contains(what), "{wrong}: {error}");
+        }
+    }
+
+    /// Fisher's F of 97.5 % as tables have it: the interval's end over the value.
+    #[test]
+    fn intervals_are_those_of_fishers_distribution() {
+        let times = |count: usize| Times {
+            whole: vec![2.0; count],
+            cut: Vec::new(),
+        };
+        for (n, m, of_low, of_high) in [
+            (5, 5, 3.7168, 3.7168),
+            (5, 10, 2.7737, 3.4185),
+            (10, 5, 3.4185, 2.7737),
+            (60, 60, 1.4327, 1.4327),
+        ] {
+            let pair = PairTimes {
+                bound: times(n),
+                apart: times(m),
+            };
+            let (value, [low, high]) = pair.log_odds();
+            assert!(value.abs() < 1e-12);
+            let found = [-low, high].map(libm::exp);
+            for (found, table) in found.into_iter().zip([of_low, of_high]) {
+                assert!(
+                    (found / table - 1.0).abs() < 5e-5,
+                    "{n} {m}: {found} {table}"
+                );
+            }
+        }
+        let pair = PairTimes {
+            bound: times(30_000),
+            apart: times(20_000),
+        };
+        // Of many nearly normal, of the variance 1 / n + 1 / m.
+        let high = pair.log_odds().1[1];
+        assert!((high / 0.017_89 - 1.0).abs() < 2e-3, "{high}");
+    }
+
+    /// Watched for no longer than bonds last on average, half of them and more are cut off: the mean is
+    /// that of all, and its interval holds it as often as it says; that of the whole ones alone is
+    /// not.
+    #[test]
+    fn what_is_cut_off_counts() {
+        let mut rng = stream(3, 0);
+        let mut draw = |mean: f64| -mean * libm::log(1.0 - rng.random::<f64>());
+        let (trials, mut held) = (2000, [0; 2]);
+        for _ in 0..trials {
+            let mut pair = PairTimes::default();
+            while pair.bound.whole.len() + pair.bound.cut.len() < 40 {
+                let (time, watched) = (draw(30.0), 20.0);
+                match time < watched {
+                    true => pair.bound.whole.push(time),
+                    false => pair.bound.cut.push(watched),
+                }
+            }
+            pair.apart.whole = (0..12).map(|_| draw(3.0)).collect();
+            let without = PairTimes {
+                bound: Times {
+                    cut: Vec::new(),
+                    ..pair.bound.clone()
+                },
+                apart: pair.apart.clone(),
+            };
+            for (held, pair) in held.iter_mut().zip([pair, without]) {
+                let [low, high] = pair.log_odds().1;
+                *held += usize::from(low < libm::log(10f64) && libm::log(10f64) < high);
+            }
+        }
+        let [all, whole] = held.map(|held| held as f64 / f64::from(trials));
+        // Three standard errors of such a share are 1.5 points.
+        assert!((all - 0.95).abs() < 0.015, "{all}");
+        assert!(whole < 0.5, "{whole}");
+    }
+}

@@ -1,0 +1,274 @@
+//! From how far apart pairs are found to the effective kT of their shaking.
+//!
+//! Distances of the centres of a pair, each taken when the pair has long forgotten the one before,
+//! are drawn from the distribution that [`Distances`] gives at every kT. The kT of the greatest
+//! likelihood is the answer, and its 95 % interval is where the logarithm of the likelihood is lower
+//! by half the quantile of chi-square (Wilks 1938, doi:10.1214/aoms/1177732360). Only which part of
+//! about 2 cm a distance lies in counts, so that it need be measured no better than that.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use csv::{ReaderBuilder, Trim};
+
+use physics::configuration::Configuration;
+use physics::kinetics::distance::Distances;
+use physics::problem::Problem;
+
+/// The column of a file of distances (m).
+pub const COLUMN: &str = "distance_m";
+
+/// Fewest distances.
+const FEWEST: usize = 10;
+/// By how much the logarithm of the likelihood is less at the ends of the interval: half of 3.84.
+const DROP: f64 = 1.92;
+/// Depths of the bond in kT between which kT is looked for ...
+const DEPTHS: [f64; 2] = [0.5, 60.0];
+/// ... in steps of its logarithm, at each of which the distribution is found; between them the
+/// logarithms of its shares are cubic.
+const STEP: f64 = 0.1;
+/// Steps of the first search.
+const STRIDE: i32 = 6;
+/// Parts of a step in which the likelihood is looked at.
+const FINE: i32 = 50;
+
+/// Distances (m) that were measured, with their lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairDistances {
+    rows: Vec<(usize, f64)>,
+}
+
+/// What is wrong with distances, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DistancesError {
+    /// A line cannot be read.
+    #[error("line {0} is no single entry")]
+    Entries(usize),
+    /// An entry is no positive number.
+    #[error("line {line}: `{text}` is no distance above 0 (m)")]
+    NoDistance {
+        /// Which line, from 1.
+        line: usize,
+        /// The entry.
+        text: String,
+    },
+    /// The tiles would overlap.
+    #[error(
+        "line {0}: with their centres {1} m apart the tiles would overlap, however they are turned; \
+         distances are those of the tiles' reference points"
+    )]
+    Overlap(usize, f64),
+    /// Too few distances up to the end (m).
+    #[error(
+        "{0} distances up to {1} m are too few; measure 10 or more, or choose a larger --within"
+    )]
+    TooFew(usize, f64),
+}
+
+/// kT as distances tell it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistanceFit {
+    /// kT (J) of the greatest likelihood; `None` where it lies at an end of what is looked at.
+    pub kt: Option<f64>,
+    /// Its 95 % interval (J); `None` at an end that nothing bounds.
+    pub interval: [Option<f64>; 2],
+    /// Distances that count.
+    pub count: usize,
+    /// Distances beyond the end.
+    pub beyond: usize,
+    /// The end (m).
+    pub within: f64,
+    /// The greatest error of the distributions' shares, as the last refinement tells it.
+    pub error: f64,
+    /// Pearson's statistic of the distances against the distribution at kT, and its degrees of
+    /// freedom: parts that few are expected in are taken together.
+    pub pearson: Option<(f64, usize)>,
+}
+
+impl PairDistances {
+    /// Whether a file's first line names the column of distances.
+    pub fn is_named_in(text: &str) -> bool {
+        let lines = text.lines().map(str::trim);
+        let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+        lines.next() == Some(COLUMN)
+    }
+
+    /// Reads distances; empty lines and lines that begin with `#` are skipped.
+    ///
+    /// # Errors
+    /// Where a line is no distance.
+    pub fn read(text: &str) -> Result<Self, DistancesError> {
+        let mut reader = ReaderBuilder::new()
+            .flexible(true)
+            .trim(Trim::All)
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|_| DistancesError::Entries(0))?;
+            let line = record.position().map_or(0, |at| at.line() as usize);
+            if record.len() != 1 {
+                return Err(DistancesError::Entries(line));
+            }
+            let number = record[0].parse().ok();
+            let distance = number.filter(|it: &f64| it.is_finite() && *it > 0.0);
+            let wrong = || DistancesError::NoDistance {
+                line,
+                text: record[0].to_owned(),
+            };
+            rows.push((line, distance.ok_or_else(wrong)?));
+        }
+        Ok(Self { rows })
+    }
+
+    /// The kT at which a pair would be found so, of the distances up to an end (m).
+    ///
+    /// # Errors
+    /// Where too few lie there, or the tiles would overlap.
+    pub fn fit(
+        &self,
+        problem: &Problem,
+        bond: &Configuration,
+        within: f64,
+    ) -> Result<DistanceFit, DistancesError> {
+        let depth = -problem.energy(bond);
+        let kt = |at: f64| depth * libm::exp(-at);
+        let law = |node: i32| Distances::new(problem, bond, kt(f64::from(node) * STEP), within);
+        // Where all is free, so that a part without probability is one that contact closes.
+        let nodes = DEPTHS.map(|depth| (libm::log(depth) / STEP).round() as i32);
+        let first = law(nodes[0]);
+        let (mut counts, mut beyond) = (vec![0_usize; first.shares.len()], 0);
+        for &(line, distance) in &self.rows {
+            match first.part(distance) {
+                Some(part) => counts[part] += 1,
+                None if distance > within => beyond += 1,
+                None => return Err(DistancesError::Overlap(line, distance)),
+            }
+        }
+        let count = self.rows.len() - beyond;
+        if count < FEWEST {
+            return Err(DistancesError::TooFew(count, within));
+        }
+        let known = RefCell::new(BTreeMap::from([(nodes[0], first)]));
+        let logarithms = |node: i32| -> Vec<f64> {
+            let mut known = known.borrow_mut();
+            let shares = &known.entry(node).or_insert_with(|| law(node)).shares;
+            shares
+                .iter()
+                .map(|p| libm::log(p.max(f64::MIN_POSITIVE)))
+                .collect()
+        };
+        let search = Search {
+            nodes,
+            logarithms: &logarithms,
+            counts: &counts,
+        };
+        let (best, ends) = search.run();
+        let is_inside = best > nodes[0] * FINE && best < nodes[1] * FINE;
+        let of = |fine: i32| kt(f64::from(fine) * STEP / f64::from(FINE));
+        let pearson = is_inside.then(|| pearson(&search.shares(best), &counts));
+        let error = known
+            .borrow()
+            .values()
+            .map(|it| it.moved)
+            .fold(0.0, f64::max);
+        Ok(DistanceFit {
+            kt: is_inside.then(|| of(best)),
+            // The higher kT, the shallower.
+            interval: [ends[1].map(of), ends[0].map(of)],
+            count,
+            beyond,
+            within,
+            error,
+            pearson,
+        })
+    }
+}
+
+/// The likelihood over the logarithm of the depth in kT, in fine parts of steps.
+struct Search<'a> {
+    nodes: [i32; 2],
+    logarithms: &'a dyn Fn(i32) -> Vec<f64>,
+    counts: &'a [usize],
+}
+
+impl Search<'_> {
+    /// The best place, and where on either side of it the likelihood has dropped.
+    fn run(&self) -> (i32, [Option<i32>; 2]) {
+        let [low, high] = self.nodes;
+        let rough = (low..=high).step_by(STRIDE as usize);
+        let best_of = |places: &mut dyn Iterator<Item = i32>, unit: i32| -> i32 {
+            let valued = places.map(|place| (self.likelihood(place * unit), place));
+            let best = valued.max_by(|a, b| a.0.total_cmp(&b.0));
+            best.map_or(low, |(_, place)| place)
+        };
+        let middle = best_of(&mut rough.into_iter(), FINE);
+        let around = |middle: i32, by: i32, [low, high]: [i32; 2]| {
+            (middle - by).max(low)..=(middle + by).min(high)
+        };
+        let node = best_of(&mut around(middle, STRIDE - 1, self.nodes), FINE);
+        let ends = [low * FINE, high * FINE];
+        let best = best_of(&mut around(node * FINE, FINE, ends), 1);
+        let least = self.likelihood(best) - DROP;
+        let end = |by: i32| {
+            let places = (1..).map(|k| best + by * k);
+            let mut inside = places.take_while(|place| (ends[0]..=ends[1]).contains(place));
+            inside.find(|&place| self.likelihood(place) < least)
+        };
+        (best, [end(-1), end(1)])
+    }
+
+    fn likelihood(&self, fine: i32) -> f64 {
+        let logarithms = self.at(fine);
+        let terms = self.counts.iter().zip(logarithms).filter(|(n, _)| **n > 0);
+        terms.map(|(&n, log)| n as f64 * log).sum()
+    }
+
+    fn shares(&self, fine: i32) -> Vec<f64> {
+        self.at(fine).into_iter().map(libm::exp).collect()
+    }
+
+    /// The logarithms of the shares: by Lagrange's cubic through four nodes.
+    fn at(&self, fine: i32) -> Vec<f64> {
+        let [low, high] = self.nodes;
+        let below = fine.div_euclid(FINE);
+        if fine == below * FINE {
+            return (self.logarithms)(below);
+        }
+        let first = (below - 1).clamp(low, high - 3);
+        let t = f64::from(fine - first * FINE) / f64::from(FINE);
+        let mut sums = vec![0.0; self.counts.len()];
+        for k in 0..4 {
+            let others = (0..4).filter(|other| *other != k).map(f64::from);
+            let share: f64 = others.map(|x| (t - x) / (f64::from(k) - x)).product();
+            for (sum, log) in sums.iter_mut().zip((self.logarithms)(first + k)) {
+                *sum += share * log;
+            }
+        }
+        sums
+    }
+}
+
+/// Pearson's statistic and its degrees of freedom, one being spent on kT.
+fn pearson(shares: &[f64], counts: &[usize]) -> (f64, usize) {
+    /// Fewest expected in what is compared.
+    const EXPECTED: f64 = 5.0;
+    let all = counts.iter().sum::<usize>() as f64;
+    let mut groups: Vec<[f64; 2]> = vec![[0.0; 2]];
+    for (share, count) in shares.iter().zip(counts) {
+        if groups.last().is_some_and(|group| group[0] >= EXPECTED) {
+            groups.push([0.0; 2]);
+        }
+        if let Some(group) = groups.last_mut() {
+            group[0] += share * all;
+            group[1] += *count as f64;
+        }
+    }
+    if let (Some(last), Some(before)) = (groups.pop(), groups.last_mut()) {
+        *before = [before[0] + last[0], before[1] + last[1]];
+    }
+    let terms = groups
+        .iter()
+        .map(|[expected, found]| (found - expected).powi(2) / expected);
+    (terms.sum(), groups.len().saturating_sub(2))
+}

@@ -1,0 +1,377 @@
+//! Fitting a shield's constants to measured forces and energies.
+//!
+//! Rows of poses, with and without iron, are compared with a shielded pair of tiles (see
+//! [`physics::potential::shielding`]). The constants A, l, delta and the front gain G of one shield,
+//! the same on all shielded faces, are fitted by least squares (Levenberg 1944, Marquardt 1963,
+//! doi:10.1137/0111030); the magnets' common strength, which multiplies all energies, by the rows
+//! without iron alone, if there are any. Energies, forces and torques are made comparable by the
+//! root mean square of their measured values. Every fifth row with iron and every fifth without
+//! (or as set) is held out of the fit, and the residuals of the rows held out say what the fit is
+//! worth.
+//!
+//! What the rows do not depend on they cannot tell: A and l show behind and beside the iron only,
+//! G in front of it. A standard error as large as the constant itself says so.
+
+pub mod bonds;
+pub mod distances;
+mod fit;
+mod rows;
+
+use crate::design::Design;
+use fit::{Fit, least_squares};
+use physics::configuration::Configuration;
+use physics::contact::Contact;
+use physics::potential::shielding::{Shield, ShieldRule, Shields};
+use physics::potential::{MagnetModel, Potential, ShieldedPotential};
+use physics::tile::Tile;
+pub use rows::{COLUMNS, CsvError, read_rows};
+
+/// What can be measured at a pose, and its unit.
+pub const QUANTITIES: [(&str, &str); 4] = [
+    ("energy", "J"),
+    ("force along x", "N"),
+    ("force along y", "N"),
+    ("torque", "N m"),
+];
+
+/// A measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its line in the file.
+    pub line: usize,
+    /// The pose at which it was taken.
+    pub configuration: Configuration,
+    /// Whether the shields were in place.
+    pub iron: bool,
+    /// Energy (J), force on the moving tile along x and y (N) and torque about its reference
+    /// point (N m), as far as they were measured.
+    pub measured: [Option<f64>; 4],
+}
+
+/// What was measured: two tiles, and which of their faces had shields in the rows with iron (those
+/// with a shield in `shields`, all where there are none; the constants there do not matter).
+#[derive(Clone, Copy, Debug)]
+pub struct Specimen<'a> {
+    /// How the magnets are modelled.
+    pub model: MagnetModel,
+    /// The tile that is held, in whose frame poses are given.
+    pub fixed: &'a Tile,
+    /// The tile whose poses the rows give.
+    pub moving: &'a Tile,
+    /// Which faces had shields in the rows with iron; their constants are not looked at.
+    pub shields: &'a Shields,
+}
+
+impl<'a> Specimen<'a> {
+    /// The tiles of a design, and the settings of a fit that begins with the design's own shield.
+    pub fn of(design: &'a Design, hold_out_every: usize) -> (Self, CalibrationSettings) {
+        let shields = &design.interaction.shields;
+        let known = shields.fixed.iter().chain(&shields.moving).flatten().next();
+        let defaults = CalibrationSettings::default();
+        let settings = CalibrationSettings {
+            hold_out_every,
+            start: known.copied().unwrap_or(defaults.start),
+            ..defaults
+        };
+        let specimen = Self {
+            model: design.interaction.model,
+            fixed: &design.pair.fixed,
+            moving: &design.pair.moving,
+            shields,
+        };
+        (specimen, settings)
+    }
+
+    /// The tiles with `shield` on all shielded faces.
+    fn shields(&self, shield: &Shield) -> Shields {
+        let all = self.shields.fixed.iter().chain(&self.shields.moving);
+        let any = all.flatten().next().is_some();
+        let of_faces = |tile: &Tile, known: &[Option<Shield>]| {
+            let shielded = |face: usize| !any || known.get(face).is_some_and(Option::is_some);
+            (0..tile.faces.len())
+                .map(|face| shielded(face).then_some(*shield))
+                .collect()
+        };
+        Shields {
+            rule: ShieldRule::Smooth,
+            fixed: of_faces(self.fixed, &self.shields.fixed),
+            moving: of_faces(self.moving, &self.shields.moving),
+        }
+    }
+}
+
+/// What to hold out, and where to start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CalibrationSettings {
+    /// Every so many rows of either kind, with and without iron, one is held out of the fit.
+    pub hold_out_every: usize,
+    /// The shield that the fit begins with.
+    pub start: Shield,
+    /// Greatest number of steps of the fit.
+    pub steps: usize,
+}
+
+impl Default for CalibrationSettings {
+    fn default() -> Self {
+        Self {
+            hold_out_every: 5,
+            start: Shield {
+                attenuation: 0.5,
+                length: 0.03,
+                width: 0.3,
+                front_gain: 1.0,
+            },
+            steps: 200,
+        }
+    }
+}
+
+/// Root mean squares of measured minus modelled values, for each of [`QUANTITIES`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residuals {
+    /// How many rows there are.
+    pub rows: usize,
+    /// How many of them were taken with shields in place.
+    pub with_iron: usize,
+    /// In the quantity's own unit; `None` where nothing was measured.
+    pub rms: [Option<f64>; 4],
+    /// The same, relative to the root mean square of the measured values.
+    pub relative: [Option<f64>; 4],
+}
+
+/// The outcome of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// The fitted constants.
+    pub shield: Shield,
+    /// Standard errors of A, l (m), delta and G, from the scatter of the residuals.
+    pub standard_errors: [f64; 4],
+    /// Factor by which the measured energies without iron exceed the model's.
+    pub strength: f64,
+    /// Of the rows that were fitted.
+    pub fitted: Residuals,
+    /// Of the rows that were held out.
+    pub held_out: Residuals,
+    /// Steps of the fit that were taken.
+    pub steps: usize,
+    /// Whether the fit settled within the steps allowed.
+    pub settled: bool,
+}
+
+/// Why there is no calibration.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// So many measured values with iron determine no fit.
+    #[error(
+        "{0} measured values with iron are too few to fit four constants; give at least five rows \
+         that are not held out"
+    )]
+    TooFew(usize),
+    /// At a pose the tiles would lie in each other.
+    #[error(
+        "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in rad, \
+         in the fixed tile's frame", 1e3 * .depth
+    )]
+    Overlap {
+        /// Of the row, in the file.
+        line: usize,
+        /// How deep they overlap (m).
+        depth: f64,
+    },
+}
+
+/// By how much (m) the tiles may overlap at a pose that was measured, with its error.
+const MEASURED_OVERLAP: f64 = 1e-3;
+
+/// Fits a shield to rows of measurements.
+///
+/// # Errors
+/// Where there are too few rows, or the tiles overlap at one of them.
+pub fn calibrate(
+    specimen: &Specimen,
+    rows: &[Row],
+    settings: &CalibrationSettings,
+) -> Result<Calibration, CalibrationError> {
+    let (fixed, moving) = (specimen.fixed, specimen.moving);
+    let contact = Contact::new(&fixed.outline, &moving.outline);
+    for Row {
+        line,
+        configuration,
+        ..
+    } in rows
+    {
+        let depth = -contact.clearance(configuration);
+        if depth > MEASURED_OVERLAP {
+            return Err(CalibrationError::Overlap { line: *line, depth });
+        }
+    }
+    let bare = ShieldedPotential::new(specimen.model, fixed, moving, &Shields::default());
+    let (used, held_out) = hold_out(rows, settings.hold_out_every.max(2));
+    let data = Data {
+        specimen,
+        bare: &bare,
+        scales: std::array::from_fn(|k| {
+            root_mean_square(rows.iter().filter_map(|row| row.measured[k]))
+        }),
+    };
+    let strength = data.strength(&used);
+    let with_iron: Vec<&Row> = used.iter().copied().filter(|row| row.iron).collect();
+    let residuals = |constants: &[f64; 4]| -> Vec<f64> {
+        let shielded = data.shielded(&shield_of(constants));
+        with_iron
+            .iter()
+            .flat_map(|row| data.residuals(&shielded, strength, row))
+            .flatten()
+            .collect()
+    };
+    let start = constants_of(&settings.start);
+    let values = residuals(&start).len();
+    if values <= start.len() {
+        return Err(CalibrationError::TooFew(values));
+    }
+    let fits = STARTING_LENGTHS.map(|factor| {
+        let mut start = start;
+        start[1] += libm::log(factor);
+        least_squares(start, settings.steps, residuals)
+    });
+    let [first, others @ ..] = fits;
+    let better = |a: Fit<4>, b: Fit<4>| if b.square < a.square { b } else { a };
+    let fit = others.into_iter().fold(first, better);
+    let shield = shield_of(&fit.best);
+    Ok(Calibration {
+        shield,
+        standard_errors: standard_errors(&shield, &fit.standard_errors),
+        strength,
+        fitted: data.summary(&shield, strength, &used),
+        held_out: data.summary(&shield, strength, &held_out),
+        steps: fit.steps,
+        settled: fit.settled,
+    })
+}
+
+/// The fit starts with the length l set and with these multiples of it, for with a poor start it
+/// can end in a hollow at one of the ends of the attenuation.
+const STARTING_LENGTHS: [f64; 3] = [1.0, 0.3, 3.0];
+
+/// The rows to fit and those held out: one in every `every` of those with iron and of those
+/// without.
+fn hold_out(rows: &[Row], every: usize) -> (Vec<&Row>, Vec<&Row>) {
+    let mut counts = [0; 2];
+    rows.iter().partition(|row| {
+        let count = &mut counts[usize::from(row.iron)];
+        *count += 1;
+        *count % every != 0
+    })
+}
+
+/// The unbounded numbers that are fitted: A is the logistic of the first, l, delta and G are the
+/// exponentials of the others, so that every set of numbers is a shield.
+fn shield_of(constants: &[f64; 4]) -> Shield {
+    Shield {
+        attenuation: 1.0 / (1.0 + libm::exp(-constants[0])),
+        length: libm::exp(constants[1]),
+        width: libm::exp(constants[2]),
+        front_gain: libm::exp(constants[3]),
+    }
+}
+
+fn constants_of(shield: &Shield) -> [f64; 4] {
+    let a = shield.attenuation.clamp(1e-6, 1.0 - 1e-6);
+    [
+        libm::log(a / (1.0 - a)),
+        libm::log(shield.length),
+        libm::log(shield.width),
+        libm::log(shield.front_gain),
+    ]
+}
+
+/// Standard errors of the shield's constants from those of the numbers fitted.
+fn standard_errors(shield: &Shield, errors: &[f64; 4]) -> [f64; 4] {
+    [
+        errors[0] * shield.attenuation * (1.0 - shield.attenuation),
+        errors[1] * shield.length,
+        errors[2] * shield.width,
+        errors[3] * shield.front_gain,
+    ]
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0usize);
+    for value in values {
+        sum += value * value;
+        count += 1;
+    }
+    (count > 0).then(|| (sum / count as f64).sqrt())
+}
+
+/// Energy, force and torque of a model at a row's pose.
+fn predictions(potential: &ShieldedPotential, row: &Row) -> [f64; 4] {
+    let (energy, gradient) = potential.energy_and_gradient(&row.configuration);
+    [energy, -gradient.x, -gradient.y, -gradient.z]
+}
+
+/// What residuals are worked out from.
+struct Data<'a> {
+    specimen: &'a Specimen<'a>,
+    bare: &'a ShieldedPotential,
+    /// Root mean square of each quantity's measured values.
+    scales: [Option<f64>; 4],
+}
+
+impl Data<'_> {
+    fn shielded(&self, shield: &Shield) -> ShieldedPotential {
+        self.bare.with_shields(&self.specimen.shields(shield))
+    }
+
+    /// A row's residuals relative to the quantities' scales.
+    fn residuals(
+        &self,
+        shielded: &ShieldedPotential,
+        strength: f64,
+        row: &Row,
+    ) -> [Option<f64>; 4] {
+        let potential = if row.iron { shielded } else { self.bare };
+        let predicted = predictions(potential, row);
+        std::array::from_fn(|k| {
+            let scale = self.scales[k].filter(|scale| *scale > 0.0).unwrap_or(1.0);
+            row.measured[k].map(|measured| (measured - strength * predicted[k]) / scale)
+        })
+    }
+
+    /// The factor between measured and modelled values that fits the rows without iron best.
+    fn strength(&self, rows: &[&Row]) -> f64 {
+        let (mut product, mut square) = (0.0, 0.0);
+        for row in rows.iter().filter(|row| !row.iron) {
+            let predicted = predictions(self.bare, row);
+            for ((measured, scale), predicted) in
+                row.measured.iter().zip(&self.scales).zip(predicted)
+            {
+                if let (Some(measured), Some(scale)) = (measured, scale) {
+                    product += measured * predicted / (scale * scale);
+                    square += predicted * predicted / (scale * scale);
+                }
+            }
+        }
+        if square > 0.0 && product > 0.0 {
+            product / square
+        } else {
+            1.0
+        }
+    }
+
+    fn summary(&self, shield: &Shield, strength: f64, rows: &[&Row]) -> Residuals {
+        let shielded = self.shielded(shield);
+        let all: Vec<[Option<f64>; 4]> = rows
+            .iter()
+            .map(|row| self.residuals(&shielded, strength, row))
+            .collect();
+        let relative: [Option<f64>; 4] =
+            std::array::from_fn(|k| root_mean_square(all.iter().filter_map(|row| row[k])));
+        Residuals {
+            rows: rows.len(),
+            with_iron: rows.iter().filter(|row| row.iron).count(),
+            rms: std::array::from_fn(|k| Some(relative[k]? * self.scales[k]?)),
+            relative,
+        }
+    }
+}

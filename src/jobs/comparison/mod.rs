@@ -1,0 +1,339 @@
+//! Designs side by side: what the main job says of each in a dozen figures.
+//!
+//! [`assess`] runs the main job on a design and keeps an [`Assessment`]; a [`Quantity`] reads one
+//! figure of it, with its bounds; [`ranking`] sorts designs by a figure and says which order is
+//! proved.
+//!
+//! - The *depth* of a state is minus its energy.
+//! - *Unbinding* climbs from the bond to `free`, *binding* the other way, over the same saddle: a
+//!   barrier for binding is the saddle's energy above that of tiles far apart, which is 0, and 0
+//!   where the saddle lies below that. Bounds are those of the saddle, shifted likewise.
+//! - *Selectivity* is the depth of the bond over that of the deepest trap.
+//! - What is *unlisted* is at most so deep: besides the states that were found no other takes more
+//!   than half a hundredth of the bond to leave, proved but for what lies above that.
+//! - The *capture range* is defined in [`capture_range`].
+
+pub mod capture_range;
+pub mod quantity;
+pub mod ranking;
+
+use serde::{Deserialize, Serialize};
+
+use crate::design::{Design, Drawing};
+use crate::pipeline::{self, Analysis, Settings};
+use physics::budget::Allowance;
+use physics::dynamics::check::BarrierCheck;
+use physics::landscape::minimum::Known;
+use physics::landscape::{
+    Barrier, Claims, Completeness, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
+};
+use physics::observer::Observer;
+use physics::potential::MagnetModel;
+
+pub use capture_range::CaptureRange;
+pub use quantity::{Estimate, Quantity};
+
+/// How designs are assessed: all that decides an assessment besides the design and the seed.
+///
+/// Work is counted, so that every machine finds the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AssessmentSettings {
+    /// Milestones of the roadmap.
+    pub milestones: usize,
+    /// Neighbours of each milestone; by the PRM* rule where `None`.
+    pub neighbours: Option<usize>,
+    /// A barrier is settled when it moves by less than this fraction.
+    pub settled: f64,
+    /// Number of far starts from which capture shares are counted.
+    pub far_starts: usize,
+    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub most_kinds: Option<usize>,
+    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the
+    /// bond or a twentieth of the barrier, whichever is less.
+    #[serde(rename = "tolerance_J")]
+    pub tolerance: Option<f64>,
+    /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
+    pub certify_cells: usize,
+    /// Cells spent on the search for states that the survey missed, at most; 0 for no search. Of blocks
+    /// it is a thirtieth, which takes about as long.
+    pub complete_cells: usize,
+    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub dynamics_runs: usize,
+}
+
+/// Settings of sweeps without the check read as they always did.
+fn is_zero(runs: &usize) -> bool {
+    *runs == 0
+}
+
+impl Default for AssessmentSettings {
+    fn default() -> Self {
+        Self::like(Settings::default())
+    }
+}
+
+impl AssessmentSettings {
+    /// Defaults for designs, the same for all of them: see [`Settings::of`].
+    pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
+        Self::like(Settings::of(designs))
+    }
+
+    fn like(settings: Settings) -> Self {
+        let cells = |allowed: Allowance, usual: usize| if allowed.is_none() { 0 } else { usual };
+        Self {
+            milestones: settings.milestones,
+            neighbours: settings.neighbours,
+            settled: settings.settled,
+            far_starts: settings.far_starts,
+            most_kinds: settings.most_kinds,
+            tolerance: settings.tolerance,
+            certify_cells: cells(settings.certify, 200_000),
+            complete_cells: cells(settings.completeness.allowed, 300_000),
+            dynamics_runs: 0,
+        }
+    }
+
+    /// The settings of the main job.
+    pub fn settings(&self, seed: u64) -> Settings {
+        let worth = |cells: usize| match cells {
+            0 => Allowance::NONE,
+            _ => Allowance::UNLIMITED,
+        };
+        Settings {
+            seed,
+            milestones: self.milestones,
+            neighbours: self.neighbours,
+            settled: self.settled,
+            far_starts: self.far_starts,
+            most_kinds: self.most_kinds,
+            tolerance: self.tolerance,
+            certify_cells: self.certify_cells,
+            certify: worth(self.certify_cells),
+            completeness: CompletenessSettings {
+                cells: self.complete_cells,
+                allowed: worth(self.complete_cells),
+                ..Settings::default().completeness
+            },
+            claims: Claims::BondAndDeepestTrap,
+            dynamics_runs: self.dynamics_runs,
+            ..Settings::default()
+        }
+    }
+}
+
+/// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Assessment {
+    /// Of the design.
+    pub name: String,
+    /// SHA-256 of the design file's bytes.
+    pub sha256: String,
+    /// The drawings that the design refers to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drawings: Vec<Drawing>,
+    /// The magnet model, as design files call it.
+    pub model: String,
+    /// Of all random numbers.
+    pub seed: u64,
+    /// Energy with the target faces coinciding (J).
+    #[serde(rename = "target_energy_J")]
+    pub target_energy: f64,
+    /// `None` where the bond does not hold.
+    pub bond: Option<Bond>,
+    /// Kinds of trap, symmetric copies taken together.
+    pub trap_kinds: usize,
+    /// The one of lowest energy; `None` where there are no traps.
+    pub deepest_trap: Option<Trap>,
+    /// Besides the states that were found none lies lower than this (J) that takes more than a share
+    /// of the bond to leave, proved; `None` where nothing is.
+    #[serde(
+        default,
+        rename = "unlisted_above_J",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub unlisted_above: Option<f64>,
+    /// Number of far starts.
+    pub far_starts: usize,
+    /// How many of the far starts end in the bond.
+    pub captured: usize,
+    /// How many of the far starts end in no state.
+    pub uncaptured: usize,
+    /// Barriers that moving tiles checked; `None` where they were not asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub barriers_checked: Option<usize>,
+    /// What they contradict, a barrier each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contradictions: Vec<String>,
+    /// Barriers without certified bounds that they show to be estimated too high.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overestimates: Vec<String>,
+}
+
+/// The bound state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bond {
+    /// x, y (m) and theta (rad).
+    pub pose: [f64; 3],
+    /// U (J), below 0.
+    #[serde(rename = "energy_J")]
+    pub energy: f64,
+    /// To `free`.
+    pub way_out: Way,
+    /// `None` where tiles that meet head-on do not bind.
+    pub capture_range: Option<CaptureRange>,
+}
+
+/// A trap.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trap {
+    /// x, y (m) and theta (rad).
+    pub pose: [f64; 3],
+    /// U (J).
+    #[serde(rename = "energy_J")]
+    pub energy: f64,
+    /// To the nearest lower state or to `free`.
+    pub escape: Way,
+}
+
+/// The best way out of a state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Way {
+    /// Highest energy on the way (J); `None` where no way was found.
+    #[serde(rename = "saddle_energy_J")]
+    pub saddle: Option<f64>,
+    /// What is proved of the least possible highest energy.
+    #[serde(flatten)]
+    pub bounds: SaddleBounds,
+}
+
+impl Way {
+    fn new(barrier: Option<&Barrier>) -> Self {
+        barrier.map_or_else(Self::default, |barrier| Self {
+            saddle: Some(barrier.saddle_energy).filter(|saddle| saddle.is_finite()),
+            bounds: barrier.bounds,
+        })
+    }
+
+    /// The climb (J) above `energy`, never negative.
+    pub fn climb(&self, energy: f64) -> Option<Estimate> {
+        if self.bounds.caged {
+            return Some(Estimate {
+                value: f64::INFINITY,
+                low: Some(f64::INFINITY),
+                high: None,
+            });
+        }
+        let SaddleBounds { lower, upper, .. } = self.bounds.above(energy);
+        self.saddle.map(|saddle| Estimate {
+            value: (saddle - energy).max(0.0),
+            low: lower,
+            high: upper,
+        })
+    }
+}
+
+/// A cell of blocks takes as long as about this many of dipoles.
+const CELLS_OF_BLOCKS: usize = 30;
+
+/// Analyses a design and keeps what is compared.
+pub fn assess(
+    design: &Design,
+    settings: &AssessmentSettings,
+    seed: u64,
+    observer: &dyn Observer,
+) -> Assessment {
+    let mut settings = settings.settings(seed);
+    if design.interaction.model == MagnetModel::Cuboid {
+        settings.completeness.cells /= CELLS_OF_BLOCKS;
+    }
+    let analysis = pipeline::analyse(design, &settings, observer);
+    Assessment::new(design, &analysis)
+}
+
+impl Assessment {
+    /// How many barriers moving tiles checked, contradict, and show to be estimated too high; `None`
+    /// where they were not asked.
+    pub fn checks(&self) -> Option<[usize; 3]> {
+        let checked = self.barriers_checked?;
+        Some([checked, self.contradictions.len(), self.overestimates.len()])
+    }
+
+    /// Why tiles of this design do not find into the bond, where they do not: nothing holds, no way
+    /// leads in, or none of the far starts came in. The worst first, by its number from 3 to 1.
+    pub fn obstacle(&self) -> Option<(u8, String)> {
+        let Some(bond) = &self.bond else {
+            return Some((3, "the bond does not hold".to_owned()));
+        };
+        if bond.way_out.bounds.caged {
+            let proved = "proved: no way leads from far apart into the bond";
+            return Some((2, proved.to_owned()));
+        }
+        let none_came_in = self.far_starts > 0 && self.captured == 0;
+        none_came_in.then(|| {
+            let most = 100.0 * Proportion::new(0, self.far_starts).high;
+            let starts = self.far_starts;
+            (
+                1,
+                format!("none of {starts} far starts came into the bond (at most {most:.1} % do)"),
+            )
+        })
+    }
+
+    /// What is compared of an analysed design; the capture range is found here.
+    pub fn new(design: &Design, analysis: &Analysis) -> Self {
+        let inventory = &analysis.inventory;
+        let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);
+        let bound = inventory.first(StateKind::Bond);
+        Self {
+            name: design.name.clone(),
+            sha256: design.sha256.clone(),
+            drawings: design.drawings.clone(),
+            model: design.interaction.model.name().to_owned(),
+            seed: analysis.settings.seed,
+            target_energy: analysis.bound.1,
+            bond: bound.map(|state| bond(analysis, state)),
+            trap_kinds: inventory.kinds().filter(|kind| !kind.is_bond()).count(),
+            deepest_trap: inventory.first(StateKind::Trap).map(|state| Trap {
+                pose: state.configuration.to_array(),
+                energy: state.energy,
+                escape: Way::new(analysis.escape(state.id).as_ref()),
+            }),
+            unlisted_above: analysis
+                .completeness
+                .as_ref()
+                .ok()
+                .map(Completeness::lowest),
+            far_starts: analysis.uncaptured.gone.of,
+            captured: inventory
+                .states
+                .iter()
+                .filter(|state| state.kind == StateKind::Bond)
+                .map(captured)
+                .sum(),
+            uncaptured: analysis.uncaptured.all().count,
+            barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
+            contradictions: analysis
+                .contradicted()
+                .map(BarrierCheck::describe)
+                .collect(),
+            overestimates: analysis
+                .overestimated()
+                .map(BarrierCheck::describe)
+                .collect(),
+        }
+    }
+}
+
+fn bond(analysis: &Analysis, state: &State) -> Bond {
+    let q = &state.configuration;
+    let states = analysis.inventory.states.iter();
+    let known = Known::minima(states.map(|state| state.configuration));
+    Bond {
+        pose: q.to_array(),
+        energy: state.energy,
+        way_out: Way::new(analysis.inventory.way_out_of_the_bond()),
+        capture_range: capture_range::find(&analysis.problem, known, q, state.energy),
+    }
+}

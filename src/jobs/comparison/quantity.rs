@@ -1,0 +1,291 @@
+//! The quantities that are compared, in one table.
+//!
+//! A new quantity is one entry of [`QUANTITIES`] and nothing else: files, the tables of `compare`,
+//! pages, the curves and maps of sweeps, the picture of the ranking and `--by` read from there all
+//! that they know of it. The order of the entries is that of columns in files; the tables and the
+//! pictures are arranged by [`Place`]s.
+
+use std::collections::BTreeMap;
+
+use super::{Assessment, Bond, CaptureRange, Trap};
+use physics::landscape::Proportion;
+
+use Measure::{Angle, Count, Energy, Length, Ratio, Share};
+use Reading::Number;
+
+/// Why a bond has no capture range, in short.
+pub const NOT_HEAD_ON: &str = "not head-on";
+/// Why there is no figure of the deepest trap.
+pub const NO_TRAPS: &str = "no traps";
+
+/// A figure, and between which bounds it lies where bounds are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Infinite for the climb out of a cage.
+    pub value: f64,
+    /// `None` where no bounds are known; infinite for the climb out of a cage.
+    pub low: Option<f64>,
+    /// `None` where no bounds are known, and for the climb out of a cage.
+    pub high: Option<f64>,
+}
+
+impl Estimate {
+    /// The value and its bounds, `None` for what is not known or not finite.
+    pub fn finite(&self) -> [Option<f64>; 3] {
+        [Some(self.value), self.low, self.high].map(|number| number.filter(|v| v.is_finite()))
+    }
+}
+
+/// What an [`Assessment`] says of a quantity, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Without bounds.
+    Number(f64),
+    /// As far as was looked: what lies beyond is not known.
+    AtLimit(f64),
+    /// Between the bounds that are known.
+    Bounded(Estimate),
+    /// Counted, with its 95 % interval.
+    Share(Proportion),
+}
+
+impl Reading {
+    /// The value with its bounds (SI).
+    pub fn estimate(&self) -> Estimate {
+        let (value, low, high) = match self {
+            Self::Number(value) | Self::AtLimit(value) => (*value, None, None),
+            Self::Bounded(estimate) => return *estimate,
+            Self::Share(share) => (share.share(), Some(share.low), Some(share.high)),
+        };
+        Estimate { value, low, high }
+    }
+}
+
+/// What is measured: it decides the unit, and how numbers are written and drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// In J, shown with a prefix.
+    Energy,
+    /// In m, shown in mm.
+    Length,
+    /// In rad, shown in degrees.
+    Angle,
+    /// From 0 to 1, shown in percent.
+    Share,
+    /// Drawn by its logarithm where it spans more than two powers of ten.
+    Ratio,
+    /// A whole number.
+    Count,
+}
+
+impl Measure {
+    /// SI unit; empty for numbers without one.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Energy => "J",
+            Length => "m",
+            Angle => "rad",
+            Share | Ratio | Count => "",
+        }
+    }
+}
+
+/// What files call the bounds below and above that are proved for the stated model.
+pub const CERTIFIED: Option<[&str; 2]> = Some(["lower", "upper"]);
+/// What they call those of a 95 % interval.
+const INTERVAL: Option<[&str; 2]> = Some(["low", "high"]);
+
+/// Where a quantity stands among others, from 0. Those in one place share it: the two sides of a
+/// range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Which of the tables, of the rows of panels, or of the ranking's plots.
+    pub row: u8,
+    /// Which column in it; in the ranking's plots, which colour.
+    pub column: u8,
+    /// Its name there, without the unit.
+    pub heading: &'static str,
+}
+
+const fn at(row: u8, column: u8, heading: &'static str) -> Option<Place> {
+    Some(Place {
+        row,
+        column,
+        heading,
+    })
+}
+
+/// All that is known of a quantity.
+#[derive(Debug)]
+pub struct Quantity {
+    /// Name in files and on the command line, without the unit.
+    pub key: &'static str,
+    /// Name for people.
+    pub label: &'static str,
+    /// Decides the unit and how numbers are shown.
+    pub measure: Measure,
+    /// What files call its bounds, `None` where it has none.
+    pub bounds: Option<[&'static str; 2]>,
+    /// In the tables of `compare`.
+    pub column: Option<Place>,
+    /// Among a sweep's curves.
+    pub panel: Option<Place>,
+    /// Whether a sweep's maps show its panel as well.
+    pub mapped: bool,
+    /// In the picture of the ranking, with its name there: a bar among the depths (row 0), where the
+    /// number of a ratio stands beside the bars, or a point among the barriers (1) or captures (2).
+    pub ranking: Option<Place>,
+    /// What the page calls the design that has most of it.
+    pub most: Option<&'static str>,
+    /// Whether the page tells it of a point under the pointer.
+    pub in_readout: bool,
+    /// Its value, or why there is none.
+    pub read: fn(&Assessment) -> Result<Reading, &'static str>,
+}
+
+/// A quantity that is in files, in the pages' tables and nowhere else.
+#[rustfmt::skip]
+const PLAIN: Quantity = Quantity {
+    key: "", label: "", measure: Count, bounds: None, column: None, panel: None, mapped: false,
+    ranking: None, most: None, in_readout: false, read: |_| Err("not known"),
+};
+
+/// All of them, in the order of files.
+#[rustfmt::skip]
+pub static QUANTITIES: &[Quantity] = &[
+    Quantity {
+        key: "bond_depth", label: "bond", measure: Energy,
+        column: at(0, 0, "bond"), panel: at(0, 0, "bond: depth"), mapped: true,
+        ranking: at(0, 0, "bond"), most: Some("deepest bond"), in_readout: true,
+        read: |a| Ok(Number(-bond(a).or(Err("does not hold"))?.energy)), ..PLAIN
+    },
+    Quantity {
+        key: "trap_depth", label: "deepest trap", measure: Energy,
+        column: at(0, 1, "deepest trap"), panel: at(0, 1, "deepest trap: depth"), mapped: true,
+        ranking: at(0, 2, "deepest trap"), in_readout: true,
+        read: |a| Ok(Number(-trap(a)?.energy)), ..PLAIN
+    },
+    Quantity {
+        key: "trap_escape", label: "escape from it", measure: Energy, bounds: CERTIFIED,
+        column: at(1, 2, "escape from the deepest trap"),
+        panel: at(1, 1, "escape from the deepest trap"), mapped: true,
+        ranking: at(1, 2, "escape from trap"),
+        read: |a| climb(trap(a)?.escape.climb(trap(a)?.energy)), ..PLAIN
+    },
+    Quantity {
+        key: "selectivity", label: "selectivity", measure: Ratio,
+        column: at(0, 2, "selectivity"), panel: at(0, 2, "selectivity"), mapped: true,
+        ranking: at(0, 3, "selectivity"),
+        read: |a| Ok(Number(bond(a)?.energy / trap(a)?.energy)), ..PLAIN
+    },
+    Quantity {
+        key: "unbinding", label: "unbinding barrier", measure: Energy, bounds: CERTIFIED,
+        column: at(1, 0, "unbinding barrier"), panel: at(1, 0, "unbinding barrier"), mapped: true,
+        ranking: at(1, 0, "unbinding"), most: Some("highest unbinding barrier"), in_readout: true,
+        read: |a| climb(bond(a)?.way_out.climb(bond(a)?.energy)),
+    },
+    Quantity {
+        key: "binding", label: "binding barrier", measure: Energy, bounds: CERTIFIED,
+        column: at(1, 1, "binding barrier"), panel: at(1, 2, "binding barrier"),
+        ranking: at(1, 1, "binding"),
+        read: |a| climb(bond(a)?.way_out.climb(0.0)), ..PLAIN
+    },
+    Quantity {
+        key: "captured", label: "captured", measure: Share, bounds: INTERVAL,
+        column: at(0, 3, "captured"), panel: at(2, 0, "captured far starts"), mapped: true,
+        ranking: at(2, 0, "captured"), most: Some("most captured"), in_readout: true,
+        read: |a| share(a.captured, a.far_starts),
+    },
+    Quantity {
+        key: "capture_offset_low", label: "offset \u{2212}", measure: Length,
+        column: at(0, 4, "offset"), panel: at(2, 1, "capture range: offset to either side"),
+        read: |a| range(a).map(|range| reach(range.offset[0], range.limits[0])), ..PLAIN
+    },
+    Quantity {
+        key: "capture_offset_high", label: "offset +", measure: Length,
+        column: at(0, 4, "offset"), panel: at(2, 1, "capture range: offset to either side"),
+        read: |a| range(a).map(|range| reach(range.offset[1], range.limits[0])), ..PLAIN
+    },
+    Quantity {
+        key: "capture_gap", label: "gap", measure: Length, column: at(0, 5, "gap"),
+        read: |a| range(a).map(|range| reach(range.gap, range.limits[1])), ..PLAIN
+    },
+    Quantity {
+        key: "capture_tilt_low", label: "tilt \u{2212}", measure: Angle,
+        column: at(0, 6, "tilt"), panel: at(2, 2, "capture range: tilt to either side"),
+        read: |a| range(a).map(|range| reach(range.tilt[0], range.limits[2])), ..PLAIN
+    },
+    Quantity {
+        key: "capture_tilt_high", label: "tilt +", measure: Angle,
+        column: at(0, 6, "tilt"), panel: at(2, 2, "capture range: tilt to either side"),
+        read: |a| range(a).map(|range| reach(range.tilt[1], range.limits[2])), ..PLAIN
+    },
+    Quantity {
+        key: "trap_kinds", label: "kinds of trap", measure: Count,
+        column: at(1, 3, "kinds of trap"),
+        read: |a| Ok(Number(a.trap_kinds as f64)), ..PLAIN
+    },
+    Quantity {
+        key: "unlisted_depth", label: "unlisted at most", measure: Energy,
+        column: at(1, 4, "unlisted"),
+        read: |a| a.unlisted_above.map(|energy| Number(-energy)).ok_or("not proved"), ..PLAIN
+    },
+];
+
+fn bond(assessment: &Assessment) -> Result<&Bond, &'static str> {
+    assessment.bond.as_ref().ok_or("no bond")
+}
+
+fn trap(assessment: &Assessment) -> Result<&Trap, &'static str> {
+    assessment.deepest_trap.as_ref().ok_or(NO_TRAPS)
+}
+
+fn climb(climb: Option<Estimate>) -> Result<Reading, &'static str> {
+    climb.map(Reading::Bounded).ok_or("no way found")
+}
+
+fn share(count: usize, of: usize) -> Result<Reading, &'static str> {
+    let counted = (of > 0).then(|| Reading::Share(Proportion::new(count, of)));
+    counted.ok_or("not counted")
+}
+
+fn range(assessment: &Assessment) -> Result<&CaptureRange, &'static str> {
+    bond(assessment)?.capture_range.as_ref().ok_or(NOT_HEAD_ON)
+}
+
+/// How far capture reaches to a side, of the farthest that was looked at.
+fn reach(amount: f64, limit: f64) -> Reading {
+    if amount.abs() >= limit {
+        Reading::AtLimit(amount)
+    } else {
+        Number(amount)
+    }
+}
+
+impl Quantity {
+    /// The figure; `None` where there is none, such as the depth of a bond that does not hold.
+    pub fn of(&self, assessment: &Assessment) -> Option<Estimate> {
+        Some((self.read)(assessment).ok()?.estimate())
+    }
+
+    /// Name in files with the unit: `unbinding_J`. `part` is between the two, such as `_lower`.
+    pub fn name(&self, part: &str) -> String {
+        match self.measure.unit() {
+            "" => format!("{}{part}", self.key),
+            unit => format!("{}{part}_{unit}", self.key),
+        }
+    }
+}
+
+/// The quantities that have a place, in the order of places, those of one place together.
+pub fn placed(
+    place: impl Fn(&Quantity) -> Option<Place>,
+) -> BTreeMap<Place, Vec<&'static Quantity>> {
+    let mut places = BTreeMap::<_, Vec<_>>::new();
+    for quantity in QUANTITIES {
+        if let Some(place) = place(quantity) {
+            places.entry(place).or_default().push(quantity);
+        }
+    }
+    places
+}

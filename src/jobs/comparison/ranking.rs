@@ -1,0 +1,45 @@
+//! Designs sorted by a figure, and which order is proved.
+
+use super::{Assessment, Quantity};
+use ordered_float::OrderedFloat;
+use physics::landscape::certificate::{self, Ordering};
+use physics::order::Order;
+use std::cmp::Reverse;
+
+/// The designs' places in `assessments` from the best to the worst by a figure, larger being
+/// better; those without the figure come last, equal ones in their order.
+pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
+    let value = |index: usize| {
+        let estimate = by.of(&assessments[index]);
+        estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
+    };
+    let mut order: Vec<usize> = (0..assessments.len()).collect();
+    order.order_by_key(|&k| (Reverse(OrderedFloat(value(k))), k));
+    order
+}
+
+/// The same, but designs that do not find into the bond stand behind all others, whatever the
+/// figure: see [`Assessment::obstacle`].
+pub fn ranked_for_use(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
+    let mut order = ranked(assessments, by);
+    order.order_by_key(|&k| assessments[k].obstacle().map_or(0, |(degree, _)| degree));
+    order
+}
+
+/// Which of two designs is proved to have the higher figure: undecided where bounds overlap, are
+/// not known, or the models of the magnets differ.
+///
+/// The bounds are those of the saddle; the energy of the state from which the climb is measured is
+/// computed in double precision at the minimum that was found.
+pub fn order(a: &Assessment, b: &Assessment, quantity: &Quantity) -> Ordering {
+    let bounds = |assessment| {
+        let estimate = quantity.of(assessment)?;
+        Some((estimate.low?, estimate.high))
+    };
+    match (bounds(a), bounds(b)) {
+        (Some(a_bounds), Some(b_bounds)) if a.model == b.model => {
+            certificate::order(a_bounds, b_bounds)
+        }
+        _ => Ordering::Undecided,
+    }
+}

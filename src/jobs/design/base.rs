@@ -1,0 +1,145 @@
+//! The base polygon of a tile, `side`, `sides`, `vertices` or `outline`, and the names of its faces.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
+
+use super::quantity;
+use super::reader::{Entry, Result, Section};
+use super::svg;
+use physics::tile::Face;
+use physics::tile::outline::{Outline, OutlineError};
+use physics::tile::profile::Polyline;
+
+/// Most faces of a tile.
+const MOST_FACES: u32 = 64;
+
+/// The straight faces of a tile, and all names of each; the first is what messages use.
+pub(super) struct Base {
+    pub faces: Vec<Face>,
+    /// The line of each face that has no profile of its own; empty for the base line.
+    pub lines: Vec<Polyline>,
+    pub names: Vec<Vec<String>>,
+}
+
+/// Reads the base polygon of a tile.
+pub(super) fn read(section: &Section) -> Result<Base> {
+    let listed = ["vertices", "outline"].map(|key| section.get(key));
+    let Some(entry) = listed.into_iter().flatten().next() else {
+        return regular(section);
+    };
+    let others = ["side", "sides", "outline"].into_iter();
+    let mut others = others.filter(|key| *key != entry.key);
+    if let Some(other) = others.find_map(|key| section.get(key)) {
+        return Err(other.key_error(
+            format!(
+                "`{}` and `{}` both describe the outline",
+                entry.key, other.key
+            ),
+            "keep one of the two",
+        ));
+    }
+    let numbered = |count: usize| (0..count).map(|i| vec![i.to_string()]).collect();
+    if entry.key == "outline" {
+        let (corners, lines) = svg::read_outline(&entry)?;
+        return Ok(Base {
+            lines,
+            ..base(&corners, numbered(corners.len()))
+        });
+    }
+    let vertices = vertices(&entry)?;
+    Ok(base(&vertices, numbered(vertices.len())))
+}
+
+/// A regular polygon about its centre; face 0 has its outward normal along +x.
+fn regular(section: &Section) -> Result<Base> {
+    let help = "say how long its sides are, side = 0.43 (m), list its corners, vertices = [...], \
+                or name a drawing: outline = { file = \"tile.svg\" }";
+    let side = section.require("side", help)?.number(quantity::TILE_SIDE)?;
+    let sides = match section.get("sides") {
+        Some(entry) => entry.count(MOST_FACES)?,
+        None => 4,
+    };
+    if sides < 3 {
+        let entry = section.require("sides", help)?;
+        return Err(entry.error(
+            format!("a tile cannot have {sides} sides"),
+            "give 3 or more",
+        ));
+    }
+    if sides == 4 {
+        let h = side / 2.0;
+        let corners = [[h, -h], [h, h], [-h, h], [-h, -h]].map(Vector2::from);
+        let names = ["east", "north", "west", "south"];
+        let names = (0..4)
+            .map(|i| vec![names[i].to_owned(), i.to_string()])
+            .collect();
+        return Ok(base(&corners, names));
+    }
+    let turn = TAU / f64::from(sides);
+    let radius = side / (2.0 * libm::sin(turn / 2.0));
+    let corners: Vec<_> = (0..sides)
+        .map(|k| {
+            let (sin, cos) = libm::sincos(turn * (f64::from(k) - 0.5));
+            Vector2::new(cos, sin) * radius
+        })
+        .collect();
+    Ok(base(
+        &corners,
+        (0..sides).map(|i| vec![i.to_string()]).collect(),
+    ))
+}
+
+fn base(corners: &[Vector2<f64>], names: Vec<Vec<String>>) -> Base {
+    let n = corners.len();
+    let faces = (0..n)
+        .map(|i| Face {
+            name: names[i][0].clone(),
+            start: corners[i],
+            end: corners[(i + 1) % n],
+        })
+        .collect();
+    Base {
+        faces,
+        lines: vec![Polyline::new(); n],
+        names,
+    }
+}
+
+fn vertices(entry: &Entry) -> Result<Vec<Vector2<f64>>> {
+    let items = entry.array()?;
+    let vertices = items
+        .iter()
+        .map(|item| item.numbers::<2>(quantity::TILE_CORNER, "x and y of a corner"))
+        .collect::<Result<Vec<_>>>()?;
+    if vertices.len() > MOST_FACES as usize {
+        return Err(entry.error(
+            format!("a tile cannot have {} corners", vertices.len()),
+            format!("give at most {MOST_FACES}; a face's line may have more: shape = \"points\""),
+        ));
+    }
+    let vertices: Vec<_> = vertices.into_iter().map(Vector2::from).collect();
+    match Outline::new(vertices.clone()) {
+        Ok(_) => Ok(vertices),
+        Err(error) => Err(mend(entry, &items, error)),
+    }
+}
+
+/// A list of corners that is no outline, as a fault of the corner that is to be changed.
+fn mend(entry: &Entry, items: &[Entry], error: OutlineError) -> super::DesignError {
+    let message = error.to_string();
+    match error {
+        OutlineError::RepeatedVertex(i, j) => {
+            items[i.max(j)].error(message, "take one of the two away")
+        }
+        OutlineError::SelfCrossing(_, j) => items[j].error(
+            message,
+            "corners are counted from 0; list them in their order around the tile",
+        ),
+        OutlineError::Clockwise => entry.error(message, "reverse the list"),
+        OutlineError::TooFewVertices(_) => entry.error(message, "give three corners or more"),
+        OutlineError::NotDecomposable => {
+            entry.error(message, "move corners that lie very close to another edge")
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! From the contents of its faces to a tile.
+
+use super::DesignError;
+use super::error::Span;
+use super::face::FaceContent;
+use super::placement::{magnet, placed};
+use super::profile::{depth_of, with_depth};
+use super::quantity::{four_digits, rounded_down};
+use super::reader::Result;
+use super::tile::TileEntry;
+use physics::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
+use physics::tile::outline::{Outline, OutlineError};
+use physics::tile::profile::SHALLOWEST;
+use physics::tile::{Magnet, Tile};
+
+/// A tile, and where the file puts each of its magnets.
+pub(super) struct BuiltTile {
+    pub tile: Tile,
+    /// The outline with the face that each edge belongs to.
+    pub ring: Ring,
+    pub placings: Vec<Placing>,
+}
+
+/// Where the file puts a magnet.
+pub(super) struct Placing {
+    pub span: Span,
+    /// How far it lies behind the surface (m).
+    pub inset: f64,
+}
+
+/// Puts a tile together from the contents of its faces.
+pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<BuiltTile> {
+    let faces = &entry.base.faces;
+    let (faults, thickness) = (entry.section.faults(), entry.thickness);
+    let (ring, outline) = outline(entry, contents)?;
+    let mass = check_mass(entry, outline.area() * thickness);
+    let mass = faults.note(mass);
+    let mut magnets = Vec::new();
+    let mut placings = Vec::new();
+    for (number, content) in contents.iter().enumerate() {
+        let face = (number, &faces[number]);
+        let edges = face_edges(&ring, face.1, number);
+        let listed = faults.note(placed(entry, content, face.1.length()));
+        for listed in listed.unwrap_or_default() {
+            let magnet = magnet(entry, face, &edges, &listed);
+            let magnet = magnet.and_then(|magnet| fits_in(entry, magnet, listed.span));
+            if let Ok(magnet) = faults.note(magnet) {
+                magnets.push(magnet);
+                placings.push(Placing {
+                    span: listed.span,
+                    inset: listed.keys.inset.unwrap_or(0.0),
+                });
+            }
+        }
+    }
+    faults.check()?;
+    let tile = Tile {
+        outline,
+        faces: faces.clone(),
+        magnets,
+        mass: mass?,
+        thickness,
+    };
+    Ok(BuiltTile {
+        tile,
+        ring,
+        placings,
+    })
+}
+
+/// Refuses a magnet that is thicker than its tile.
+fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
+    if magnet.size[2] <= entry.thickness {
+        return Ok(magnet);
+    }
+    Err(entry.section.error_at(
+        span,
+        format!(
+            "a magnet {} m thick sticks out of a tile {} m thick",
+            magnet.size[2], entry.thickness
+        ),
+        "the third number of a magnet's size runs through the tile's thickness",
+    ))
+}
+
+/// Density (kg/m^3) of the densest material there is, osmium.
+const HIGHEST_DENSITY: f64 = 22_590.0;
+
+/// The tile's mass (kg), unless that would make it denser than any material.
+fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
+    let (entry, mass) = entry
+        .mass
+        .ok_or_else(|| entry.section.error("no mass", ""))?;
+    if mass > HIGHEST_DENSITY * volume {
+        return Err(entry.error(
+            format!(
+                "`mass` = {mass} kg makes the tile denser than any material ({} kg/m^3): did you mean {} ({mass} g)?",
+                four_digits(mass / volume),
+                mass / 1000.0
+            ),
+            "masses are in kilograms",
+        ));
+    }
+    Ok(mass)
+}
+
+/// Most points of an outline: each is compared with every other.
+const MOST_POINTS: usize = 10_000;
+
+fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
+    let line = |content: &FaceContent| FaceLine {
+        polyline: content.polyline.clone(),
+        fit: content.fit,
+    };
+    contents.iter().map(line).collect()
+}
+
+fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline)> {
+    let ring = assemble(&entry.base.faces, &lines(contents)).map_err(|FitTooLarge(face)| {
+        entry.section.error_at(
+            contents[face].fit_span,
+            format!(
+                "face {} cannot be drawn back by {} m: part of its line would vanish",
+                entry.base.faces[face].name, contents[face].fit
+            ),
+            "make `fit` smaller, or the profile's details larger",
+        )
+    })?;
+    let points = ring.points.len();
+    if points > MOST_POINTS {
+        return Err(entry.section.error(
+            format!("the tile's outline has {points} points, more than {MOST_POINTS}"),
+            "draw its faces with fewer points, or with fewer teeth",
+        ));
+    }
+    match Outline::new(ring.points.clone()) {
+        Ok(outline) => Ok((ring, outline)),
+        Err(error) => Err(mend_outline(entry, contents, &ring, &error)),
+    }
+}
+
+/// Profiles that make no outline, as a fault of the profile that is to be changed.
+fn mend_outline(
+    entry: &TileEntry,
+    contents: &[FaceContent],
+    ring: &Ring,
+    error: &OutlineError,
+) -> DesignError {
+    let name = |face: usize| &entry.base.faces[face].name;
+    match *error {
+        OutlineError::SelfCrossing(i, j) => {
+            let (a, b) = (ring.faces[i], ring.faces[j]);
+            // The face with a profile is the culprit, not its flat neighbour.
+            let (culprit, other) = if contents[a].polyline.is_empty() {
+                (b, a)
+            } else {
+                (a, b)
+            };
+            let (message, help) = if a == b {
+                (
+                    format!("the profile of face {} crosses or touches itself", name(a)),
+                    "list its points in their order along the line",
+                )
+            } else {
+                (
+                    format!(
+                        "the profile of face {} crosses or touches face {}",
+                        name(culprit),
+                        name(other)
+                    ),
+                    "make it less deep, or keep it farther from the corners",
+                )
+            };
+            let help = match largest_depth(entry, contents, culprit) {
+                Some(depth) => {
+                    format!("make it less deep: `depth` may be up to {depth} m in size here")
+                }
+                None => help.to_owned(),
+            };
+            entry
+                .section
+                .error_at(contents[culprit].line_span, message, help)
+        }
+        _ => entry.section.error(
+            format!("the profiles leave no outline: {error}"),
+            "make the profiles less deep",
+        ),
+    }
+}
+
+/// The largest depth (m) that the profile of a face may have beside the others, rounded down;
+/// `None` where no depth mends it.
+fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
+    let profile = contents[face].profile.as_ref()?;
+    let depth = depth_of(profile)?;
+    let possible = |size: f64| {
+        let changed = with_depth(profile, size.copysign(depth));
+        let line = changed.and_then(|profile| profile.polyline().ok());
+        line.is_some_and(|line| {
+            let mut lines = lines(contents);
+            lines[face].polyline = line;
+            let ring = assemble(&entry.base.faces, &lines);
+            ring.is_ok_and(|ring| Outline::new(ring.points).is_ok())
+        })
+    };
+    let (mut right, mut wrong) = (0.0, depth.abs());
+    if !possible(right) {
+        return None;
+    }
+    for _ in 0..24 {
+        let middle = (right + wrong) / 2.0;
+        if possible(middle) {
+            right = middle;
+        } else {
+            wrong = middle;
+        }
+    }
+    let rounded = rounded_down(right);
+    (right > SHALLOWEST && possible(rounded)).then_some(rounded)
+}

@@ -1,0 +1,261 @@
+//! The entries of `[fixed.faces]` and `[moving.faces]`: a face's line and its magnets.
+
+use super::error::Span;
+use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
+use super::profile::read_profile;
+use super::quantity;
+use super::reader::{Entry, Result, Section, nearest_help};
+use super::shield::ShieldKeys;
+use physics::tile::barcode::{Barcode, BarcodeError};
+use physics::tile::profile::{Polyline, Profile, complement};
+
+/// The magnets of a face, before their sizes and spacing are known.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Pattern {
+    /// A code, with the place of each of its characters in the file.
+    Code(Barcode, Vec<Span>),
+    /// Magnets one by one.
+    List(Vec<ListedMagnet>),
+}
+
+impl Pattern {
+    /// The magnets of the mating face, which `span` asks for.
+    fn mate(&self, span: Span) -> Self {
+        match self {
+            Self::Code(code, _) => Self::Code(code.mate(), vec![span; code.len()]),
+            Self::List(magnets) => Self::List(
+                magnets
+                    .iter()
+                    .rev()
+                    .map(|magnet| magnet.mate(span))
+                    .collect(),
+            ),
+        }
+    }
+}
+
+/// Everything that makes a face, before it is put on its tile.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FaceContent {
+    pub polyline: Polyline,
+    /// The profile that the face's own keys describe.
+    pub profile: Option<Profile>,
+    /// How far the line is drawn back (m).
+    pub fit: f64,
+    pub pattern: Pattern,
+    pub keys: MagnetKeys,
+    /// Where the file draws the line, draws it back and places the magnets.
+    pub line_span: Span,
+    pub fit_span: Span,
+    pub pattern_span: Span,
+}
+
+impl FaceContent {
+    /// The complement: the line mirrored, every magnet exchanged for the one that binds it.
+    fn mate(&self, at: Span) -> Self {
+        Self {
+            polyline: complement(&self.polyline),
+            profile: None,
+            fit: 0.0,
+            pattern: self.pattern.mate(at),
+            keys: self.keys.mate(),
+            line_span: at,
+            fit_span: at,
+            pattern_span: at,
+        }
+    }
+}
+
+/// What the file says of one face: its own entry over `all`.
+#[derive(Clone, Copy)]
+pub(super) struct FaceEntry<'a> {
+    own: Option<Section<'a>>,
+    all: Option<Section<'a>>,
+}
+
+pub(super) const FACE_KEYS: [&str; 7] = [
+    "code", "magnets", "profile", "magnet", "mates", "fit", "shield",
+];
+
+impl<'a> FaceEntry<'a> {
+    pub fn new(own: Option<Section<'a>>, all: Option<Section<'a>>) -> Result<Self> {
+        for section in [&own, &all].into_iter().flatten() {
+            section.allow(&FACE_KEYS);
+            if let (Some(mates), Some(other)) = (section.get("mates"), first_of(section)) {
+                return Err(other.key_error(
+                    format!(
+                        "`mates` and `{}` both say what this face is like",
+                        other.key
+                    ),
+                    format!(
+                        "a mate takes shape and magnets from `{}`: keep one of the two",
+                        mates.string()?
+                    ),
+                ));
+            }
+            if let (Some(_), Some(magnets)) = (section.get("code"), section.get("magnets")) {
+                return Err(magnets.key_error(
+                    "`code` and `magnets` both place the magnets of this face",
+                    "keep one of the two",
+                ));
+            }
+        }
+        Ok(Self { own, all })
+    }
+
+    /// The face that this one mates with, unless the face's own entry describes a face of its own.
+    pub fn mates(&self) -> Option<Entry<'a>> {
+        let own = self.own.and_then(|own| own.get("mates"));
+        let of_its_own = self.own.as_ref().and_then(first_of).is_some();
+        own.or_else(|| self.all.filter(|_| !of_its_own)?.get("mates"))
+    }
+
+    fn get(&self, key: &str) -> Option<Entry<'a>> {
+        [self.own, self.all]
+            .into_iter()
+            .flatten()
+            .find_map(|section| section.get(key))
+    }
+
+    /// The entry of the first of `keys` that the face's own entry has, then of `all`.
+    fn get_either(&self, keys: [&str; 2]) -> Option<Entry<'a>> {
+        [self.own, self.all]
+            .into_iter()
+            .flatten()
+            .find_map(|section| keys.iter().find_map(|key| section.get(key)))
+    }
+
+    /// The content of a face that mates with none; `length` is the face's (m), `drawn` its line in
+    /// the tile's own outline.
+    pub fn content(
+        &self,
+        (length, drawn): (f64, &Polyline),
+        keys: MagnetKeys,
+        span: Span,
+    ) -> Result<FaceContent> {
+        if let Some(fit) = self.own.and_then(|own| own.get("fit")) {
+            return Err(fit.key_error(
+                "`fit` draws a mate back, and this face has no `mates`",
+                "add `mates = \"FACE\"`, or take `fit` away",
+            ));
+        }
+        let profile = self.get("profile");
+        let pattern = self.get_either(["code", "magnets"]);
+        let read = |entry: &Entry| entry.noted(read_profile(entry, length));
+        let line = profile.as_ref().map(read);
+        let magnets = pattern
+            .as_ref()
+            .map(|entry| entry.noted(read_pattern(entry)));
+        let keys = self.magnet_keys()?.over(keys);
+        let (drawing, polyline) = match line.transpose()? {
+            Some((drawing, line)) => (Some(drawing), line),
+            None => (None, drawn.clone()),
+        };
+        Ok(FaceContent {
+            polyline,
+            profile: drawing,
+            fit: 0.0,
+            pattern: magnets.unwrap_or_else(|| Ok(Pattern::List(Vec::new())))?,
+            keys,
+            line_span: profile.map_or(span, |entry| entry.span()),
+            fit_span: span,
+            pattern_span: pattern.map_or(span, |entry| entry.span()),
+        })
+    }
+
+    /// The content of a face that mates with `partner`.
+    pub fn mate_of(&self, partner: &FaceContent, mates: &Entry) -> Result<FaceContent> {
+        let complement = partner.mate(mates.span());
+        let keys = self.magnet_keys()?.over(complement.keys);
+        Ok(match self.get("fit") {
+            Some(fit) => FaceContent {
+                fit: fit.number(quantity::FIT)?,
+                fit_span: fit.span(),
+                keys,
+                ..complement
+            },
+            None => FaceContent { keys, ..complement },
+        })
+    }
+
+    /// What the entry says of the face's shield; a mate does not take over its partner's.
+    pub fn shield_keys(&self) -> Result<ShieldKeys> {
+        let mut keys = ShieldKeys::default();
+        for section in [self.own, self.all].into_iter().flatten() {
+            keys = keys.over(ShieldKeys::read(&section, "`shield`")?);
+        }
+        Ok(keys)
+    }
+
+    fn magnet_keys(&self) -> Result<MagnetKeys> {
+        let mut keys = MagnetKeys::default();
+        for section in [self.own, self.all].into_iter().flatten() {
+            if let Some(magnet) = section.section("magnet", "`magnet`")? {
+                magnet.allow(&MAGNET_KEYS);
+                keys = keys.over(MagnetKeys::read(&magnet)?);
+            }
+        }
+        Ok(keys)
+    }
+}
+
+/// The first key of a face's entry that `mates` would replace.
+fn first_of<'a>(section: &Section<'a>) -> Option<Entry<'a>> {
+    ["code", "magnets", "profile"]
+        .iter()
+        .find_map(|key| section.get(key))
+}
+
+/// Most places for magnets on a face.
+const MOST_PLACES: usize = 1000;
+
+fn check_count(entry: &Entry, count: usize) -> Result<()> {
+    if count <= MOST_PLACES {
+        return Ok(());
+    }
+    let message = format!(
+        "`{}` has {count} places for magnets, more than {MOST_PLACES}",
+        entry.key
+    );
+    Err(entry.error(message, "a face of a tile has some tens of them"))
+}
+
+fn read_pattern(entry: &Entry) -> Result<Pattern> {
+    if entry.key == "magnets" {
+        let magnets = entry.array()?;
+        check_count(entry, magnets.len())?;
+        let magnets = magnets.iter();
+        let magnets: Vec<_> = magnets
+            .map(|magnet| entry.noted(ListedMagnet::read(magnet)))
+            .collect();
+        let magnets = magnets.into_iter().collect::<Result<_>>()?;
+        return Ok(Pattern::List(magnets));
+    }
+    let text = entry.string()?;
+    check_count(entry, text.chars().count())?;
+    let code = Barcode::parse(text).map_err(|error: BarcodeError| {
+        let help = match error.character {
+            'n' | 's' => format!("write {}", error.character.to_ascii_uppercase()),
+            _ => "N is north pole out, S south pole out, . no magnet".to_owned(),
+        };
+        let span = entry.character_span(error.index);
+        entry.error_at(span, error.to_string(), help)
+    })?;
+    let spans = (0..code.len()).map(|k| entry.character_span(k)).collect();
+    Ok(Pattern::Code(code, spans))
+}
+
+/// Which face a word or number means, among the names of a tile's faces.
+pub(super) fn find_face(names: &[Vec<String>], entry: &Entry, tile: &str) -> Result<usize> {
+    let name = entry.name_or_number()?;
+    names
+        .iter()
+        .position(|names| names.contains(&name))
+        .ok_or_else(|| {
+            let known: Vec<_> = names.iter().map(|names| names[0].as_str()).collect();
+            entry.error(
+                format!("the {tile} tile has no face `{name}`"),
+                nearest_help(&name, &known),
+            )
+        })
+}

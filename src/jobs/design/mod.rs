@@ -1,0 +1,353 @@
+//! The design file: a pair of tiles in TOML, read and checked.
+//!
+//! [`Design::load`] turns a file into a [`Pair`] of tiles, the configuration in which they are
+//! meant to bind, and the table they float on. Everything that can be wrong with a file is found here and
+//! told as a [`DesignError`] with line, column and the mend; behind this door tiles are sound.
+//! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2; a number in quotes
+//! may carry another unit: `"12 cm"`, `"100 g"`, `"30 deg"`, `"300 mT"`. Everything that is wrong
+//! with a file is told at once, as far as it can be read.
+//!
+//! What the keys mean where a choice had to be made:
+//!
+//! - A face's own entry overrides `all` key by key. `code`, `magnets` or `profile` in a face's own
+//!   entry set aside a `mates` of `all`.
+//! - A mate takes over its partner's line, code or magnets *and* its `magnet` keys (another pitch
+//!   or size would keep it from being the complement); `magnet` keys given for the mate itself
+//!   have the last word.
+//! - The outermost point of a magnet's block lies `inset` behind the outline at the magnet's s,
+//!   measured along the face's normal. For a block along the normal this is the centre of its
+//!   outer pole face. At a step of the outline, the lower side counts; on a face drawn back by
+//!   `fit`, the line drawn back.
+//! - `[shield]` gives the constants of every face's soft-iron shield: `attenuation` (A), `length`
+//!   (l, m), `width` (delta) and `front_gain` (G, 1 where not given), see
+//!   [`physics::potential::shielding`]. `shield` under `[fixed]` or `[moving]`, and in a face's
+//!   entry, overrides them key by key; `shield = false` takes the shield away. A mate does not
+//!   take over its partner's shield, which is iron of the other tile. `[shield] rule =
+//!   "nearest-face"` takes no constants.
+//! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
+//!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
+//!   physical units or with a `unit`, curves to within [`physics::tile::profile::CHORD_ERROR`]. A face
+//!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
+//! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
+//!   opposite (`S`).
+
+mod base;
+mod build;
+mod doubts;
+pub(crate) mod drawings;
+mod entry;
+mod error;
+mod face;
+mod faults;
+pub(crate) mod file;
+mod inset;
+mod magnet;
+mod overlap;
+mod placement;
+mod potential;
+mod profile;
+mod quantity;
+mod reader;
+mod schema;
+mod shield;
+mod source;
+mod starting;
+mod svg;
+mod syntax;
+mod target;
+mod tile;
+mod units;
+mod word_places;
+mod word_set;
+mod word_stage;
+
+pub use drawings::Drawing;
+pub use error::{DesignError, Place};
+pub(crate) use file::read_text;
+pub use physics::potential::MagnetModel;
+pub use schema::{SCHEMA, STARTER};
+pub use starting::{Shape, Start, StartError};
+pub use units::{angle, length};
+pub use word_set::WordSet;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
+use crate::checksum::sha256;
+use drawings::Drawings;
+use faults::Faults;
+use magnet::{MAGNET_KEYS, MagnetKeys};
+use physics::configuration::ConfigurationSpace;
+use physics::potential::Interaction;
+use physics::potential::shielding::{ShieldRule, Shields};
+use physics::problem::Problem;
+use physics::tile::Pair;
+use reader::{Result, Section};
+use source::Source;
+use tile::{TILES, TileEntry};
+
+/// A pair of tiles and how they are meant to bind.
+///
+/// ```
+/// use tilebind_jobs::design::Design;
+///
+/// # std::env::set_current_dir("../..")?;
+/// let design = Design::load("shapes/paper-tile.toml".as_ref())?;
+/// assert_eq!(design.pair.bound.to_array(), [0.43, 0.0, 0.0]);
+/// assert_eq!(design.pair.fixed.magnets.len(), 16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The design's name; the file's where it gives none.
+    pub name: String,
+    /// What the file says of it; empty where it says nothing.
+    pub description: String,
+    /// SHA-256 of the file's bytes, in hexadecimal.
+    pub sha256: String,
+    /// Size of the air table (m) along x and along y.
+    pub table: [f64; 2],
+    /// The two tiles, and how they are meant to bind.
+    pub pair: Arc<Pair>,
+    /// How their magnets are modelled, and the shields behind them.
+    pub interaction: Interaction,
+    /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
+    pub pitch: Option<f64>,
+    /// The drawings that the design refers to.
+    pub drawings: Vec<Drawing>,
+    /// Doubts that do not keep the design from being used, such as a magnet whose corners break
+    /// through a curved surface.
+    pub warnings: Vec<DesignError>,
+}
+
+const ROOT_KEYS: [&str; 9] = [
+    "name",
+    "description",
+    "table",
+    "magnet",
+    "fixed",
+    "moving",
+    "target",
+    "potential",
+    "shield",
+];
+
+impl Design {
+    /// Reads a design file.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or is no sound design.
+    pub fn load(path: &Path) -> Result<Self> {
+        let file = path.display().to_string();
+        let bytes = file::read(path).map_err(|error| DesignError {
+            file: file.clone(),
+            place: None,
+            message: format!("cannot read the design file: {error}"),
+            help: "check the path; shipped designs are in shapes/".to_owned(),
+            also: Vec::new(),
+        })?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::parse(&text, &file),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes());
+                let source = Source {
+                    file: &file,
+                    text: &text,
+                    quoted: true,
+                    drawings: &Drawings::default(),
+                    faults: &Faults::default(),
+                };
+                Err(source.error(
+                    (at..at + 1).into(),
+                    "the file is not UTF-8 text",
+                    "save it as UTF-8",
+                ))
+            }
+        }
+    }
+
+    /// Reads a design from the text of its file; `file` is its name, for messages and where the
+    /// design gives no name of its own.
+    ///
+    /// # Errors
+    /// Where the text is no sound design.
+    pub fn parse(text: &str, file: &str) -> Result<Self> {
+        Self::read(text, file, Drawings::default())
+    }
+
+    /// Reads a design whose drawings are held: the text of each by its name in the design.
+    ///
+    /// # Errors
+    /// Where the text is no sound design.
+    pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
+        Self::read(text, file, Drawings::new(Some(drawings)))
+    }
+
+    fn read(text: &str, file: &str, drawings: Drawings) -> Result<Self> {
+        let faults = Faults::default();
+        let source = Source {
+            file,
+            text,
+            quoted: true,
+            drawings: &drawings,
+            faults: &faults,
+        };
+        let design = syntax::parse(source).and_then(|root| Self::of(source, &root));
+        let design = faults.conclude(design)?;
+        let (used, skipped) = drawings.finish();
+        let mut warnings = design.warnings;
+        warnings.extend(skipped);
+        Ok(Self {
+            drawings: used,
+            warnings,
+            ..design
+        })
+    }
+
+    /// The design of a file; whatever of it can be read is read before the first fault is told.
+    fn of(source: Source, root: &DeTable) -> Result<Self> {
+        let faults = source.faults;
+        let root = Section::root(source, root);
+        root.allow(&ROOT_KEYS);
+        let table = faults.note(table(&root));
+        let keys = faults.note(magnet_keys(&root));
+        let model = faults.note(potential::read(&root));
+        let name = faults.note(root.get("name").map(|name| name.line()).transpose());
+        let description = faults.note(root.string("description"));
+        let entries = tile_entries(&root)?;
+        let target = faults.note(target::read(&root, &entries));
+        let shields = faults.note(shields(&root, &entries));
+        let contents = faults.note(tile::resolve(&entries, keys.clone().unwrap_or_default()));
+        // From here on parts are put together, of which each is sound by itself.
+        faults.check()?;
+        let (table, keys, contents, target) = (table?, keys?, contents?, target?);
+        let [fixed, moving] = [0, 1].map(|i| faults.note(build::build(&entries[i], &contents[i])));
+        let built = [fixed?, moving?];
+        let mut warnings = overlap::check_magnets(&entries, &built)?;
+        let (shields, doubt) = shields?;
+        warnings.extend(doubt);
+        warnings.extend(doubts::find(&root, &entries, &contents, table));
+        let [fixed, moving] = built.map(|built| built.tile);
+        let design = Self {
+            name: name?.map_or_else(|| stem(source.file), str::to_owned),
+            description: description?.unwrap_or_default().to_owned(),
+            sha256: sha256(source.text),
+            table,
+            pair: Arc::new(Pair {
+                bound: target.configuration(&fixed, &moving)?,
+                target: target.faces,
+                fixed,
+                moving,
+            }),
+            interaction: Interaction {
+                model: model?,
+                shields,
+            },
+            pitch: keys.pitch,
+            drawings: Vec::new(),
+            warnings,
+        };
+        design.check_table(&root)?;
+        Ok(design)
+    }
+
+    /// The space of configurations of the moving tile: its reference point on the table, rho its
+    /// radius of gyration, the tiles free of each other where their circles about the reference
+    /// points are.
+    pub fn space(&self) -> ConfigurationSpace {
+        ConfigurationSpace {
+            half_size: self.table.map(|size| size / 2.0),
+            rho: self.pair.moving.radius_of_gyration(),
+            free_distance: self.pair.free_distance(),
+        }
+    }
+
+    /// The problem that the design poses.
+    pub fn problem(&self) -> Problem {
+        Problem::new(self.space(), self.pair.clone(), &self.interaction)
+    }
+
+    /// Refuses a table on which the tiles cannot bind or cannot come apart.
+    fn check_table(&self, root: &Section) -> Result<()> {
+        let space = self.space();
+        let entry = root
+            .require("table", TABLE_HELP)?
+            .section("[table]")?
+            .require("size", TABLE_HELP)?;
+        let [x, y] = space.half_size;
+        if !space.contains(&self.pair.bound) {
+            return Err(entry.error(
+                "the bound configuration lies off the table",
+                "make the table larger",
+            ));
+        }
+        if libm::hypot(x, y) <= space.free_distance {
+            let needed = quantity::four_digits(3.0 * space.free_distance);
+            return Err(entry.error(
+                "the table is too small for the tiles to come apart",
+                format!("make it larger: size = [{needed}, {needed}]"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";
+
+const TABLE_KEYS: [&str; 1] = ["size"];
+
+fn table(root: &Section) -> Result<[f64; 2]> {
+    let section = root.require("table", TABLE_HELP)?.section("[table]")?;
+    section.allow(&TABLE_KEYS);
+    section
+        .require("size", TABLE_HELP)?
+        .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")
+}
+
+fn magnet_keys(root: &Section) -> Result<MagnetKeys> {
+    let Some(section) = root.section("magnet", "[magnet]")? else {
+        return Ok(MagnetKeys::default());
+    };
+    section.allow(&MAGNET_KEYS);
+    MagnetKeys::read(&section)
+}
+
+/// The shields of both tiles, and a doubt where the file describes shields in vain.
+fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<DesignError>)> {
+    let (rule, keys) = shield::read(root)?;
+    let mut shields = Shields {
+        rule,
+        ..Shields::default()
+    };
+    if rule == ShieldRule::NearestFace {
+        let [fixed, moving] = [entries[0].shield_keys(keys)?, entries[1].shield_keys(keys)?];
+        let doubt = fixed
+            .iter()
+            .chain(&moving)
+            .find_map(|keys| keys.doubt(root));
+        return Ok((shields, doubt));
+    }
+    shields.fixed = entries[0].shields(keys)?;
+    shields.moving = entries[1].shields(keys)?;
+    Ok((shields, None))
+}
+
+fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
+    let entry = |i: usize, name, faces_name| {
+        let help = format!("describe it under {name}: side, thickness, mass, faces");
+        let section = root.require(TILES[i], &help)?.section(name)?;
+        TileEntry::read(TILES[i], section, faces_name)
+    };
+    let fixed = root.faults().note(entry(0, "[fixed]", "[fixed.faces]"));
+    let moving = root.faults().note(entry(1, "[moving]", "[moving.faces]"));
+    Ok([fixed?, moving?])
+}
+
+fn stem(file: &str) -> String {
+    let stem = Path::new(file).file_stem().unwrap_or_default();
+    stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
+}

@@ -1,0 +1,195 @@
+//! Magnets where none can be: in one another, or out of the tile.
+
+use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
+
+use super::DesignError;
+use super::build::BuiltTile;
+use super::inset;
+use super::quantity::four_digits;
+use super::reader::{Result, Section};
+use super::tile::TileEntry;
+use physics::contact::{Placement, separation};
+use physics::tile::assembly::{face_edges, surface_height};
+use physics::tile::outline::ConvexPart;
+use physics::tile::{Face, Magnet};
+
+/// Depth (m) up to which blocks may overlap or stick out: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Refuses magnets that overlap or stick out of their tile.
+///
+/// A block in a straight face never leaves the tile, but on a curved or slanted line a corner of
+/// its outer pole face may break through the surface while the block as a whole sits in the tile.
+/// That is a matter of a millimetre of inset and changes no energy, so it is returned as a
+/// warning, one for each face. So is a tile without any magnet.
+pub(super) fn check_magnets(
+    entries: &[TileEntry; 2],
+    built: &[BuiltTile; 2],
+) -> Result<Vec<DesignError>> {
+    for tile in [0, 1] {
+        outside(&entries[tile].section, built, tile);
+        overlaps(&entries[tile], &built[tile]);
+    }
+    entries[0].section.faults().check()?;
+    let doubts = [0, 1].map(|tile| doubts(&entries[tile], built, tile));
+    Ok(doubts.into_iter().flatten().collect())
+}
+
+/// Notes the first magnet of each face that sticks out of its tile.
+fn outside(section: &Section, built: &[BuiltTile; 2], tile: usize) {
+    let BuiltTile { tile: it, .. } = &built[tile];
+    for (face, name) in it.faces.iter().map(|face| &face.name).enumerate() {
+        let mut of_face = (0..it.magnets.len()).filter(|&i| it.magnets[i].face == face);
+        let Some(i) = of_face.find(|&i| sticks_out(&built[tile], &it.magnets[i])) else {
+            continue;
+        };
+        let placing = &built[tile].placings[i];
+        let help = inset::mend(built, placing.inset).unwrap_or_else(|| {
+            "move it away from corners and steps, take a smaller magnet, or another `inset`"
+                .to_owned()
+        });
+        let message = format!("a magnet of face {name} sticks out of the tile");
+        section
+            .faults()
+            .add(section.error_at(placing.span, message, help));
+    }
+}
+
+/// Notes the first two magnets of each two faces that overlap.
+fn overlaps(entry: &TileEntry, built: &BuiltTile) {
+    let magnets = &built.tile.magnets;
+    let blocks: Vec<_> = magnets.iter().map(block).collect();
+    // Which magnet of its face it is, counter-clockwise from 1.
+    let name = |i: usize| {
+        let face = magnets[i].face;
+        let number = magnets[..=i].iter().filter(|m| m.face == face).count();
+        format!("magnet {number} of face {}", built.tile.faces[face].name)
+    };
+    let mut told = Vec::new();
+    for i in 0..magnets.len() {
+        for j in 0..i {
+            let depth = -separation(&blocks[i], &blocks[j], &Placement::none());
+            let faces = (magnets[i].face, magnets[j].face);
+            if depth <= ROUNDING || told.contains(&faces) {
+                continue;
+            }
+            told.push(faces);
+            let message = format!(
+                "in the {} tile {} overlaps {} by {} mm",
+                entry.name,
+                name(i),
+                name(j),
+                four_digits(depth * 1e3)
+            );
+            let more = (depth * 1e4 - 1e-6).ceil() / 10.0;
+            let help = format!(
+                "space them out by {more} mm or more (`pitch`, `at`), or take smaller magnets (`size`)"
+            );
+            let section = &entry.section;
+            let fault = section.error_at(built.placings[i].span, message, help);
+            section.faults().add(fault);
+        }
+    }
+}
+
+fn doubts(entry: &TileEntry, built: &[BuiltTile; 2], tile: usize) -> Vec<DesignError> {
+    let it = &built[tile];
+    if it.tile.magnets.is_empty() {
+        let name = entry.name;
+        let message = format!("the {name} tile has no magnet, so that the energy is zero");
+        let help = "give one of its faces a code";
+        return vec![entry.section.error(message, help)];
+    }
+    let faces = 0..it.tile.faces.len();
+    faces
+        .filter_map(|face| breakthrough(&entry.section, built, (tile, face)))
+        .collect()
+}
+
+/// A magnet's rectangle.
+pub(super) fn block(magnet: &Magnet) -> ConvexPart {
+    ConvexPart::new(magnet.corners().to_vec())
+}
+
+/// Whether two rectangles of magnets overlap.
+pub(super) fn overlap(a: &ConvexPart, b: &ConvexPart) -> bool {
+    separation(a, b, &Placement::none()) < -ROUNDING
+}
+
+/// Whether a block's centre, a corner of its inner half, or a corner beyond the ends of its face
+/// lies outside the tile.
+pub(super) fn sticks_out(built: &BuiltTile, magnet: &Magnet) -> bool {
+    let face = &built.tile.faces[magnet.face];
+    let beyond_its_face = |p: &Vector2<f64>| {
+        (p - face.middle()).dot(&face.tangent()).abs() > face.length() / 2.0 + ROUNDING
+    };
+    let in_the_inner_half =
+        |p: &Vector2<f64>| (p - magnet.position).dot(&face.normal()) <= ROUNDING;
+    magnet
+        .corners()
+        .into_iter()
+        .filter(|p| beyond_its_face(p) || in_the_inner_half(p))
+        .chain([magnet.position])
+        .any(|p| built.tile.outline.signed_distance(p) > ROUNDING)
+}
+
+/// The warning for the magnet of a face that breaks through its surface farthest, if one does.
+fn breakthrough(
+    section: &Section,
+    both: &[BuiltTile; 2],
+    (tile, number): (usize, usize),
+) -> Option<DesignError> {
+    let built = &both[tile];
+    let face = &built.tile.faces[number];
+    let edges = face_edges(&built.ring, face, number);
+    let magnets = built.tile.magnets.iter().enumerate();
+    let (i, excess) = magnets
+        .filter(|(_, magnet)| magnet.face == number)
+        .map(|(i, magnet)| (i, excess(&edges, face, magnet)))
+        .max_by_key(|(_, excess)| OrderedFloat(*excess))?;
+    (excess > ROUNDING).then(|| {
+        let placing = &built.placings[i];
+        section.error_at(
+            placing.span,
+            format!(
+                "a corner of a magnet of face {} breaks through the surface, by {} mm",
+                face.name,
+                four_digits(excess * 1e3)
+            ),
+            inset::mend(both, placing.inset)
+                .unwrap_or_else(|| format!("raise `inset` by {} m", four_digits(excess + 5e-7))),
+        )
+    })
+}
+
+/// Whether a corner of a magnet is above the surface of its face.
+pub(super) fn breaks_through(built: &BuiltTile, magnet: &Magnet) -> bool {
+    let face = &built.tile.faces[magnet.face];
+    let edges = face_edges(&built.ring, face, magnet.face);
+    excess(&edges, face, magnet) > ROUNDING
+}
+
+/// By how much (m, along the face's normal) the highest corner of a block overtops the lowest
+/// surface over the block's width.
+fn excess(edges: &[[[f64; 2]; 2]], face: &Face, magnet: &Magnet) -> f64 {
+    let local = magnet.corners().map(|p| {
+        let d = p - face.middle();
+        [d.dot(&face.tangent()), d.dot(&face.normal())]
+    });
+    let fold =
+        |k: usize, start: f64, f: fn(f64, f64) -> f64| local.iter().map(|p| p[k]).fold(start, f);
+    let (low, high) = (
+        fold(0, f64::INFINITY, f64::min),
+        fold(0, f64::NEG_INFINITY, f64::max),
+    );
+    let corners_between = edges
+        .iter()
+        .map(|[a, _]| a[0])
+        .filter(|s| (low..=high).contains(s));
+    let lowest = corners_between
+        .chain([low, high])
+        .filter_map(|s| surface_height(edges, s))
+        .fold(f64::INFINITY, f64::min);
+    fold(1, f64::NEG_INFINITY, f64::max) - lowest
+}

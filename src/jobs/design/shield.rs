@@ -1,0 +1,116 @@
+//! Soft-iron shields: the section `[shield]`, a tile's `shield` and a face's.
+
+use super::error::{DesignError, Span};
+use super::quantity::{self, Quantity};
+use super::reader::{Entry, Result, Section};
+use physics::potential::shielding::{Shield, ShieldRule};
+
+/// The constants of a shield, as a file names them.
+pub(super) const CONSTANTS: [(&str, Quantity); 4] = [
+    ("attenuation", quantity::ATTENUATION),
+    ("length", quantity::SHIELD_LENGTH),
+    ("width", quantity::SHIELD_WIDTH),
+    ("front_gain", quantity::FRONT_GAIN),
+];
+
+/// What one place of the file says of shields; where it is silent `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ShieldKeys {
+    constants: [Option<f64>; CONSTANTS.len()],
+    /// Whether there is a shield, and where the file says so.
+    present: Option<(bool, Span)>,
+}
+
+impl ShieldKeys {
+    /// The `shield` of a tile or a face, a table of constants, `true` or `false`; a message calls
+    /// the table `name`.
+    pub fn read<'a>(section: &Section<'a>, name: &'a str) -> Result<Self> {
+        let Some(entry) = section.get("shield") else {
+            return Ok(Self::default());
+        };
+        let mut keys = Self {
+            present: Some((true, entry.key_span())),
+            ..Self::default()
+        };
+        if let Some(present) = entry.boolean() {
+            keys.present = Some((present, entry.key_span()));
+            return Ok(keys);
+        }
+        let section = entry.section(name)?;
+        section.allow(&CONSTANTS.map(|(name, _)| name));
+        keys.constants = constants(&section)?;
+        Ok(keys)
+    }
+
+    /// These keys, and those of `lower` where these are silent.
+    pub fn over(self, lower: Self) -> Self {
+        Self {
+            constants: std::array::from_fn(|i| self.constants[i].or(lower.constants[i])),
+            present: self.present.or(lower.present),
+        }
+    }
+
+    /// The shield of a face that these keys describe; `tile` and `face` are its names.
+    pub fn shield(&self, section: &Section, tile: &str, face: &str) -> Result<Option<Shield>> {
+        let Some((true, span)) = self.present else {
+            return Ok(None);
+        };
+        let needed = |i: usize| {
+            self.constants[i].ok_or_else(|| {
+                section.error_at(
+                    span,
+                    format!("the shield of {tile}.{face} has no `{}`", CONSTANTS[i].0),
+                    "a shield needs `attenuation` (0 to 1), `length` (m) and `width`, here or in \
+                     [shield]; `tilebind calibrate` fits them to measurements",
+                )
+            })
+        };
+        Ok(Some(Shield {
+            attenuation: needed(0)?,
+            length: needed(1)?,
+            width: needed(2)?,
+            front_gain: self.constants[3].unwrap_or(1.0),
+        }))
+    }
+
+    /// A doubt where the file describes shields that its rule has no use for.
+    pub fn doubt(&self, section: &Section) -> Option<DesignError> {
+        let (_, span) = self.present?;
+        Some(section.error_at(
+            span,
+            "the nearest-face rule has no use for the constants of a shield, nor for faces \
+             without one",
+            "take them away, or write rule = \"smooth\" under [shield]",
+        ))
+    }
+}
+
+/// What `[shield]` says: the rule, and the constants of every face's shield.
+pub(super) fn read(root: &Section) -> Result<(ShieldRule, ShieldKeys)> {
+    let Some(section) = root.section("shield", "[shield]")? else {
+        return Ok(Default::default());
+    };
+    let mut known = vec!["rule"];
+    known.extend(CONSTANTS.map(|(name, _)| name));
+    section.allow(&known);
+    let rule = section.get("rule");
+    let rule = rule.map(|entry| section.faults().note(entry.word(&ShieldRule::NAMES)));
+    let first: Option<Entry> = CONSTANTS.iter().find_map(|(name, _)| section.get(name));
+    let keys = ShieldKeys {
+        constants: constants(&section)?,
+        present: first.map(|entry| (true, entry.key_span())),
+    };
+    Ok((rule.transpose()?.unwrap_or_default(), keys))
+}
+
+fn constants(section: &Section) -> Result<[Option<f64>; CONSTANTS.len()]> {
+    let mut values = [None; CONSTANTS.len()];
+    let read = CONSTANTS.map(|(name, quantity)| {
+        let number = section.number(name, quantity);
+        section.faults().note(number)
+    });
+    for (value, read) in values.iter_mut().zip(read) {
+        *value = read?;
+    }
+    Ok(values)
+}

@@ -1,0 +1,257 @@
+//! Designs to start from, written to measure: sound as they are.
+
+mod code;
+mod shape;
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use super::quantity::{four_digits, rounded_down};
+use super::{Design, DesignError};
+use physics::tile::barcode::Barcode;
+
+use code::code;
+pub use shape::Shape;
+
+/// Magnets that are sold (m): along the axis, along the face, through the thickness.
+const BLOCKS: [[f64; 3]; 5] = [
+    [0.010, 0.010, 0.003],
+    [0.008, 0.008, 0.003],
+    [0.005, 0.005, 0.002],
+    [0.003, 0.003, 0.002],
+    [0.002, 0.002, 0.001],
+];
+/// Widest spacing of magnets (m), that of the paper's tile.
+const WIDEST: f64 = 0.040;
+/// Least spacing, in widths of a magnet, and that of the smallest magnets: closer ones hardly tell
+/// one code from another.
+const CLOSE: f64 = 2.0;
+const CLOSEST: f64 = 1.6;
+/// Length of a code over that of its side, as on the paper's tile, where the magnets' sizes leave
+/// the choice: from farther apart, single magnets catch what comes from elsewhere (a square with
+/// four magnets over three quarters of its side captures 24 % of far starts, over a quarter 44 %).
+const COMPACT: f64 = 0.28;
+/// A code of fewer gaps than this is shorter.
+const GAPS: usize = 3;
+/// Least way from a tile's middle to its faces, in magnets: what lies on one face is not to act
+/// through the tile on others.
+const ACROSS: f64 = 8.0;
+/// Largest radius of a tile (m).
+const LARGEST: f64 = 1.5;
+/// Share of a face that magnets may take.
+const USED: f64 = 0.85;
+/// Mass of the paper's tile over its volume (kg / m^3).
+const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
+/// Most sides: with more, a tile is a disc, and its faces can hardly be told apart.
+const MOST_SIDES: u32 = 24;
+/// Most magnets: the codes for more are not searched here.
+const MOST_MAGNETS: usize = 16;
+
+/// What a design to start from is to be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Sides of both tiles.
+    pub sides: u32,
+    /// Length of a side (m).
+    pub side: f64,
+    /// Magnets on each target face.
+    pub magnets: usize,
+    /// The line of the target faces.
+    pub shape: Shape,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            sides: 4,
+            side: 0.43,
+            magnets: 4,
+            shape: Shape::Tab,
+        }
+    }
+}
+
+/// Why there is no such design, and what to ask for instead.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{wrong}\n  help: {mend}")]
+pub struct StartError {
+    wrong: String,
+    mend: String,
+}
+
+fn wrong(wrong: impl Into<String>, mend: impl Into<String>) -> StartError {
+    StartError {
+        wrong: wrong.into(),
+        mend: mend.into(),
+    }
+}
+
+impl Start {
+    /// The text of a design file called `name`: magnets spaced and sized about as on the paper's
+    /// tile, with the code that slides least into wrong places, on the target faces alone.
+    ///
+    /// # Errors
+    /// Where there is no such tile or no room for the magnets.
+    pub fn design(&self, name: &str) -> Result<String, StartError> {
+        self.check()?;
+        let mut last = None;
+        for (block, pitch) in self.rows() {
+            // As far behind the surface as curved lines need, and no farther.
+            for inset in (0..=8).map(|k| tenths(block[0] * f64::from(k) / 10.0)) {
+                let text = self.text(name, block, pitch, inset);
+                match Design::parse(&text, name) {
+                    Ok(design) if design.warnings.is_empty() => return Ok(text),
+                    Ok(design) => last = design.warnings.into_iter().next(),
+                    Err(fault) => last = Some(fault),
+                }
+            }
+        }
+        Err(self.no_room(last))
+    }
+
+    /// Magnets with their spacings (m), the best first.
+    fn rows(&self) -> Vec<([f64; 3], f64)> {
+        let inner = self.radius() * libm::cos(PI / f64::from(self.sides));
+        let smallest = BLOCKS[BLOCKS.len() - 1];
+        let gaps = self.magnets.max(2) - 1;
+        let wanted = (COMPACT * self.side / gaps.max(GAPS) as f64).min(WIDEST);
+        let fits = |block: &[f64; 3]| block[0] <= inner / ACROSS && CLOSE * block[1] <= wanted;
+        let blocks = BLOCKS.into_iter().filter(|b| fits(b) || *b == smallest);
+        let rows = blocks.flat_map(|block| {
+            let room = (USED * self.side - block[1]) / gaps as f64;
+            let least = CLOSEST * block[1];
+            // Closer ones keep clear of flanks, and so may wider ones.
+            let pitches = [1.0, 0.9, 0.8, 0.7, 1.2, 1.5];
+            let pitches = pitches.map(|share| tenths(share * wanted.max(least)));
+            let pitches = pitches.into_iter();
+            let allowed = pitches.filter(move |pitch| (least..=room).contains(pitch));
+            allowed.map(move |pitch| (block, pitch))
+        });
+        rows.collect()
+    }
+
+    fn check(&self) -> Result<(), StartError> {
+        let Self {
+            sides,
+            side,
+            magnets,
+            ..
+        } = *self;
+        if !(3..=MOST_SIDES).contains(&sides) {
+            let fault = format!("a tile of {sides} sides cannot be started from");
+            return Err(wrong(fault, format!("give 3 to {MOST_SIDES}: --sides 6")));
+        }
+        if !(1..=MOST_MAGNETS).contains(&magnets) {
+            return Err(wrong(
+                format!("{magnets} magnets on a face are none or too many to choose a code for"),
+                format!(
+                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start from fewer and edit the code"
+                ),
+            ));
+        }
+        let largest = rounded_down(LARGEST * side / self.radius());
+        if !(0.01..=largest).contains(&side) {
+            return Err(wrong(
+                format!("{sides} sides of {side} m make no tile that can be held and floated"),
+                format!("give sides of 0.01 to {largest} m: --side 0.12, or --side \"12 cm\""),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Of the circle through the corners (m).
+    fn radius(&self) -> f64 {
+        self.side / (2.0 * libm::sin(PI / f64::from(self.sides)))
+    }
+
+    fn no_room(&self, fault: Option<DesignError>) -> StartError {
+        let smallest = BLOCKS[BLOCKS.len() - 1][1];
+        let spacing = CLOSEST * smallest;
+        let most = ((USED * self.side - smallest) / spacing).floor().max(0.0) + 1.0;
+        let needed = (spacing * (self.magnets - 1) as f64 + smallest) / USED;
+        let side = (needed * 1e3).ceil() / 1e3;
+        match fault {
+            Some(fault) if needed <= self.side => wrong(
+                format!("the magnets do not fit into this shape: {}", fault.message),
+                "ask for fewer --magnets, a longer --side, or --shape flat",
+            ),
+            _ => wrong(
+                format!(
+                    "{} magnets have no room on a side of {} m",
+                    self.magnets, self.side
+                ),
+                format!("ask for --magnets {most} or fewer, or for --side {side} or longer"),
+            ),
+        }
+    }
+
+    fn text(&self, name: &str, block: [f64; 3], pitch: f64, inset: f64) -> String {
+        let Self {
+            sides,
+            side,
+            magnets,
+            shape,
+        } = *self;
+        let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
+        let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
+        let mass = four_digits(DENSITY * area * thickness);
+        let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;
+        let (from, to) = match sides {
+            4 => ("east".to_owned(), "west".to_owned()),
+            _ => ("0".to_owned(), (sides / 2).to_string()),
+        };
+        let code = code(magnets);
+        let mate = Barcode::parse(&code).map_or(String::new(), |code| code.mate().to_string());
+        let (profile, how) = match shape.profile(side) {
+            Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
+            None => Default::default(),
+        };
+        let size = block.map(|x| x.to_string()).join(", ");
+        let tile =
+            format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
+        let mut text = String::new();
+        let _ = write!(
+            text,
+            "\
+# Lengths are in m, masses in kg, fields in T, angles in rad; \"12 cm\" and \"30 deg\" are read too.
+# All keys with remarks: tilebind init -
+
+name = \"{name}\"
+description = \"tiles of {sides} sides that bind{how}\"
+
+[table]
+size = [{table}, {table}]
+
+[magnet]
+size = [{size}]  # along its axis, along the face, through the thickness
+remanence = 1.2
+pitch = {pitch}                  # centre to centre along the face
+inset = {inset}                  # from the face's surface to the magnet
+
+[fixed]
+{tile}
+
+# Faces are numbered counter-clockwise from the one towards +x, face 0. Only the faces that are to
+# bind carry magnets, so that nothing else binds as strongly.
+[fixed.faces]
+{from} = {{ code = \"{code}\"{profile} }}
+
+[moving]
+{tile}
+
+[moving.faces]
+{to} = {{ mates = \"{from}\" }}     # the exact complement: its code is {mate}
+
+[target]
+fixed = \"{from}\"
+moving = \"{to}\"
+"
+        );
+        text
+    }
+}
+
+/// Down to tenths of a millimetre.
+fn tenths(length: f64) -> f64 {
+    four_digits((length * 1e4 + 1e-6).floor() / 1e4)
+}

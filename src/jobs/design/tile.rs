@@ -1,0 +1,190 @@
+//! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
+
+use super::base::{self, Base};
+use super::face::{FaceContent, FaceEntry, find_face};
+use super::magnet::MagnetKeys;
+use super::quantity::{self, four_digits};
+use super::reader::{Entry, Result, Section};
+use super::shield::ShieldKeys;
+use physics::potential::shielding::Shield;
+
+/// The two tiles' names, in the order in which they are stored.
+pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
+
+/// The keys of `[fixed]` and `[moving]`.
+pub(super) const TILE_KEYS: [&str; 8] = [
+    "side",
+    "sides",
+    "vertices",
+    "outline",
+    "thickness",
+    "mass",
+    "faces",
+    "shield",
+];
+
+/// What the file says of one tile.
+pub(super) struct TileEntry<'a> {
+    /// `fixed` or `moving`.
+    pub name: &'static str,
+    pub section: Section<'a>,
+    pub base: Base,
+    /// m.
+    pub thickness: f64,
+    /// Where the file says how heavy the tile is, and what it says (kg).
+    pub mass: Option<(Entry<'a>, f64)>,
+    faces: Vec<FaceEntry<'a>>,
+}
+
+impl<'a> TileEntry<'a> {
+    pub fn read(name: &'static str, section: Section<'a>, faces_name: &'a str) -> Result<Self> {
+        section.allow(&TILE_KEYS);
+        let faults = section.faults();
+        let base = faults.note(base::read(&section));
+        let thickness = faults.note(thickness(&section));
+        let mass = faults.note(mass(&section));
+        let base = base?;
+        let faces = match section.section("faces", faces_name)? {
+            Some(faces) => face_entries(&faces, &base)?,
+            None => vec![FaceEntry::new(None, None)?; base.faces.len()],
+        };
+        Ok(Self {
+            name,
+            section,
+            base,
+            // Faulty ones are told and never built with.
+            thickness: thickness.unwrap_or(0.0),
+            mass: mass.ok(),
+            faces,
+        })
+    }
+}
+
+fn thickness(section: &Section) -> Result<f64> {
+    let help = "say how thick the tile is: thickness = 0.013 (m)";
+    let entry = section.require("thickness", help)?;
+    entry.number(quantity::TILE_THICKNESS)
+}
+
+fn mass<'a>(section: &Section<'a>) -> Result<(Entry<'a>, f64)> {
+    let entry = section.require("mass", "say how heavy the tile is: mass = 0.1 (kg)")?;
+    Ok((entry, entry.number(quantity::MASS)?))
+}
+
+impl TileEntry<'_> {
+    /// The shield of each face, where `lower` is what the file says of all tiles.
+    pub fn shields(&self, lower: ShieldKeys) -> Result<Vec<Option<Shield>>> {
+        let keys = self.shield_keys(lower)?;
+        keys.iter()
+            .zip(&self.base.faces)
+            .map(|(keys, face)| keys.shield(&self.section, self.name, &face.name))
+            .collect()
+    }
+
+    /// All that the file says of each face's shield.
+    pub fn shield_keys(&self, lower: ShieldKeys) -> Result<Vec<ShieldKeys>> {
+        let lower = ShieldKeys::read(&self.section, "a tile's `shield`")?.over(lower);
+        self.faces
+            .iter()
+            .map(|face| Ok(face.shield_keys()?.over(lower)))
+            .collect()
+    }
+}
+
+/// Sorts the entries of `[*.faces]` by the faces that they speak of.
+fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<'a>>> {
+    let mut known = vec!["all"];
+    known.extend(base.names.iter().flatten().map(String::as_str));
+    section.allow(&known);
+    let all = section.section("all", "`all`")?;
+    let entries: Vec<Entry<'a>> = section.entries();
+    let faces: Vec<_> = base
+        .names
+        .iter()
+        .map(|names| {
+            let named: Vec<_> = entries
+                .iter()
+                .filter(|entry| names.iter().any(|name| name == entry.key))
+                .collect();
+            if let [first, second, ..] = named.as_slice() {
+                return Err(second.key_error(
+                    format!("`{}` and `{}` are the same face", first.key, second.key),
+                    "keep one of the two",
+                ));
+            }
+            let own = named
+                .first()
+                .map(|entry| entry.section(entry.key))
+                .transpose()?;
+            FaceEntry::new(own, all)
+        })
+        .map(|face| section.faults().note(face))
+        .collect();
+    faces.into_iter().collect()
+}
+
+/// The content of every face of both tiles; mates are followed to the face that they copy.
+pub(super) fn resolve(tiles: &[TileEntry; 2], keys: MagnetKeys) -> Result<[Vec<FaceContent>; 2]> {
+    let contents = |tile: usize| {
+        (0..tiles[tile].faces.len())
+            .map(|face| {
+                let content = resolve_face(tiles, keys, (tile, face), &mut Vec::new());
+                tiles[tile].section.faults().note(content)
+            })
+            .collect::<Vec<_>>()
+    };
+    let [fixed, moving] = [contents(0), contents(1)];
+    let all = |contents: Vec<Result<_>>| contents.into_iter().collect::<Result<Vec<_>>>();
+    Ok([all(fixed)?, all(moving)?])
+}
+
+fn resolve_face(
+    tiles: &[TileEntry; 2],
+    keys: MagnetKeys,
+    (tile, face): (usize, usize),
+    on_the_way: &mut Vec<(usize, usize)>,
+) -> Result<FaceContent> {
+    let entry = &tiles[tile].faces[face];
+    let base = &tiles[tile].base.faces[face];
+    let Some(mates) = entry.mates() else {
+        let line = &tiles[tile].base.lines[face];
+        return entry.content((base.length(), line), keys, tiles[tile].section.span());
+    };
+    let other = 1 - tile;
+    let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;
+    on_the_way.push((tile, face));
+    if on_the_way.contains(&(other, partner)) {
+        return Err(mates.error(
+            format!(
+                "{} mates {}, which in the end mates {} again",
+                name(tiles, (tile, face)),
+                name(tiles, (other, partner)),
+                name(tiles, (tile, face))
+            ),
+            "give one of these faces a code and a profile of its own",
+        ));
+    }
+    let partner_length = tiles[other].base.faces[partner].length();
+    tiles[tile].section.faults().check_guesses()?;
+    if !same_length(base.length(), partner_length) {
+        return Err(mates.error(
+            format!(
+                "a face of {} m cannot mate a face of {} m",
+                four_digits(base.length()),
+                four_digits(partner_length)
+            ),
+            "mates need faces of equal length",
+        ));
+    }
+    let partner = resolve_face(tiles, keys, (other, partner), on_the_way)?;
+    entry.mate_of(&partner, &mates)
+}
+
+fn name(tiles: &[TileEntry; 2], (tile, face): (usize, usize)) -> String {
+    format!("{}.{}", TILES[tile], tiles[tile].base.faces[face].name)
+}
+
+/// Whether two lengths are the same but for rounding.
+pub(super) fn same_length(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.max(b)
+}

@@ -1,0 +1,157 @@
+//! What a design is, at a glance: its bond, the forces that hold it, and what is wrong with it.
+//!
+//! Nothing is searched here: the tiles are looked at where their target faces meet, and drawn apart
+//! along the face's normal. Whether they find each other, only an analysis tells.
+
+use crate::design::Design;
+use physics::configuration::Configuration;
+use physics::potential::{Interaction, MagnetModel};
+use physics::problem::{Meeting, Problem};
+
+/// Gaps at which the pull is taken.
+const SAMPLES: usize = 200;
+/// Largest gap as a multiple of the largest magnet's length or width.
+const FARTHEST: f64 = 5.0;
+
+/// A design at a glance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inspection {
+    /// Where the target faces coincide.
+    pub bound: Configuration,
+    /// As the design models its magnets, then as the other model does.
+    pub models: [Hold; 2],
+    /// Whether the moving tile can be drawn straight out of the bond.
+    pub comes_straight_out: bool,
+    /// Pairs of faces that bind as strongly as the target.
+    pub rivals: Vec<Meeting>,
+}
+
+/// How one model of the magnets has the bond hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// Which model.
+    pub model: MagnetModel,
+    /// U where the target faces coincide (J).
+    pub energy: f64,
+    /// Pull at contact along the target face's normal (N), positive where the tiles attract.
+    pub contact: f64,
+    /// Force along the face (N), counter-clockwise about the fixed tile, and torque about the
+    /// moving tile's reference point (N m).
+    pub along: f64,
+    /// See [`Self::along`].
+    pub torque: f64,
+    /// The largest pull on the way straight out (N): what it takes to part the tiles so.
+    pub pull_off: f64,
+    /// The gap (m) at which it is reached.
+    pub pull_off_gap: f64,
+}
+
+impl Inspection {
+    /// Looks at a design; some hundred energies of either model.
+    pub fn new(design: &Design) -> Self {
+        let problem = design.problem();
+        let own = design.interaction.model;
+        let other = match own {
+            MagnetModel::Dipole => MagnetModel::Cuboid,
+            MagnetModel::Cuboid => MagnetModel::Dipole,
+        };
+        let pulled = |gap: f64| pulled(design, gap);
+        let reach = largest_magnet(design) * FARTHEST;
+        let motion = |k: usize| pulled(reach.max(1e-3) * k as f64 / 8.0);
+        Self {
+            bound: design.pair.bound,
+            models: [own, other].map(|model| hold(design, model)),
+            comes_straight_out: comes_out(&problem, motion),
+            rivals: problem.rivals(),
+        }
+    }
+
+    /// What is wrong with the design, as sentences with their mends; its reader's doubts are told
+    /// elsewhere.
+    pub fn faults(&self, design: &Design) -> Vec<String> {
+        let mut faults = Vec::new();
+        let bond = self.models[0];
+        let no_magnets = largest_magnet(design) == 0.0;
+        if !no_magnets && bond.energy >= 0.0 {
+            faults.push(
+                "the target faces repel: make one the mate of the other (mates = \"FACE\"), or \
+                 reverse its code with N and S exchanged"
+                    .to_owned(),
+            );
+        } else if !no_magnets && bond.contact <= 0.0 {
+            faults.push(
+                "the target faces attract each other but are pushed apart at contact: look at \
+                 the codes' order and at `fit`"
+                    .to_owned(),
+            );
+        }
+        if !self.comes_straight_out {
+            faults.push(
+                "the shapes hook: the moving tile cannot be drawn straight out of the bond, nor \
+                 come straight in (a draft of 0 or more, or `fit`, lets it)"
+                    .to_owned(),
+            );
+        }
+        faults.extend(rivals(self.rivals.len()));
+        faults
+    }
+}
+
+/// That other pairs of faces bind as strongly as the target, if any does.
+pub fn rivals(count: usize) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some("1 other pair of faces binds as strongly: give it another code".to_owned()),
+        _ => Some(format!(
+            "{count} other pairs of faces bind as strongly: give them other codes"
+        )),
+    }
+}
+
+/// The moving tile drawn out of the bond by `gap` (m) along the target face's normal.
+fn pulled(design: &Design, gap: f64) -> Configuration {
+    let bound = design.pair.bound;
+    let out = bound.position() + design.pair.target_face().normal() * gap;
+    Configuration::new(out.x, out.y, bound.theta)
+}
+
+fn largest_magnet(design: &Design) -> f64 {
+    let magnets = design.pair.fixed.magnets.iter();
+    let sizes = magnets.map(|magnet| magnet.size[0].max(magnet.size[1]));
+    sizes.fold(0.0, f64::max)
+}
+
+/// Whether the straight motion over some configurations is free.
+fn comes_out(problem: &Problem, motion: impl Fn(usize) -> Configuration) -> bool {
+    (0..8).all(|k| problem.motion_is_free(&motion(k), &motion(k + 1)))
+}
+
+fn hold(design: &Design, model: MagnetModel) -> Hold {
+    let interaction = Interaction {
+        model,
+        ..design.interaction.clone()
+    };
+    let pair = &design.pair;
+    let potential = interaction.between(&pair.fixed, &pair.moving).potential;
+    let face = pair.target_face();
+    let (energy, gradient) = potential.energy_and_gradient(&pair.bound);
+    let pull = |gap: f64| {
+        let (_, gradient) = potential.energy_and_gradient(&pulled(design, gap));
+        gradient.xy().dot(&face.normal())
+    };
+    let reach = largest_magnet(design) * FARTHEST;
+    let gaps = (0..SAMPLES).map(|k| reach * k as f64 / (SAMPLES - 1) as f64);
+    let pulls = gaps.map(|gap| (gap, pull(gap)));
+    let (pull_off_gap, pull_off) = pulls.fold((0.0, f64::NEG_INFINITY), |best, next| {
+        if next.1 > best.1 { next } else { best }
+    });
+    Hold {
+        model,
+        energy,
+        contact: pull(0.0),
+        along: -gradient.xy().dot(&face.tangent()),
+        torque: -gradient.z,
+        pull_off,
+        pull_off_gap,
+    }
+}

@@ -1,0 +1,27 @@
+//! From a design file to what is asked of it: each job in one call, its result as plain data.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
+//! | [`inspection`], [`workshop`] | a design at a glance; a design to be made: outlines with pockets, the order of the magnets |
+//! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
+//! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
+//! | [`yields`] | what comes out of a shaken table |
+//! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
+//! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
+
+pub mod assembly;
+pub mod calibration;
+pub mod checksum;
+pub mod comparison;
+pub mod design;
+pub mod inspection;
+pub mod output;
+pub mod pipeline;
+pub mod query;
+pub mod sweep;
+pub mod workshop;
+pub mod yields;
+
+pub use design::Design;
+pub use pipeline::{Analysis, Settings};

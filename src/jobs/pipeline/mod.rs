@@ -1,0 +1,197 @@
+//! The main job in one readable page: from a design to its states, barriers and pathways.
+
+mod analysis;
+mod clock;
+mod settings;
+
+pub use analysis::{Analysis, Counts, Stage};
+pub use settings::Settings;
+
+pub(crate) use clock::Clock;
+
+use std::sync::Arc;
+
+use crate::design::Design;
+use physics::configuration::Configuration;
+use physics::dynamics::Body;
+use physics::dynamics::check::{self, BarrierCheck};
+use physics::landscape::certification::Certified;
+use physics::landscape::completeness::Search;
+use physics::landscape::survey::Survey;
+use physics::landscape::{Barrier, Claims, Inventory, Uncertified, capture, certification};
+use physics::observer::Observer;
+use physics::parallel;
+use physics::potential::{Interaction, MagnetModel};
+use physics::problem::Problem;
+use physics::roadmap::{Roadmap, RoadmapSettings};
+
+/// The main job. The same design and settings give the same result on any number of threads, unless a
+/// clock that was set ends a proof.
+pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
+    analyse_problem(design, design.problem(), settings, observer)
+}
+
+/// The same of a design's problem that has been set up.
+pub fn analyse_problem(
+    design: &Design,
+    problem: Problem,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Analysis {
+    let problem = Arc::new(problem);
+    let roadmap = settings.roadmap(&problem);
+    let mut clock = Clock::new(&problem, observer);
+
+    let (mut survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    clock.start("states that may be missing", 0.5);
+    let search = Search::run(&problem, &survey, &settings.completeness, observer);
+    let missed = search.as_ref().map_or_else(|_| Vec::new(), Search::missed);
+    if !missed.is_empty() {
+        survey.add(&problem, &missed, &settings.survey(&roadmap));
+    }
+    clock.start("capture shares", 0.6);
+    let far_starts = settings.far_starts();
+    let ends = capture::ends(&problem, &far_starts, survey.known());
+    let shallow = -settings.least_depth * problem.depth();
+    survey.add_rests(&problem, &ends, shallow, &settings.survey(&roadmap));
+    let arrivals = capture::arrivals(&problem, &far_starts, &ends);
+    survey.add_arrivals(&problem, &arrivals);
+    clock.start("states and barriers", 0.7);
+    let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
+    for repeat in 1..settings.repeats as u64 {
+        let mut again = roadmap;
+        again.milestones.seed += repeat;
+        let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
+        let other = Inventory::of_survey(&problem, &survey, settings.least_depth);
+        inventory.widen_spread(&problem, &other);
+    }
+    weigh_blocks(design, &mut inventory);
+    // What captures most is certified first.
+    inventory.count_captures(&problem, &ends);
+    clock.start("certificate", 0.75);
+    let certified = certify(&problem, &mut inventory, settings, observer);
+    inventory.leave_out_shallow(&problem, settings.least_depth);
+    let completeness = search.map(|search| search.conclude(&survey, &inventory));
+    let uncaptured = inventory.count_captures(&problem, &ends);
+    let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
+    let stages = clock.stop();
+    Analysis {
+        settings: settings.clone(),
+        roadmap,
+        bound: (design.pair.bound, problem.energy(&design.pair.bound)),
+        inventory,
+        completeness,
+        uncaptured,
+        ring: capture::ring(&problem),
+        uncertified: certified.err(),
+        certificate_ended: certified.ok().and_then(|certified| certified.ended),
+        dynamics,
+        counts: Counts {
+            energy_evaluations: problem.evaluations(),
+            cells: certified.map_or(0, |certified| certified.cells),
+            ..counts
+        },
+        stages,
+        problem,
+    }
+}
+
+/// Certifies the barriers that are claimed, and leaves out what that shows to be no trap; of what is
+/// left another trap may be the deepest, whose barriers are then claimed.
+fn certify(
+    problem: &Problem,
+    inventory: &mut Inventory,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Result<Certified, Uncertified> {
+    let asked = settings.certification();
+    let mut all = Certified::default();
+    loop {
+        let certified = certification::certify(problem, inventory, &asked, observer)?;
+        all.cells += certified.cells;
+        all.ended = all.ended.or(certified.ended);
+        let count = inventory.states.len();
+        inventory.leave_out_shallow(problem, settings.least_depth);
+        if settings.claims == Claims::All || inventory.states.len() == count {
+            return Ok(all);
+        }
+    }
+}
+
+/// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
+/// besides those that the faces suggest.
+pub(crate) fn survey(
+    problem: &Problem,
+    settings: &Settings,
+    roadmap: &RoadmapSettings,
+    guesses: &[Configuration],
+    clock: &mut Clock,
+) -> (Survey, Counts) {
+    let shares = |name| match name {
+        "milestones" => 0.0,
+        "neighbours" => 0.05,
+        _ => 0.06,
+    };
+    let built = Roadmap::untried(problem, roadmap, &mut |name| {
+        clock.start(name, shares(name))
+    });
+    let milestones = built.milestones.len();
+    let mut survey = Survey::of_roadmap(problem, built, &roadmap.edges);
+    clock.start("states and transition states", 0.4);
+    survey.explore(problem, guesses, &settings.survey(roadmap));
+    let counts = Counts {
+        milestones,
+        edges: survey.network.motions(problem),
+        transition_states: survey.transition_states.len(),
+        left_out: survey.left_out,
+        ..Counts::default()
+    };
+    (survey, counts)
+}
+
+/// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
+/// there (behind the same shields), so that nobody takes the dipoles' depth for the real one.
+fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
+    let blocks = Interaction {
+        model: MagnetModel::Cuboid,
+        ..design.interaction.clone()
+    };
+    if blocks == design.interaction {
+        return;
+    }
+    let blocks = blocks
+        .between(&design.pair.fixed, &design.pair.moving)
+        .potential;
+    let kinds = inventory.states.chunk_by_mut(|a, b| a.class == b.class);
+    parallel::for_each(&mut Vec::from_iter(kinds), |copies| {
+        let energy = blocks.energy(&copies[0].configuration);
+        for state in copies.iter_mut() {
+            state.block_energy = Some(energy);
+        }
+    });
+}
+
+/// What moving tiles say of the barriers that are claimed, if they are asked.
+fn check_barriers(
+    problem: &Problem,
+    inventory: &Inventory,
+    settings: &Settings,
+    observer: &dyn Observer,
+    clock: &mut Clock,
+) -> Option<Vec<BarrierCheck>> {
+    let pair = problem.pair.as_deref()?;
+    if settings.dynamics_runs == 0 {
+        return None;
+    }
+    clock.start("dynamics", 0.8);
+    let is_claimed = |barrier: &&Barrier| settings.claims.include(barrier, inventory);
+    let claimed: Vec<&Barrier> = inventory.barriers.iter().filter(is_claimed).collect();
+    Some(check::check(
+        problem,
+        Body::of_tile(&pair.moving),
+        &inventory.states,
+        &claimed,
+        &settings.check(),
+        &|done, count| observer.part("dynamics", done, count),
+    ))
+}

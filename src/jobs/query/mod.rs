@@ -1,0 +1,190 @@
+//! One barrier, asked for: from a pose of the moving tile to another, or to anywhere far apart.
+
+pub mod poses;
+mod ways;
+
+use crate::design::Design;
+use crate::pipeline::Settings;
+use physics::budget::Ended;
+use physics::configuration::Configuration;
+use physics::landscape::certificate::{Certifier, Effort, End};
+use physics::landscape::{Barrier, Place, Uncertified, certification};
+use physics::observer::Observer;
+use physics::problem::Problem;
+use ways::Search;
+
+/// Cells that the certificate may spend before a roadmap is asked for a way: worth about as much
+/// time as a roadmap.
+const CELLS_BEFORE_ROADMAP: usize = 100_000;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Query {
+    /// Where the way starts.
+    pub from: Configuration,
+    /// Where it ends.
+    pub to: End,
+    /// Settings of the roadmap from which the way is found, and what may be spent on the
+    /// certificate.
+    pub settings: Settings,
+    /// The certificate's bounds are narrowed to this width (J); a hundredth of the bond's depth
+    /// where `None`.
+    pub tolerance: Option<f64>,
+}
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// From the start, as state 0, to the end, as state 1 or `free`.
+    pub barrier: Barrier,
+    /// Why there are no bounds, where there are none.
+    pub uncertified: Option<Uncertified>,
+    /// What ended the certificate before the bounds were as narrow as was asked for.
+    pub ended: Option<Ended>,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum QueryError {
+    #[error(
+        "the tiles overlap by {:.4} mm at the pose {},{},{}: choose a pose whose clearance is not \
+         negative (`tilebind energy` prints it)", -1e3 * .1, .0.x, .0.y, .0.theta
+    )]
+    /// The tiles overlap at an end, with this clearance (m).
+    Overlap(Configuration, f64),
+    #[error(
+        "the pose {},{},{} lies off the table, which reaches to x = +-{} m and y = +-{} m",
+        .0.x, .0.y, .0.theta, .1[0], .1[1]
+    )]
+    /// An end lies off the table of this half size (m).
+    OffTheTable(Configuration, [f64; 2]),
+    /// Neither a way nor a proof that there is none was found.
+    #[error("no way was found, and none disproved: try more milestones")]
+    NoWay,
+}
+
+/// The barrier between two poses, or between a pose and far apart.
+///
+/// Where the energy can be bounded, the certificate comes first: it finds a way by itself, most
+/// often faster than a roadmap does, and the transition states near the way's peaks give the saddle
+/// to full accuracy. Where it is not narrow enough after a while, or where nothing can be certified,
+/// a roadmap as for the main job is surveyed with the two poses as further nodes, and its minimax
+/// pathway is the start from which the certificate goes on.
+///
+/// # Errors
+/// Where an end is off the table or the tiles overlap there, and where no way is found though none
+/// is disproved.
+pub fn barrier(
+    design: &Design,
+    query: &Query,
+    observer: &dyn Observer,
+) -> Result<Answer, QueryError> {
+    let problem = design.problem();
+    check(&problem, &query.from)?;
+    if let Some(to) = query.to.configuration() {
+        check(&problem, to)?;
+    }
+    let mut barrier = unknown_barrier(&problem, query);
+    let search = Search::new(&problem, query);
+    let certificate = Certificate::new(&problem, query, &search);
+    let uncertified = certificate.as_ref().err().copied();
+    let mut ended = None;
+    match certificate {
+        Ok(mut certificate) => {
+            observer.stage("certificate", 0.0);
+            let mut is_searched = false;
+            for width in certification::widths(problem.depth(), certificate.tolerance) {
+                if !is_searched {
+                    certificate.narrow(&mut barrier, width, CELLS_BEFORE_ROADMAP);
+                }
+                if barrier.bounds.width() <= width {
+                    continue;
+                }
+                if !is_searched {
+                    is_searched = true;
+                    barrier.lead_lower(search.through_roadmap(observer));
+                    observer.stage("certificate", 0.8);
+                }
+                certificate.narrow(&mut barrier, width, usize::MAX);
+                if barrier.bounds.width() > width {
+                    ended = certificate.certifier.ended();
+                    break;
+                }
+            }
+        }
+        Err(_) => barrier.lead_lower(search.through_roadmap(observer)),
+    }
+    if !barrier.has_way() && !barrier.bounds.caged {
+        return Err(QueryError::NoWay);
+    }
+    Ok(Answer {
+        barrier,
+        uncertified,
+        ended,
+    })
+}
+
+/// The barrier that is asked for, of which nothing is known yet.
+fn unknown_barrier(problem: &Problem, query: &Query) -> Barrier {
+    let from = (Place::State(0), problem.energy(&query.from));
+    let to = match &query.to {
+        End::At(to) => (Place::State(1), problem.energy(to)),
+        End::Free => (Place::Free, 0.0),
+    };
+    Barrier::without_a_way(from, query.from, to)
+}
+
+fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
+    if !problem.space.contains(q) {
+        return Err(QueryError::OffTheTable(*q, problem.space.half_size));
+    }
+    if !problem.is_clear(q) {
+        return Err(QueryError::Overlap(*q, problem.clearance(q)));
+    }
+    Ok(())
+}
+
+/// The certificate of one query.
+struct Certificate<'a> {
+    certifier: Certifier<'a>,
+    query: &'a Query,
+    search: &'a Search<'a>,
+    tolerance: f64,
+}
+
+impl<'a> Certificate<'a> {
+    fn new(
+        problem: &'a Problem,
+        query: &'a Query,
+        search: &'a Search<'a>,
+    ) -> Result<Self, Uncertified> {
+        let allowed = query.settings.certify;
+        let (contact, space) = (problem.contact.as_ref(), &problem.space);
+        Ok(Self {
+            certifier: Certifier::within(problem.bounds()?, contact, space, allowed)?,
+            query,
+            search,
+            tolerance: query.tolerance.unwrap_or(0.01 * problem.depth()),
+        })
+    }
+
+    /// Narrows the bounds to a width (J), until about so many cells have been assessed altogether,
+    /// and takes over the certificate's pathway, made finer, where it is lower.
+    fn narrow(&mut self, barrier: &mut Barrier, width: f64, cells: usize) {
+        let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+        let effort = Effort {
+            tolerance: width,
+            cells: cells.saturating_sub(self.certifier.assessed()),
+        };
+        let Query { from, to, .. } = self.query;
+        let bracket = self
+            .certifier
+            .bracket(from, to, &known, &effort)
+            .expect("both ends have been checked");
+        barrier.bounds.tighten(bracket.bounds);
+        let lower = |upper: f64| upper < barrier.saddle_energy;
+        if bracket.improved && bracket.bounds.upper.is_some_and(lower) {
+            barrier.lead_lower(self.search.near(&bracket.pathway));
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Poses from a CSV file.
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::design::{angle, length};
+use physics::configuration::Configuration;
+
+/// Names of the columns, each with those that other files of this program give it.
+const COLUMNS: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["theta", "theta_rad"]];
+
+/// Reads poses (m, m, rad; or with units, as `12 mm`), one a line: the columns x, y and theta where
+/// the first line names columns (others are passed over, so that a pathway is read too), or else
+/// three numbers. Empty lines and those that begin with `#` are skipped.
+///
+/// # Errors
+/// What is wrong, with the line, counted from 1.
+///
+/// ```
+/// use tilebind_jobs::query::poses;
+/// let all = poses::read("s,x,y,theta\n0,0.43,0,0\n1,44 cm,0,0\n").unwrap();
+/// assert_eq!(all[1].to_array(), [0.44, 0.0, 0.0]);
+/// assert_eq!(poses::read("0.43,0,0\n").unwrap().len(), 1);
+/// ```
+pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let mut columns = None;
+    let mut poses = Vec::new();
+    let mut record = StringRecord::new();
+    // Text that is in memory cannot fail to be read.
+    while reader.read_record(&mut record).unwrap_or(false) {
+        let line = record.position().map_or(0, csv::Position::line);
+        if columns.is_none() {
+            let names = named(&record).map_err(|wrong| format!("line {line}: {wrong}"))?;
+            columns = Some(names.unwrap_or([0, 1, 2]));
+            if names.is_some() {
+                continue;
+            }
+        }
+        let pose = pose(&record, columns.unwrap_or_default());
+        poses.push(pose.map_err(|wrong| format!("line {line}: {wrong}"))?);
+    }
+    if poses.is_empty() {
+        return Err("there are no poses in it; write a line x,y,theta and one for each".to_owned());
+    }
+    Ok(poses)
+}
+
+/// Where x, y and theta stand, if the line names columns.
+fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
+    if record
+        .iter()
+        .all(|entry| length(entry).is_some() || angle(entry).is_some())
+    {
+        return Ok(None);
+    }
+    let mut places = [0; 3];
+    for (place, names) in places.iter_mut().zip(COLUMNS) {
+        let found = record.iter().position(|entry| names.contains(&entry));
+        *place = found.ok_or_else(|| {
+            format!(
+                "there is no column `{}`; name the columns x,y,theta",
+                names[0]
+            )
+        })?;
+    }
+    Ok(Some(places))
+}
+
+fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, String> {
+    let entry = |k: usize| {
+        let [name, _] = COLUMNS[k];
+        record
+            .get(columns[k])
+            .ok_or_else(|| format!("there is no {name}; a pose is x,y,theta"))
+    };
+    let wrong = |k: usize, text: &str, unit: &str| {
+        let [name, _] = COLUMNS[k];
+        format!("{name} is `{text}`, which is no number in {unit}")
+    };
+    let metres = |k: usize| {
+        let text = entry(k)?;
+        length(text).ok_or_else(|| wrong(k, text, "m"))
+    };
+    let [x, y] = [metres(0)?, metres(1)?];
+    let text = entry(2)?;
+    let theta = angle(text).ok_or_else(|| wrong(2, text, "rad"))?;
+    Ok(Configuration::from([x, y, theta]))
+}

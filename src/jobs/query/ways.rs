@@ -1,0 +1,207 @@
+//! Ways between the ends of a query: from a roadmap, or from a certificate's pathway.
+
+use ordered_float::OrderedFloat;
+use std::cell::OnceCell;
+use std::cmp::Reverse;
+use std::collections::HashSet;
+
+use nalgebra::Vector3;
+
+use super::Query;
+use crate::pipeline::{self, Clock};
+use physics::configuration::Configuration;
+use physics::landscape::capture::FarStarts;
+use physics::landscape::certificate::End;
+use physics::landscape::constrained::Point;
+use physics::landscape::minimum::descend;
+use physics::landscape::pathway::{self, Limits};
+use physics::landscape::survey::Survey;
+use physics::landscape::{Pathway, capture, highest_point};
+use physics::observer::Observer;
+use physics::order::Order;
+use physics::problem::{Problem, Symmetry};
+use physics::roadmap::{Milestone, Roadmap, RoadmapSettings, edge};
+
+/// Nodes of the network to which an end is joined by straight motions, where these are free.
+const JOINED: usize = 40;
+/// Energy tolerance of pathways, as a fraction of the bond's depth.
+const BEND: f64 = 1e-3;
+/// So many peaks of a pathway are looked at for transition states, the highest first.
+const PEAKS: usize = 8;
+/// The direction in which a peak is passed is that between the points so far (m) from it.
+const PASSING: f64 = 2e-3;
+
+/// Far starts of which those are followed that end where a way to `free` starts.
+const FAR_STARTS: usize = 100;
+
+/// Looks for ways between the two ends of a query.
+pub(super) struct Search<'a> {
+    problem: &'a Problem,
+    query: &'a Query,
+    roadmap: RoadmapSettings,
+    /// Far starts, each with where it comes to rest; made when they are first asked for.
+    arrivals: OnceCell<Vec<(Configuration, Configuration)>>,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(problem: &'a Problem, query: &'a Query) -> Self {
+        Self {
+            problem,
+            query,
+            roadmap: query.settings.roadmap(problem),
+            arrivals: OnceCell::new(),
+        }
+    }
+
+    /// Adds the ways in which far starts come to rest, where the way that is asked for leads to
+    /// `free`.
+    fn add_arrivals(&self, survey: &mut Survey) {
+        if self.query.to != End::Free {
+            return;
+        }
+        let arrivals = self.arrivals.get_or_init(|| {
+            let far_starts = FarStarts {
+                count: FAR_STARTS,
+                seed: self.query.settings.seed,
+            };
+            let known = survey.known();
+            let ends = capture::ends(self.problem, &far_starts, known);
+            capture::arrivals(self.problem, &far_starts, &ends)
+        });
+        survey.add_arrivals(self.problem, arrivals);
+    }
+
+    /// The minimax pathway that a roadmap holds; empty where it holds none.
+    pub fn through_roadmap(&self, observer: &dyn Observer) -> Pathway {
+        let Query { from, settings, .. } = self.query;
+        let guesses: Vec<Configuration> = [Some(from), self.query.to.configuration()]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect();
+        let mut clock = Clock::new(self.problem, observer);
+        let (mut survey, _) =
+            pipeline::survey(self.problem, settings, &self.roadmap, &guesses, &mut clock);
+        let from = self.attach(&mut survey, from);
+        let to = match &self.query.to {
+            End::At(to) => self.attach(&mut survey, to),
+            End::Free => survey.free,
+        };
+        self.add_arrivals(&mut survey);
+        self.lowest(&survey, from, to)
+    }
+
+    /// The minimax pathway near a proved one, which a certificate drew no finer than its bounds:
+    /// along the descents from the transition states at its peaks, where these lead from end to
+    /// end, and nowhere higher than the proved one.
+    pub fn near(&self, proved: &[Configuration]) -> Pathway {
+        let depth = self.problem.depth();
+        let proved = pathway::of_configurations(self.problem, proved, BEND * depth);
+        let highest = highest_point(&proved).map_or(f64::INFINITY, |point| point.energy);
+        let proved: Vec<Configuration> = proved.iter().map(|p| p.configuration).collect();
+        let limits = Limits::below(highest + 1e-9 * depth, depth);
+        let proved = pathway::shortened(self.problem, &proved, &limits);
+        let proved = pathway::of_configurations(self.problem, &proved, BEND * depth);
+        let points: Vec<Point> = proved
+            .iter()
+            .map(|p| Point::new(self.problem, p.configuration))
+            .collect();
+        let Some(last) = points.last().copied() else {
+            return Pathway::new();
+        };
+        let peaks = peaks(self.problem, &points);
+        let mut survey = Survey::of_roadmap(self.problem, Roadmap::default(), &self.roadmap.edges);
+        let from = self.attach(&mut survey, &self.query.from);
+        let to = match &self.query.to {
+            End::At(to) => self.attach(&mut survey, to),
+            End::Free => {
+                let node = survey.network.add_node(Some((last.q, last.energy)));
+                survey.network.add_same(node, survey.free, last.energy);
+                node
+            }
+        };
+        survey.network.add_way(self.problem, from, to, points);
+        survey.add_transition_states_near(self.problem, &peaks, &[Symmetry::IDENTITY]);
+        self.add_arrivals(&mut survey);
+        let goal = match self.query.to {
+            End::At(_) => to,
+            End::Free => survey.free,
+        };
+        self.lowest(&survey, from, goal)
+    }
+
+    fn lowest(&self, survey: &Survey, from: usize, to: usize) -> Pathway {
+        let goal = HashSet::from([to]);
+        pathway::lowest(
+            self.problem,
+            &survey.network,
+            from,
+            [&goal, &goal],
+            [self.problem.depth(), BEND * self.problem.depth()],
+        )
+        .map_or_else(Pathway::new, |lowest| lowest.pathway)
+    }
+
+    /// Adds a configuration to the network, joined by its descent and by the straight motions to
+    /// the nearest nodes.
+    fn attach(&self, survey: &mut Survey, q: &Configuration) -> usize {
+        let problem = self.problem;
+        let near = self.nearest(survey, q);
+        let node = survey.network.add_node(Some((*q, problem.energy(q))));
+        let mut milestones = vec![Milestone::new(problem, *q)];
+        milestones.extend(
+            near.iter()
+                .map(|(_, other)| Milestone::new(problem, *other)),
+        );
+        let pairs: Vec<(u32, u32)> = (1..milestones.len() as u32).map(|k| (0, k)).collect();
+        for found in edge::edges(problem, &milestones, &pairs, &self.roadmap.edges) {
+            let other = near[found.to as usize - 1].0;
+            survey.network.add_motion(node, other, found.costs);
+        }
+        if problem.space.is_far(q) {
+            survey
+                .network
+                .add_same(node, survey.free, problem.energy(q));
+            return node;
+        }
+        let descent = descend(problem, q);
+        if let Some(end) = survey.arrive(problem, &descent) {
+            survey.network.add_way(problem, node, end, descent.way);
+        }
+        node
+    }
+
+    /// The nodes nearest to a configuration, with theirs.
+    fn nearest(&self, survey: &Survey, q: &Configuration) -> Vec<(usize, Configuration)> {
+        let nodes = survey.network.nodes.iter().enumerate();
+        let mut near: Vec<(f64, usize, Configuration)> = nodes
+            .filter_map(|(number, known)| {
+                let other = (*known)?.0;
+                Some((self.problem.space.distance(q, &other), number, other))
+            })
+            .collect();
+        near.order_by_key(|near| (OrderedFloat(near.0), near.1));
+        near.truncate(JOINED);
+        near.into_iter().map(|(_, number, q)| (number, q)).collect()
+    }
+}
+
+/// The highest inner peaks of a way, each with the direction in which the way passes it, read off
+/// the points some way before and after.
+fn peaks(problem: &Problem, points: &[Point]) -> Vec<(Configuration, Vector3<f64>)> {
+    let mut peaks: Vec<usize> = (1..points.len().saturating_sub(1))
+        .filter(|&i| {
+            let energy = |k: usize| points[k].energy;
+            energy(i) > energy(i - 1) && energy(i) >= energy(i + 1)
+        })
+        .collect();
+    peaks.order_by_key(|&peak| Reverse(OrderedFloat(points[peak].energy)));
+    peaks.truncate(PEAKS);
+    let passed = |i: usize| {
+        let off = |point: &&Point| problem.space.distance(&point.q, &points[i].q) >= PASSING;
+        let before = points[..i].iter().rev().find(off).unwrap_or(&points[0]);
+        let after = points[i..].iter().find(off).or(points.last());
+        after.map(|after| (points[i].q, before.q.step_to(&after.q)))
+    };
+    peaks.into_iter().filter_map(passed).collect()
+}

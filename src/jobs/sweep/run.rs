@@ -1,0 +1,95 @@
+//! Working on points.
+
+use std::any::Any;
+use std::collections::HashSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::plan::Plan;
+use super::point::Point;
+use super::store::Outcome;
+use crate::comparison;
+use physics::interruption;
+use physics::observer::Silent;
+
+/// Works on points, `threads` of them at a time while there are that many; `finished` is told of
+/// each, from any thread. Points of the same name are worked on once.
+///
+/// # Errors
+/// The first error of `finished`, after which no further point is begun.
+pub fn run<E: Send>(
+    plan: &Plan,
+    points: &[Point],
+    threads: usize,
+    finished: impl Fn(&Point, &Outcome) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    let mut names = HashSet::new();
+    let points: Vec<&Point> = points.iter().filter(|p| names.insert(&p.name)).collect();
+    let workers = threads.clamp(1, points.len().max(1));
+    let next = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let failure = Mutex::new(None);
+    let work = || {
+        while !stopped.load(Ordering::Relaxed) {
+            let Some(point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                return;
+            };
+            let Some(outcome) = outcome(plan, point) else {
+                stopped.store(true, Ordering::Relaxed);
+                return;
+            };
+            if let Err(error) = finished(point, &outcome) {
+                stopped.store(true, Ordering::Relaxed);
+                let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
+                failure.get_or_insert(error);
+            }
+        }
+    };
+    // A pool of its own for each worker: in a shared one, a worker that waits for part of its
+    // point would begin another point meanwhile.
+    let interruption = interruption::current();
+    let pool = || interruption::pool(threads / workers, interruption.clone());
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| match pool() {
+                Ok(pool) => pool.install(work),
+                // Without a pool of its own the worker uses the common one.
+                Err(_) => work(),
+            });
+        }
+    });
+    interruption::check();
+    let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
+    failure.map_or(Ok(()), Err)
+}
+
+/// What came of a point; `None` where the work was given up.
+fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
+    let assessed = catch_unwind(AssertUnwindSafe(|| {
+        let design = plan.design(point)?;
+        Ok(comparison::assess(
+            &design,
+            &plan.settings,
+            point.seed,
+            &Silent,
+        ))
+    }));
+    Some(match assessed {
+        Ok(Ok(result)) => Outcome::Done {
+            result: Box::new(result),
+        },
+        Ok(Err(reason)) => Outcome::Impossible { reason },
+        Err(fault) if interruption::is_interrupted(fault.as_ref()) => return None,
+        Err(panic) => Outcome::Failed {
+            reason: message(panic.as_ref()),
+        },
+    })
+}
+
+/// What a panic says.
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "the analysis broke down".to_owned())
+}

@@ -1,0 +1,185 @@
+//! What is varied: a key of the design and the values it takes.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::design::{angle, length};
+
+/// Most points on a range.
+const MOST_VALUES: usize = 100_000;
+
+/// A value of a key.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// `true` or `false`.
+    Truth(bool),
+    /// A whole number, in the key's unit.
+    Whole(i64),
+    /// Any other finite number, in the key's unit.
+    Number(f64),
+    /// A word.
+    Text(String),
+}
+
+impl Value {
+    /// The value as it stands in a design file.
+    pub fn toml(&self) -> toml::Value {
+        match self {
+            Self::Truth(truth) => toml::Value::Boolean(*truth),
+            Self::Whole(whole) => toml::Value::Integer(*whole),
+            Self::Number(number) => toml::Value::Float(*number),
+            Self::Text(text) => toml::Value::String(text.clone()),
+        }
+    }
+
+    /// The value as a number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Whole(whole) => Some(*whole as f64),
+            Self::Number(number) => Some(*number),
+            Self::Truth(_) | Self::Text(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Truth(truth) => truth.fmt(f),
+            Self::Whole(whole) => whole.fmt(f),
+            Self::Number(number) => number.fmt(f),
+            Self::Text(text) => text.fmt(f),
+        }
+    }
+}
+
+/// A key by its dotted path, such as `fixed.faces.east.profile.depth`, and its values in order. A
+/// number in the path counts the items of an array from 0.
+///
+/// Written as `KEY=a:b:n`, n evenly spaced numbers from a to b (`0 mm:30 mm:4` too), or as a list `KEY=v,w,...` of
+/// numbers, `true` and `false`, and words; a word that looks like a number goes in double quotes.
+///
+/// ```
+/// use tilebind_jobs::sweep::{Axis, Value};
+/// let axis: Axis = "fixed.faces.east.profile.depth=0:0.03:4".parse()?;
+/// let values: Vec<String> = axis.values.iter().map(Value::to_string).collect();
+/// assert_eq!(values, ["0", "0.01", "0.02", "0.03"]);
+/// let axis: Axis = "potential.model=dipole,cuboid".parse()?;
+/// assert_eq!(axis.values[1], Value::Text("cuboid".into()));
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// The dotted path.
+    pub key: String,
+    /// In the order of the sweep.
+    pub values: Vec<Value>,
+}
+
+impl Axis {
+    /// The last part of its path.
+    pub fn name(&self) -> &str {
+        self.key.rsplit('.').next().unwrap_or(&self.key)
+    }
+
+    /// Its values as numbers, if all are.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        self.values.iter().map(Value::number).collect()
+    }
+}
+
+impl std::str::FromStr for Axis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        const FORM: &str = "write KEY=a:b:n, such as fixed.faces.east.profile.depth=0:0.05:11, or \
+                            KEY=v,w,..., such as potential.model=dipole,cuboid";
+        let (key, values) = text.split_once('=').ok_or(FORM)?;
+        let key = key.trim();
+        if key.is_empty() || key.split('.').any(|part| part.trim().is_empty()) {
+            return Err(format!("`{key}` is no dotted path; {FORM}"));
+        }
+        let values = match values.split(':').collect::<Vec<_>>()[..] {
+            [from, to, count] => range(from, to, count)?,
+            [from, to] if !values.contains('"') && end(from).is_ok() && end(to).is_ok() => {
+                return Err(format!(
+                    "`{values}` does not say how many values: write {key}={values}:11 for 11 of them"
+                ));
+            }
+            _ => values
+                .split(',')
+                .map(|word| value(word.trim()))
+                .collect::<Result<_, _>>()?,
+        };
+        Ok(Self {
+            key: key.to_owned(),
+            values,
+        })
+    }
+}
+
+/// `count` evenly spaced numbers; whole ones where all of them are and both ends are written so.
+fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
+    let (first, last) = (end(from)?, end(to)?);
+    let steps = count.trim().parse().ok();
+    let count: usize = steps
+        .filter(|n| (1..=MOST_VALUES).contains(n))
+        .ok_or_else(|| format!("`{count}` is no whole number from 1 to {MOST_VALUES}"))?;
+    let number = |k: usize| {
+        let share = k as f64 / (count - 1).max(1) as f64;
+        let value = rounded(first + (last - first) * share);
+        // Where the ends cancel, what is left is rounding: -0.01:0.02:4 passes through 0.
+        if value.abs() < 1e-12 * first.abs().max(last.abs()) {
+            0.0
+        } else {
+            value
+        }
+    };
+    let numbers: Vec<f64> = (0..count).map(number).collect();
+    let written_whole = [from, to].iter().all(|t| t.trim().parse::<i64>().is_ok());
+    let whole = written_whole && numbers.iter().all(|x| x.fract() == 0.0 && x.abs() < 1e15);
+    let value = |x: f64| {
+        if whole {
+            Value::Whole(x as i64)
+        } else {
+            Value::Number(x)
+        }
+    };
+    Ok(numbers.into_iter().map(value).collect())
+}
+
+/// A number, or a length or an angle with its unit.
+pub(super) fn number(text: &str) -> Option<f64> {
+    length(text).or_else(|| angle(text))
+}
+
+/// An end of a range.
+fn end(text: &str) -> Result<f64, String> {
+    number(text).ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
+}
+
+/// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
+pub(super) fn rounded(value: f64) -> f64 {
+    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    rounded + 0.0
+}
+
+fn value(word: &str) -> Result<Value, String> {
+    if let Some(quoted) = word.strip_prefix('"').and_then(|w| w.strip_suffix('"')) {
+        return Ok(Value::Text(quoted.to_owned()));
+    }
+    if word.is_empty() {
+        return Err("a value of the list is missing".to_owned());
+    }
+    if let Ok(whole) = word.parse() {
+        return Ok(Value::Whole(whole));
+    }
+    Ok(match (word, word.parse::<f64>()) {
+        ("true", _) => Value::Truth(true),
+        ("false", _) => Value::Truth(false),
+        (_, Ok(number)) if number.is_finite() => Value::Number(number),
+        _ => Value::Text(word.to_owned()),
+    })
+}

@@ -1,0 +1,142 @@
+//! The lines of a tile that a cutter follows.
+
+use nalgebra::Vector2;
+
+use super::Making;
+use physics::tile::assembly::{FaceLine, assemble};
+use physics::tile::barcode::Pole;
+use physics::tile::{Face, Magnet, Tile};
+
+/// A wall (m) between pocket and rim that is thinner than this does not stand.
+const THINNEST: f64 = 5e-4;
+
+/// Why a part cannot be cut.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PartError {
+    /// The cutter is wider than details of the outline.
+    #[error("a cut {0} m wide is wider than details of the outline: use a narrower --kerf")]
+    Kerf(f64),
+    /// Nothing is left of a pocket.
+    #[error("a cut {0} m wide leaves no pocket for the magnets: use a narrower --kerf")]
+    Pocket(f64),
+}
+
+/// A tile as it is cut, in its own frame (m).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Where the cutter's middle runs around the tile, counter-clockwise.
+    pub outline: Vec<Vector2<f64>>,
+    /// A pocket for each magnet, in their order.
+    pub pockets: Vec<Pocket>,
+    /// Of the tile (m).
+    pub thickness: f64,
+}
+
+/// A pocket for one magnet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pocket {
+    /// `east 2`: the face, and which magnet of it, counter-clockwise from 1.
+    pub name: String,
+    /// Which pole points out of the face.
+    pub pole: Pole,
+    /// Where the cutter's middle runs, counter-clockwise.
+    pub corners: [Vector2<f64>; 4],
+    /// From the magnet's middle to its north pole (m).
+    pub north: Vector2<f64>,
+    /// The magnet's middle.
+    pub middle: Vector2<f64>,
+    /// How deep the pocket is milled from either side (m), so that the magnet lies midway.
+    pub depth: f64,
+    /// The least wall between the pocket and the tile's rim (m), below 0 where it breaks through.
+    pub wall: f64,
+}
+
+impl Pocket {
+    /// Whether the pocket opens through the tile's rim, or leaves a wall too thin to stand.
+    pub fn is_open(&self) -> bool {
+        self.wall < THINNEST
+    }
+
+    /// How much thicker its wall is to be (m).
+    pub fn wanting(&self) -> f64 {
+        (THINNEST - self.wall).max(0.0)
+    }
+}
+
+impl Part {
+    /// The lines for a tile.
+    ///
+    /// # Errors
+    /// Where the cut is too wide for the tile's details.
+    pub fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
+        let mut pockets = Vec::new();
+        for (i, magnet) in tile.magnets.iter().enumerate() {
+            let before = tile.magnets[..=i].iter();
+            let number = before.filter(|other| other.face == magnet.face).count();
+            pockets.push(pocket(tile, magnet, number, making)?);
+        }
+        Ok(Self {
+            outline: outline(tile, making.kerf)?,
+            pockets,
+            thickness: tile.thickness,
+        })
+    }
+}
+
+/// The outline half a cut outside.
+fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Vector2<f64>>, PartError> {
+    let corners = tile.outline.vertices();
+    if kerf == 0.0 {
+        return Ok(corners.to_vec());
+    }
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let faces: Vec<Face> = edges
+        .map(|(start, end)| Face {
+            name: String::new(),
+            start: *start,
+            end: *end,
+        })
+        .collect();
+    let line = FaceLine {
+        polyline: Vec::new(),
+        fit: -kerf / 2.0,
+    };
+    let ring = assemble(&faces, &vec![line; faces.len()]);
+    Ok(ring.map_err(|_| PartError::Kerf(kerf))?.points)
+}
+
+fn pocket(
+    tile: &Tile,
+    magnet: &Magnet,
+    number: usize,
+    making: &Making,
+) -> Result<Pocket, PartError> {
+    let face = &tile.faces[magnet.face];
+    let grown = |extra: f64| Magnet {
+        size: [
+            magnet.size[0] + 2.0 * extra,
+            magnet.size[1] + 2.0 * extra,
+            magnet.size[2],
+        ],
+        ..magnet.clone()
+    };
+    let cut = grown(making.clearance - making.kerf / 2.0);
+    if cut.size[0] <= 0.0 || cut.size[1] <= 0.0 {
+        return Err(PartError::Pocket(making.kerf));
+    }
+    let hole = grown(making.clearance).corners();
+    let moment = magnet.moment_vector();
+    let outwards = moment.dot(&face.normal()) >= 0.0;
+    Ok(Pocket {
+        name: format!("{} {number}", face.name),
+        pole: if outwards { Pole::North } else { Pole::South },
+        corners: cut.corners(),
+        north: moment.normalize() * (magnet.size[0] / 2.0),
+        middle: magnet.position,
+        depth: (tile.thickness + magnet.size[2]) / 2.0,
+        wall: -hole
+            .iter()
+            .map(|p| tile.outline.signed_distance(*p))
+            .fold(f64::NEG_INFINITY, f64::max),
+    })
+}

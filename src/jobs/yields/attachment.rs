@@ -1,0 +1,260 @@
+//! How often shaken tiles attach: counted in docking runs.
+
+use std::f64::consts::PI;
+
+use super::{Question, YieldError};
+use crate::pipeline::Analysis;
+use physics::dynamics::MotionSettings;
+use physics::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
+use physics::kinetics::bond::Hold;
+use physics::kinetics::rates::{Basin, RateSettings, rates};
+use physics::landscape::Inventory;
+use physics::order::Order;
+use physics::problem::Problem;
+
+/// Two configurations closer than this (m, metric of the space) are the same state.
+const SAME: f64 = 5e-3;
+/// Tiles start between the distance at which they are free and this multiple of it.
+const FARTHEST: f64 = 1.6;
+
+/// How many docking runs, and how tiles move in them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effort {
+    /// Runs.
+    pub runs: usize,
+    /// How long each lasts (s).
+    pub duration: f64,
+    /// Drag, restitution and friction; the shaking is set by kT.
+    pub motion: MotionSettings,
+    /// Where the rates come from.
+    pub source: Source,
+}
+
+impl Effort {
+    /// What it is called while it lasts.
+    pub fn stage(&self) -> &'static str {
+        match self.source {
+            Source::Docking => "docking",
+            Source::Overdamped => "rates",
+        }
+    }
+
+    /// How its rates come about.
+    pub fn told(&self) -> String {
+        let MotionSettings {
+            drag, restitution, ..
+        } = self.motion;
+        match self.source {
+            Source::Docking => format!(
+                "attachment counted in {} docking runs for each kT (drag {drag} per s, restitution \
+                 {restitution})",
+                self.runs
+            ),
+            Source::Overdamped => format!(
+                "attachment of overdamped motion, solved on a mesh (drag {drag} per s, knocks \
+                 without loss)"
+            ),
+        }
+    }
+}
+
+/// Where attachment rates come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Source {
+    /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag.
+    #[default]
+    Docking,
+    /// Solved for overdamped motion, see [`physics::kinetics::rates`]; runs count nothing.
+    Overdamped,
+}
+
+/// Attachments of a pair on the design's table, by kind of state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachments {
+    /// To the bond, then to each kind of trap.
+    pub counts: Vec<usize>,
+    /// How many came to rest elsewhere.
+    pub elsewhere: usize,
+    /// Time of all runs together until attachment or their end (s).
+    pub time: f64,
+    /// The table's area (m^2).
+    pub area: f64,
+    /// Runs.
+    pub runs: usize,
+    /// Rates of overdamped motion (1/s) from free to each kind of state and how far the two finest
+    /// meshes differ, relative; `None` where attachments are counted.
+    pub solved: Option<Vec<[f64; 2]>>,
+}
+
+impl Attachments {
+    /// kappa (m^2/s) of a kind of state: the rate times the table's area.
+    pub fn rate(&self, kind: usize) -> f64 {
+        match &self.solved {
+            Some(solved) => solved[kind][0] * self.area,
+            None if self.time > 0.0 => self.counts[kind] as f64 * self.area / self.time,
+            None => 0.0,
+        }
+    }
+
+    /// Its 95 % interval, that of a Poisson count; of solved rates what meshes differ by.
+    pub fn interval(&self, kind: usize) -> [f64; 2] {
+        match &self.solved {
+            Some(solved) => {
+                let [rate, spread] = solved[kind];
+                [1.0 - spread, 1.0 + spread].map(|part| part.max(0.0) * rate * self.area)
+            }
+            None => docking::poisson_interval(self.counts[kind])
+                .map(|ends| ends * self.area / self.time),
+        }
+    }
+}
+
+/// Attachments to each kind of state, from where the question has them.
+pub(super) fn attached(
+    analysis: &Analysis,
+    holds: &[&Hold],
+    kt: f64,
+    question: &Question,
+) -> Result<Attachments, YieldError> {
+    let (problem, effort) = (&analysis.problem, &question.effort);
+    if effort.source == Source::Docking {
+        let inventory = &analysis.inventory;
+        return Ok(count(problem, inventory, kt, effort, question.seed)?);
+    }
+    let basins: Vec<Option<Basin>> = holds
+        .iter()
+        .enumerate()
+        .map(|(kind, hold)| {
+            let height = hold.well().basin().level - hold.energy;
+            let basin = Basin::of_state(hold.configuration, hold.energy, height);
+            (kind == 0 || Basin::holds(height, kt)).then_some(basin)
+        })
+        .collect();
+    solve(problem, &basins, kt, effort.motion.drag)
+}
+
+/// The rates of overdamped motion at `kt` (J) and a drag rate (1/s) to the kinds of states with these
+/// basins; 0 to those that are `None`.
+///
+/// # Errors
+/// As [`rates()`], and where nothing is known of the bond's rate, the first one.
+pub fn solve(
+    problem: &Problem,
+    basins: &[Option<Basin>],
+    kt: f64,
+    drag: f64,
+) -> Result<Attachments, YieldError> {
+    let held: Vec<Basin> = basins.iter().copied().flatten().collect();
+    let settings = RateSettings {
+        certify: None,
+        ..RateSettings::new(kt, held, problem.space.free_distance)
+    };
+    let found = rates(problem, &settings)?;
+    let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
+    let free = settings.basins.len();
+    if !found.is_known(free, 0) {
+        return Err(YieldError::Lost);
+    }
+    let mut place = 0;
+    let solved = basins.iter().map(|basin| {
+        basin.map_or([0.0; 2], |_| {
+            place += 1;
+            let rate = found.finest().rates[free][place - 1] * kt / (drag * mass);
+            [rate, found.spread(free, place - 1)]
+        })
+    });
+    Ok(Attachments {
+        counts: vec![0; basins.len()],
+        elsewhere: 0,
+        time: 0.0,
+        area: table(problem),
+        runs: 0,
+        solved: Some(solved.collect()),
+    })
+}
+
+/// The table's area (m^2).
+fn table(problem: &Problem) -> f64 {
+    let sides = problem.space.half_size.iter().map(|half| 2.0 * half);
+    sides.product()
+}
+
+/// Counts attachments in docking runs: the moving tile starts anywhere about the fixed one, turned
+/// anyhow, at any speed up to twice the thermal one, and is shaken at `kt` (J) until it is matched or
+/// the run ends. Traps are counted where tiles are caught at the end, so that a trap which lets go
+/// within a run is counted too low; it holds little then.
+///
+/// # Errors
+/// As [`docking::dock`].
+pub fn count(
+    problem: &Problem,
+    inventory: &Inventory,
+    kt: f64,
+    effort: &Effort,
+    seed: u64,
+) -> Result<Attachments, DockingError> {
+    let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
+    let thermal = (2.0 * kt / mass).sqrt();
+    let near = 1.02 * problem.space.free_distance;
+    let [x, y] = problem.space.half_size;
+    let starts = Starts {
+        distance: [near, (FARTHEST * near).min(x.min(y)).max(near)],
+        direction: PI,
+        orientation: PI,
+        speed: [0.0, 2.0 * thermal],
+        aim: PI,
+        spin: 0.0,
+    };
+    let settings = DockingSettings {
+        runs: effort.runs,
+        seed,
+        duration: effort.duration,
+        starts,
+        motion: MotionSettings {
+            shaking: Some(kt),
+            ..effort.motion.clone()
+        },
+        threshold: None,
+    };
+    let docking = docking::dock(problem, &settings, &|| ())?;
+    Ok(tally(problem, inventory, &docking))
+}
+
+fn tally(problem: &Problem, inventory: &Inventory, docking: &Docking) -> Attachments {
+    let kinds: Vec<_> = inventory.kinds().collect();
+    // The bond first, then the traps, as their holds are listed.
+    let mut order: Vec<usize> = (0..kinds.len()).collect();
+    order.order_by_key(|&k| !kinds[k].is_bond());
+    let kind_of = |trap: usize| {
+        let q = docking.traps[trap].configuration;
+        let distance = |k: usize| {
+            let states = kinds[k].states.iter();
+            let distances = states.map(|s| problem.space.distance(&s.configuration, &q));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        (0..order.len()).find(|&place| distance(order[place]) < SAME)
+    };
+    let mut found = Attachments {
+        counts: vec![0; kinds.len()],
+        elsewhere: 0,
+        time: 0.0,
+        area: table(problem),
+        runs: docking.runs.len(),
+        solved: None,
+    };
+    for run in &docking.runs {
+        found.time += match run.end {
+            End::Bound { since } => since,
+            _ => run.last.time,
+        };
+        match run.end {
+            End::Bound { .. } => found.counts[0] += 1,
+            End::Trapped { trap } => match trap.and_then(kind_of) {
+                Some(kind) => found.counts[kind] += 1,
+                None => found.elsewhere += 1,
+            },
+            End::Free => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,226 @@
+//! The yield of a shaken table: from a design and a shaking to what is bound after a time.
+//!
+//! Attachment rates are counted in docking runs of shaken tiles ([`attachment`]); detachment rates
+//! follow from them by detailed balance, `k_off = k_on / K`, with the constants K of
+//! [`physics::kinetics::bond`]. Both are honest as far as kT is: contact that takes energy out of a
+//! collision, which shaking does not give back, keeps no detailed balance, and drag decides how fast
+//! tiles meet. Pairs go from trap to bond through free only.
+
+pub mod attachment;
+mod outcome;
+
+use crate::design::Design;
+use crate::pipeline::{self, Settings};
+use attachment::Effort;
+pub use outcome::{Outcome, StateRates};
+use outcome::{outcome, state};
+use physics::dynamics::docking::DockingError;
+use physics::kinetics::bond::{Bond, BondError, Hold, LEAST_DEPTH, Shaking, traps};
+use physics::kinetics::mixture::{self, Mixture};
+use physics::kinetics::population::Crowd;
+use physics::kinetics::rates::RatesError;
+use physics::kinetics::well::NO_PLAY;
+use physics::observer::Observer;
+use physics::units::si;
+
+/// Slots of a schedule of settings.
+const SLOTS: usize = 8;
+/// Pairs for which schedules are sought: ten states.
+const MIXED_PAIRS: usize = 3;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Effective energies kT (J) of the settings.
+    pub kts: Vec<f64>,
+    /// Share of the table that tiles cover.
+    pub coverage: f64,
+    /// Tiles, half of either kind.
+    pub tiles: usize,
+    /// How long the table is shaken (s).
+    pub time: f64,
+    /// Docking runs for each setting.
+    pub effort: Effort,
+    /// Runs of the exact simulation for each setting; 0 for none.
+    pub simulations: usize,
+    /// Of all random numbers.
+    pub seed: u64,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum YieldError {
+    /// There is no bond.
+    #[error(transparent)]
+    Bond(#[from] BondError),
+    /// Docking could not be simulated.
+    #[error(transparent)]
+    Docking(#[from] DockingError),
+    /// The rates of overdamped motion could not be solved.
+    #[error(transparent)]
+    Rates(#[from] RatesError),
+    /// At this kT (J) the bond of this energy (J) holds nothing.
+    #[error(
+        "at kT = {} the bond of {} is less than {LEAST_DEPTH} kT deep and holds nothing: choose a \
+         --kt below {}", si(*.0, "J", 4), si(*.1, "J", 4), si(-.1 / LEAST_DEPTH, "J", 3)
+    )]
+    Hot(f64, f64),
+    /// At this kT (J) the bond's well is narrower than contact is known.
+    #[error(
+        "at kT = {} tiles move by less than {} in the bond, which is closer than contact is known: \
+         choose a larger --kt", si(*.0, "J", 4), si(NO_PLAY, "m", 2)
+    )]
+    Cold(f64),
+    /// The bond's basin has no volume.
+    #[error("the bond has no play at all: shaken tiles never find it, and nothing is yielded")]
+    NoPlay,
+    /// The mesh has no way into the bond, and contact does not prove that there is none.
+    #[error(
+        "no way into the bond was found, so that nothing is known of how fast tiles attach: count \
+         them in docking runs (--rates docking)"
+    )]
+    Lost,
+}
+
+impl YieldError {
+    /// Whether another kT may have an answer.
+    fn is_of_one_kt(&self) -> bool {
+        match self {
+            Self::Hot(..) | Self::Cold(_) => true,
+            Self::Rates(error) => matches!(error, RatesError::Joined(_) | RatesError::Cold(..)),
+            _ => false,
+        }
+    }
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Yields {
+    /// Area (m^2) of the moving tile.
+    pub tile_area: f64,
+    /// The tiles and their table.
+    pub crowd: Crowd,
+    /// By kT, in the order asked for.
+    pub outcomes: Vec<Outcome>,
+    /// The kT (J) that have none, and why; in the order asked for.
+    pub without: Vec<(f64, YieldError)>,
+    /// Schedules of the settings, for this many tiles at most six; `None` for one setting.
+    pub mixture: Option<(usize, Mixture)>,
+}
+
+impl Yields {
+    /// What was found at one of the kT (J) asked for, or why there is no answer.
+    pub fn at(&self, kt: f64) -> Result<&Outcome, Option<&YieldError>> {
+        let found = self.outcomes.iter().find(|outcome| outcome.kt == kt);
+        found.ok_or_else(|| {
+            let mut without = self.without.iter();
+            without.find(|(other, _)| *other == kt).map(|(_, why)| why)
+        })
+    }
+
+    /// The setting that yields most.
+    pub fn best(&self) -> &Outcome {
+        let all = self.outcomes.iter();
+        all.reduce(|best, next| if next.bound > best.bound { next } else { best })
+            .expect("one setting at least is asked for")
+    }
+}
+
+/// Answers a question about a design, at those kT that have an answer.
+///
+/// # Errors
+/// See [`YieldError`]; what is of one kT only where no other is left.
+pub fn yields(
+    design: &Design,
+    question: &Question,
+    observer: &dyn Observer,
+) -> Result<Yields, YieldError> {
+    let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
+    let (problem, inventory) = (&analysis.problem, &analysis.inventory);
+    let bond = Bond::new(problem, inventory)?;
+    let hold = bond.hold();
+    let refused = |kt: f64| match () {
+        // Tiles that fast meet things a million times in a run, and nothing comes of it.
+        () if !hold.holds_at(kt) => Some(YieldError::Hot(kt, hold.energy)),
+        () if hold.is_too_cold(kt) => Some(YieldError::Cold(kt)),
+        () => None,
+    };
+    let usable = question.kts.iter().copied();
+    let usable = usable.filter(|kt| refused(*kt).is_none());
+    let coldest = usable.fold(f64::INFINITY, f64::min);
+    let traps = traps(problem, inventory, coldest);
+    let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
+    let tile_area = design.pair.moving.outline.area();
+    let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
+    let at = |kt: f64| {
+        if let Some(why) = refused(kt) {
+            return Err(why);
+        }
+        let attached = attachment::attached(&analysis, &holds, kt, question)?;
+        let shaking = Shaking {
+            kt,
+            coverage: question.coverage,
+        };
+        let states: Vec<StateRates> = holds
+            .iter()
+            .enumerate()
+            .filter_map(|(kind, hold)| state(hold, kind, &attached, &shaking))
+            .collect();
+        if states
+            .first()
+            .is_none_or(|first| first.name != bond.hold().name)
+        {
+            return Err(YieldError::NoPlay);
+        }
+        Ok(outcome(kt, states, attached, &crowd, tile_area, question))
+    };
+    let (mut outcomes, mut without) = (Vec::new(), Vec::new());
+    for (k, &kt) in question.kts.iter().enumerate() {
+        observer.stage(
+            question.effort.stage(),
+            k as f64 / question.kts.len() as f64,
+        );
+        match at(kt) {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(error) if error.is_of_one_kt() => without.push((kt, error)),
+            Err(error) => return Err(error),
+        }
+    }
+    if let (true, Some((_, error))) = (outcomes.is_empty(), without.first()) {
+        return Err(error.clone());
+    }
+    let mixture = (outcomes.len() > 1).then(|| mixed(&outcomes, question, tile_area));
+    Ok(Yields {
+        tile_area,
+        crowd,
+        outcomes,
+        without,
+        mixture,
+    })
+}
+
+/// The best schedule of the settings, for as many tiles as asked for but at most six.
+fn mixed(outcomes: &[Outcome], question: &Question, tile_area: f64) -> (usize, Mixture) {
+    let tiles = question.tiles.min(2 * MIXED_PAIRS);
+    let crowd = Crowd::new(tiles, question.coverage, tile_area);
+    // The same states for all: every setting has a kind of trapped pairs, if a fleeting one.
+    let chains: Vec<_> = outcomes
+        .iter()
+        .map(|outcome| outcome.rates.with_traps())
+        .collect();
+    let chains: Vec<_> = chains
+        .iter()
+        .map(|rates| rates.crowd_chain(&crowd))
+        .collect();
+    let pairs = crowd.pairs() as f64;
+    let values: Vec<f64> = chains[0]
+        .0
+        .iter()
+        .map(|state| state[0] as f64 / pairs)
+        .collect();
+    let chains: Vec<_> = chains.into_iter().map(|(_, chain)| chain).collect();
+    (
+        tiles,
+        mixture::schedule(&chains, &values, question.time, SLOTS),
+    )
+}

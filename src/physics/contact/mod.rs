@@ -1,0 +1,321 @@
+//! Contact of two tiles: whether they overlap, how far apart they are, whether a motion is free,
+//! and the local constraints that contact puts on a motion.
+//!
+//! A configuration is *free* where the interiors of the two outlines are disjoint. Flush mates
+//! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
+//! [`TOUCH`] counts as touching.
+
+mod admissible;
+pub mod cells;
+mod constraint;
+mod distance;
+mod halving;
+mod leaving;
+mod lift;
+pub mod matching;
+mod motion;
+mod points;
+mod stretch;
+mod tree;
+
+pub use admissible::closest_admissible;
+pub use constraint::{Constraint, EdgeOf, Touch};
+pub use halving::Halves;
+pub use motion::Known;
+pub use points::{ContactPoint, NearPairs, PointFinder};
+
+use nalgebra::{Rotation2, Vector2};
+use ordered_float::OrderedFloat;
+
+use self::tree::CircleTree;
+use crate::configuration::Configuration;
+use crate::tile::Outline;
+use crate::tile::outline::{Bounds, ConvexPart};
+
+/// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
+/// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
+pub const TOUCH: f64 = 1e-9;
+
+/// The two outlines of a pair of tiles.
+#[derive(Clone)]
+pub struct Contact {
+    /// Holds the outlines.
+    finder: PointFinder,
+    fixed_tree: CircleTree,
+    moving_tree: CircleTree,
+    fixed_bounds: Vec<Bounds>,
+    fixed_hull: ConvexPart,
+    moving_hull: ConvexPart,
+    /// The largest convex part of each tile, most likely to be in the way.
+    fixed_core: ConvexPart,
+    moving_core: ConvexPart,
+}
+
+impl Contact {
+    /// For a fixed and a moving outline, each in its own tile's frame (m).
+    pub fn new(fixed: &Outline, moving: &Outline) -> Self {
+        Self {
+            finder: PointFinder::new(fixed, moving),
+            fixed_tree: CircleTree::of_parts(fixed),
+            moving_tree: CircleTree::of_parts(moving),
+            fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
+            fixed_hull: fixed.hull(),
+            moving_hull: moving.hull(),
+            fixed_core: core(fixed),
+            moving_core: core(moving),
+        }
+    }
+
+    /// The outline of the fixed tile.
+    pub fn fixed(&self) -> &Outline {
+        &self.finder.fixed.outline
+    }
+
+    /// The outline of the moving tile, in its own frame.
+    pub fn moving(&self) -> &Outline {
+        &self.finder.moving.outline
+    }
+
+    /// Finds points of contact and distances of the two outlines.
+    pub fn finder(&self) -> &PointFinder {
+        &self.finder
+    }
+
+    /// Signed clearance (m): the distance of the two outlines where they are apart, minus the
+    /// depth of the deepest overlap of two of their convex parts where they are not.
+    pub fn clearance(&self, q: &Configuration) -> f64 {
+        let depth = self.overlap_depth(q);
+        if depth > 0.0 {
+            return -depth;
+        }
+        self.finder.distance(q, [0.0, f64::INFINITY])
+    }
+
+    /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
+    /// use (but still right) where the hulls overlap.
+    pub fn clearance_bound(&self, q: &Configuration) -> f64 {
+        let circles =
+            q.position().norm() - self.fixed().circumradius() - self.moving().circumradius();
+        if circles > 0.0 {
+            return circles;
+        }
+        let hulls = separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q));
+        if hulls >= 0.0 {
+            hulls
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
+    pub fn is_free(&self, q: &Configuration) -> bool {
+        self.overlaps_at_most(q, TOUCH)
+    }
+
+    /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
+    pub(crate) fn is_clear_by(&self, q: &Configuration, least: f64) -> bool {
+        self.circles_are_clear_by(q, least) || self.hulls_are_clear_by(&Placement::of(q), least)
+    }
+
+    fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
+        let clear = least + self.fixed().circumradius() + self.moving().circumradius();
+        clear <= 0.0 || q.position().norm_squared() >= clear * clear
+    }
+
+    fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
+        separated(&self.fixed_hull, &self.moving_hull, at, least)
+    }
+
+    /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
+    pub(crate) fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
+        self.circles_are_clear_by(q, 0.0) || self.placed_overlaps_at_most(&Placement::of(q), depth)
+    }
+
+    /// The same without a look at the circles.
+    fn placed_overlaps_at_most(&self, at: &Placement, depth: f64) -> bool {
+        self.hulls_are_clear_by(at, 0.0)
+            || (separated(&self.fixed_core, &self.moving_core, at, -depth)
+                && self.parts_overlap_at_most(at, depth))
+    }
+
+    /// The same, part by part.
+    fn parts_overlap_at_most(&self, at: &Placement, depth: f64) -> bool {
+        self.close_parts(at, |fixed, moving| {
+            separated(fixed, moving, &Placement::none(), -depth)
+        })
+    }
+
+    /// Whether the tiles overlap nowhere deeper than [`TOUCH`] where the moving one is turned and
+    /// placed like this, and how far (m) it may be moved, not turned, with the same answer: 0 where
+    /// neither the convex hulls nor the largest parts tell.
+    pub(crate) fn is_free_turned(
+        &self,
+        rotation: Rotation2<f64>,
+        position: Vector2<f64>,
+    ) -> (bool, f64) {
+        let at = Placement { rotation, position };
+        let apart = separation(&self.fixed_hull, &self.moving_hull, &at);
+        if apart >= 0.0 {
+            return (true, apart);
+        }
+        let deep = -TOUCH - separation(&self.fixed_core, &self.moving_core, &at);
+        if deep > 0.0 {
+            return (false, deep);
+        }
+        (self.parts_overlap_at_most(&at, TOUCH), 0.0)
+    }
+
+    /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
+    fn overlap_depth(&self, q: &Configuration) -> f64 {
+        if self.circles_are_clear_by(q, 0.0) {
+            return 0.0;
+        }
+        let at = Placement::of(q);
+        if self.hulls_are_clear_by(&at, 0.0) {
+            return 0.0;
+        }
+        let mut deepest: f64 = 0.0;
+        self.close_parts(&at, |fixed, moving| {
+            deepest = deepest.max(-separation(fixed, moving, &Placement::none()));
+            true
+        });
+        deepest
+    }
+
+    /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
+    /// overlap; stops at the first for which it does not.
+    fn close_parts(
+        &self,
+        at: &Placement,
+        mut holds: impl FnMut(&ConvexPart, &ConvexPart) -> bool,
+    ) -> bool {
+        let Placement { rotation, position } = *at;
+        let mut part = ConvexPart::default();
+        let mut placed = None;
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| position + rotation * p,
+            &|_| 0.0,
+            &mut |i, j| {
+                let bounds = match placed {
+                    Some((k, bounds)) if k == j => bounds,
+                    _ => {
+                        part.place(&self.moving().parts()[j], &rotation, &position);
+                        placed.insert((j, part.bounds())).1
+                    }
+                };
+                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed().parts()[i], &part)
+            },
+        )
+    }
+}
+
+/// Largest separation (m) of two convex polygons, the second one placed, over the normals of their
+/// edges: at most their distance where they are apart, minus the overlap's depth where they are not
+/// (separating axis theorem).
+pub fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement) -> f64 {
+    separations(fixed, moving, at).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
+/// so, and at each edge no farther than the first point that does not.
+fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
+    let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+        let direction = at.direction(normal);
+        let level = normal.dot(&(at.position - point));
+        moving
+            .points
+            .iter()
+            .all(|p| direction.dot(p) + level >= least)
+    };
+    let by_moving = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+        let world = at.rotation * normal;
+        let level = -world.dot(&at.position) - normal.dot(point);
+        fixed.points.iter().all(|x| world.dot(x) + level >= least)
+    };
+    let [(inside_moving, moving_radius), (inside_fixed, fixed_radius)] = [moving.disc, fixed.disc];
+    let inside_moving = at.position + at.rotation * inside_moving;
+    let inside_fixed = at.direction(&(inside_fixed - at.position));
+    fixed
+        .edges_off([inside_moving], moving_radius, least)
+        .any(by_fixed)
+        || moving
+            .edges_off([inside_fixed], fixed_radius, least)
+            .any(by_moving)
+}
+
+/// How far (m) each polygon lies outside each edge of the other.
+fn separations<'a>(
+    fixed: &'a ConvexPart,
+    moving: &'a ConvexPart,
+    at: &'a Placement,
+) -> impl Iterator<Item = f64> + 'a {
+    let by_fixed = fixed.edges().map(|(point, normal)| {
+        support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
+    });
+    let by_moving = moving.edges().map(|(point, normal)| {
+        let world = at.rotation * normal;
+        support(fixed, &world) - world.dot(&at.position) - normal.dot(point)
+    });
+    by_fixed.chain(by_moving)
+}
+
+/// Where a convex part lies. What is outside it is brought into its own frame, so that the part
+/// need not be moved.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    rotation: Rotation2<f64>,
+    position: Vector2<f64>,
+}
+
+impl Placement {
+    /// Of a part of the moving tile, given in its frame.
+    pub fn of(q: &Configuration) -> Self {
+        Self {
+            rotation: q.rotation(),
+            position: q.position(),
+        }
+    }
+
+    /// Of a part given where it lies.
+    pub fn none() -> Self {
+        Self {
+            rotation: Rotation2::identity(),
+            position: Vector2::zeros(),
+        }
+    }
+
+    /// Where what is placed here sees what it is placed in.
+    fn inverse(&self) -> Self {
+        let rotation = self.rotation.inverse();
+        Self {
+            rotation,
+            position: rotation * -self.position,
+        }
+    }
+
+    /// Where a point of the part is.
+    fn place(&self) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
+        let Self { rotation, position } = *self;
+        move |p| position + rotation * p
+    }
+
+    /// A direction in the part's frame.
+    fn direction(&self, d: &Vector2<f64>) -> Vector2<f64> {
+        self.rotation.inverse_transform_vector(d)
+    }
+}
+
+/// Least coordinate of a polygon along a direction.
+fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
+    part.points
+        .iter()
+        .map(|p| direction.dot(p))
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn core(outline: &Outline) -> ConvexPart {
+    let parts = outline.parts().iter();
+    let largest = parts.max_by_key(|part| OrderedFloat(part.area()));
+    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
+}

@@ -1,0 +1,104 @@
+//! Where along a straight line, without turning, the tiles are free: exactly.
+
+use nalgebra::Vector2;
+
+use super::{Contact, Placement, TOUCH, support};
+use crate::configuration::Configuration;
+use crate::order::Order;
+use crate::tile::outline::ConvexPart;
+
+/// A translation along a line.
+struct Shift {
+    /// A unit vector.
+    direction: Vector2<f64>,
+    /// How far it goes (m).
+    length: f64,
+}
+
+impl Contact {
+    /// The intervals of t from 0 to `length` (m) in which `q` moved by t along the unit vector
+    /// `direction` is free as [`Contact::is_free`] has it, ascending.
+    ///
+    /// Two convex polygons overlap deeper than [`TOUCH`] where the normals of all their edges
+    /// separate them by less than -[`TOUCH`] (separating axis theorem). What a normal separates them
+    /// by is linear in t, so that every two parts overlap in one interval of t: no thin part is
+    /// stepped over, and no narrow room between two.
+    pub fn free_stretches(
+        &self,
+        q: &Configuration,
+        direction: Vector2<f64>,
+        length: f64,
+    ) -> Vec<[f64; 2]> {
+        let at = Placement::of(q);
+        let shift = Shift { direction, length };
+        let mut part = ConvexPart::default();
+        part.place(&self.moving_hull, &at.rotation, &at.position);
+        if shift.overlap(&self.fixed_hull, &part).is_none() {
+            return vec![[0.0, length]];
+        }
+        part.place(&self.moving_core, &at.rotation, &at.position);
+        let mut blocked = Vec::from_iter(shift.overlap(&self.fixed_core, &part));
+        if blocked == [[0.0, length]] {
+            return Vec::new();
+        }
+        let middle = at.position + direction * (length / 2.0);
+        let mut placed = None;
+        self.fixed_tree.near_pairs(
+            &self.moving_tree,
+            &|p| middle + at.rotation * p,
+            &|_| length / 2.0,
+            &mut |i, j| {
+                if placed.replace(j) != Some(j) {
+                    part.place(&self.moving().parts()[j], &at.rotation, &at.position);
+                }
+                blocked.extend(shift.overlap(&self.fixed().parts()[i], &part));
+                true
+            },
+        );
+        shift.without(blocked)
+    }
+}
+
+impl Shift {
+    /// The interval of t in which a placed part that is shifted overlaps with one that is not, deeper
+    /// than [`TOUCH`].
+    fn overlap(&self, fixed: &ConvexPart, moving: &ConvexPart) -> Option<[f64; 2]> {
+        let mut within = [0.0, self.length];
+        // Where `level + slope t < -TOUCH`.
+        let mut narrow = |level: f64, slope: f64| {
+            let room = -TOUCH - level;
+            if slope > 0.0 {
+                within[1] = within[1].min(room / slope);
+            } else if slope < 0.0 {
+                within[0] = within[0].max(room / slope);
+            } else if room <= 0.0 {
+                within[1] = within[0];
+            }
+            within[0] < within[1]
+        };
+        let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+            let level = support(moving, normal) - normal.dot(point);
+            narrow(level, normal.dot(&self.direction))
+        };
+        let overlaps = fixed.edges().all(by_fixed);
+        let by_moving = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
+            let level = support(fixed, normal) - normal.dot(point);
+            narrow(level, -normal.dot(&self.direction))
+        };
+        (overlaps && moving.edges().all(by_moving)).then_some(within)
+    }
+
+    /// What is left of the line without some intervals, ascending.
+    fn without(&self, mut blocked: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+        blocked.order_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut left = Vec::new();
+        let mut since = 0.0;
+        for [from, to] in blocked.into_iter().chain([[self.length; 2]]) {
+            if from > since {
+                left.push([since, from]);
+            }
+            since = since.max(to);
+        }
+        left
+    }
+}

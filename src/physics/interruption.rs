@@ -1,0 +1,159 @@
+//! Long work that is given up when it is asked to be: ctrl-C in a session that goes on.
+//!
+//! [`Interruption::run`] works on threads of its own and leaves a mark on each; the library's inner
+//! loops [`check`] it and unwind, without a word, once the work is no longer wanted. What was found
+//! by then is lost; nothing shared is left half done. Work that was started otherwise bears no mark
+//! and is never given up.
+//!
+//! ```
+//! use tilebind_physics::interruption::{Interruption, Interrupted};
+//! let wanted = Interruption::default();
+//! assert_eq!(wanted.run(2, || 6 * 7), Ok(42));
+//! wanted.ask();
+//! assert_eq!(wanted.run(2, tilebind_physics::interruption::check), Err(Interrupted));
+//! ```
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+thread_local! {
+    /// By what this thread's work may be given up.
+    static MARK: RefCell<Option<Interruption>> = const { RefCell::new(None) };
+}
+
+/// Whether any work of this process was ever asked to be given up: until then, a [`check`] is one
+/// load.
+static ANY: AtomicBool = AtomicBool::new(false);
+
+/// Work was given up because it was asked to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("interrupted")]
+pub struct Interrupted;
+
+/// By which work is asked to be given up, from any thread; clones are the same.
+#[derive(Clone, Debug, Default)]
+pub struct Interruption(Arc<AtomicBool>);
+
+impl Interruption {
+    /// From now on the work is not wanted.
+    pub fn ask(&self) {
+        self.0.store(true, Ordering::Relaxed);
+        ANY.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the work is no longer wanted.
+    pub fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Does work on `threads` threads of its own, until it is done or given up.
+    ///
+    /// # Errors
+    /// Where it was given up.
+    ///
+    /// # Panics
+    /// Where the work does.
+    pub fn run<T: Send>(
+        &self,
+        threads: usize,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, Interrupted> {
+        let marked = || {
+            let _mark = Mark::set(Some(self.clone()));
+            work()
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| {
+            match pool(threads, Some(self.clone())) {
+                Ok(pool) => pool.install(marked),
+                // Without threads of its own it is done on this one.
+                Err(_) => marked(),
+            }
+        }));
+        done.map_err(|payload| match payload.downcast::<Interrupted>() {
+            Ok(interrupted) => *interrupted,
+            Err(fault) => resume_unwind(fault),
+        })
+    }
+}
+
+/// Gives the work of this thread up if it is no longer wanted.
+#[inline]
+pub fn check() {
+    if ANY.load(Ordering::Relaxed) {
+        check_mark();
+    }
+}
+
+#[cold]
+fn check_mark() {
+    if MARK.with_borrow(|mark| mark.as_ref().is_some_and(Interruption::is_asked)) {
+        resume_unwind(Box::new(Interrupted));
+    }
+}
+
+/// Whether what work unwound with is that it was given up.
+pub fn is_interrupted(payload: &(dyn Any + Send)) -> bool {
+    payload.is::<Interrupted>()
+}
+
+/// By what this thread's work may be given up.
+pub fn current() -> Option<Interruption> {
+    MARK.with_borrow(Clone::clone)
+}
+
+/// Threads whose work may be given up.
+pub fn pool(threads: usize, by: Option<Interruption>) -> Result<ThreadPool, ThreadPoolBuildError> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads.max(1))
+        .start_handler(move |_| MARK.set(by.clone()))
+        .build()
+}
+
+/// A mark that lasts as long as this.
+struct Mark(Option<Interruption>);
+
+impl Mark {
+    fn set(by: Option<Interruption>) -> Self {
+        Self(MARK.replace(by))
+    }
+}
+
+impl Drop for Mark {
+    fn drop(&mut self) {
+        MARK.set(self.0.take());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::prelude::*;
+
+    #[test]
+    fn work_is_given_up_on_all_threads_and_the_session_goes_on() {
+        let interruption = Interruption::default();
+        let given_up = interruption.run(2, || {
+            // Without the fuse every item of what is left would unwind on its own.
+            (0..u64::MAX).into_par_iter().panic_fuse().for_each(|k| {
+                if k == 1000 {
+                    interruption.ask();
+                }
+                check();
+            });
+        });
+        assert_eq!(given_up, Err(Interrupted));
+        check();
+        assert_eq!(Interruption::default().run(1, check), Ok(()));
+    }
+
+    #[test]
+    fn a_fault_is_no_interruption() {
+        let fault = catch_unwind(|| Interruption::default().run(1, || resume_unwind(Box::new(7))));
+        assert_eq!(fault.unwrap_err().downcast_ref::<i32>(), Some(&7));
+    }
+}

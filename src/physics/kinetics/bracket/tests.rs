@@ -1,0 +1,44 @@
+//! Gaps of functions and fluxes.
+
+use super::*;
+use crate::sample;
+
+/// What a function and a flux are apart by is known cell by cell and, otherwise, in all: of the
+/// mean time by what the flux costs and what the function holds, which is nothing less than 0 and
+/// the same only if the flux's source is where the load is. Here most of it is far from contact.
+#[test]
+fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
+    let problem = sample::one_face();
+    let bond = problem.pair.as_ref().unwrap().bound;
+    let field = Field::fitted(&problem, 8e-3, 0.61, 0.0, &[bond]).unwrap();
+    let mesh = &field.mesh;
+    let nodes = Nodes::new(mesh);
+    let held = mesh.holding(&bond);
+    let pins = nodes.pins(mesh, 1, |id| held.contains(&id).then_some(0));
+    let left_out = vec![false; mesh.leaves.len()];
+    let network = field.network(&nodes, &pins, 1).unwrap();
+    let fluxes = network.fluxes();
+    let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
+    let none = vec![0.0; nodes.len()];
+    let loads = loads(mesh, &nodes, &left_out);
+    let system = System::new(mesh, &nodes, &pinned);
+    let time = system.solve(&none, &loads, &none).unwrap();
+    let source = |cell: usize| {
+        let element = mesh.leaves[cell].element.as_ref();
+        element.map_or(0.0, |element| element.load.iter().sum())
+    };
+    let like = fluxes.potentials(&nodes, &time);
+    let flux = fluxes.of(&source, &like).unwrap();
+    let held: f64 = time.iter().zip(&loads).map(|(a, b)| a * b).sum();
+    let gap = Gap {
+        flux: &flux,
+        values: &time,
+        source: &source,
+    };
+    let by_cells: f64 = fluxes.products(mesh, &nodes, &gap, &gap).iter().sum();
+    let in_all = flux.cost - held;
+    assert!(
+        (by_cells / in_all - 1.0).abs() < 0.15,
+        "{by_cells} {in_all}"
+    );
+}

@@ -1,0 +1,104 @@
+//! Tiles: an outline, its faces and the magnets they carry.
+
+pub mod assembly;
+pub mod barcode;
+mod convex;
+pub mod edge_grid;
+pub mod magnet;
+pub mod outline;
+mod pair;
+pub mod profile;
+pub mod strength;
+pub mod symmetry;
+
+pub use magnet::Magnet;
+pub use outline::Outline;
+pub use pair::{Pair, face_to_face};
+
+use nalgebra::{Vector2, Vector3};
+
+/// A face of a tile: the straight base line between two corners of the tile. A profile may
+/// replace the base line in the outline; the face's frame (s along it, h outwards) stays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// What the design file calls it: `east`, or its number.
+    pub name: String,
+    /// First corner, counter-clockwise (m).
+    pub start: Vector2<f64>,
+    /// Second corner (m).
+    pub end: Vector2<f64>,
+}
+
+impl Face {
+    /// Length of the base line (m).
+    pub fn length(&self) -> f64 {
+        (self.end - self.start).norm()
+    }
+
+    /// Unit vector along the face, counter-clockwise (the direction of s).
+    pub fn tangent(&self) -> Vector2<f64> {
+        (self.end - self.start) / self.length()
+    }
+
+    /// Outward unit normal (the direction of h).
+    pub fn normal(&self) -> Vector2<f64> {
+        let t = self.tangent();
+        Vector2::new(t.y, -t.x)
+    }
+
+    /// Middle of the base line (m).
+    pub fn middle(&self) -> Vector2<f64> {
+        (self.start + self.end) / 2.0
+    }
+
+    /// The point at `s` along the face from its middle and `h` outwards (m), in the tile's frame.
+    pub fn point(&self, s: f64, h: f64) -> Vector2<f64> {
+        self.middle() + self.tangent() * s + self.normal() * h
+    }
+}
+
+/// A tile: a rigid, flat body with magnets.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// Its rim, profiles included.
+    pub outline: Outline,
+    /// Its faces, counter-clockwise.
+    pub faces: Vec<Face>,
+    /// Its magnets, face by face.
+    pub magnets: Vec<Magnet>,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Thickness (m).
+    pub thickness: f64,
+}
+
+impl Tile {
+    /// Moment of inertia (kg m^2) about the centre of mass, the mass spread evenly over the
+    /// outline's area.
+    pub fn inertia(&self) -> f64 {
+        self.mass * self.outline.second_moment_about_centroid() / self.outline.area()
+    }
+
+    /// Radius of gyration (m) about the reference point.
+    pub fn radius_of_gyration(&self) -> f64 {
+        let c = self.outline.centroid();
+        (self.inertia() / self.mass + c.norm_squared()).sqrt()
+    }
+
+    /// The velocity (dx, dy, dtheta) of the reference point that a generalised force
+    /// (Fx, Fy, torque about the reference point) gives per unit of time in overdamped motion
+    /// with the tile's mass matrix as mobility: `M^-1 F`, where `rotation` turns the tile's frame
+    /// into the world's. Accelerations of a body at rest come out of the same product.
+    pub fn inverse_mass_times(&self, force: Vector3<f64>, theta: f64) -> Vector3<f64> {
+        let (sin, cos) = libm::sincos(theta);
+        let local = self.outline.centroid();
+        let c = Vector2::new(cos * local.x - sin * local.y, sin * local.x + cos * local.y);
+        let torque = force.z - (c.x * force.y - c.y * force.x);
+        let turn = torque / self.inertia();
+        Vector3::new(
+            force.x / self.mass + turn * c.y,
+            force.y / self.mass - turn * c.x,
+            turn,
+        )
+    }
+}
