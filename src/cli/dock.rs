@@ -308,6 +308,7 @@ impl Dock {
 
 fn illustration((title, figure): (&str, &Figure)) -> Illustration {
     Illustration {
+        is_titled: false,
         title: title.to_owned(),
         svg: figure.svg().to_owned(),
     }

@@ -23,6 +23,7 @@ mod memory;
 mod options;
 mod progress;
 pub mod rates;
+mod results;
 pub mod schema;
 pub mod show;
 mod style;

@@ -1,19 +1,15 @@
 //! `tilebind yield`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use tilebind::dynamics::MotionSettings;
 use tilebind::kinetics::OVERDAMPED;
-use tilebind::report::files::{YIELD, with_report};
-use tilebind::report::json;
-use tilebind::report::page::Page;
-use tilebind::report::yields as report;
+use tilebind::report::files::YIELD;
+use tilebind::report::yields::document;
 use tilebind::yields::attachment::{Effort, Source};
 use tilebind::yields::{Question, YieldError, yields};
 
-use super::figures::command_line;
-use super::options::{DesignOptions, ForceOption, PrintOptions, WorkOptions};
+use super::options::{DesignOptions, WorkOptions};
+use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
 
 /// How many pairs are bound after a time on a shaken table, and at which shaking most are
@@ -76,18 +72,11 @@ pub struct YieldCommand {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = input::runs_or_none)]
     simulations: usize,
 
-    /// Folder for report.html, report.json, yield.csv, course.csv, rates.csv and pictures/
-    #[arg(long, short, value_name = "DIR")]
-    out: Option<PathBuf>,
-
-    #[command(flatten)]
-    force: ForceOption,
-
     #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 /// Where attachment rates come from.
@@ -110,32 +99,13 @@ impl YieldCommand {
             return Err(Failure::Usage(message));
         }
         let design = self.design.load()?;
-        let output = self.out.as_ref();
-        let output = output.map(|it| self.force.folder(&YIELD, it, self.design.inputs(&design)));
-        let output = output.transpose()?;
+        let output = self.results.output(&YIELD, self.design.inputs(&design))?;
         self.work.use_threads()?;
         let question = self.question();
-        let progress = self.print.progress();
+        let progress = self.results.progress();
         let found = yields(&design, &question, &progress).map_err(failure)?;
-        let value = report::json(&design, &question, &found);
-        let text = json::text(&value);
-        if let Some(output) = output {
-            let tables = report::files(&question, &found);
-            let page = Page::of_yields(&design, &question, &found);
-            let files = with_report(tables, Some(page), &value, &command_line());
-            interrupt::without(|| output.write(&files))?;
-        }
-        progress.finish();
-        self.print.results(&text, || {
-            let told = report::summary(&design, &question, &found);
-            match &self.out {
-                Some(folder) => format!(
-                    "{told}results in {}: report.html to look at; report.json, tables, pictures\n",
-                    folder.display()
-                ),
-                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
-            }
-        })
+        let document = document(&design, &question, &found);
+        self.results.deliver(&document, output, &progress)
     }
 
     fn question(&self) -> Question {

@@ -112,7 +112,14 @@ pub const ASSEMBLE: Command = Command {
 /// `tilebind yield`.
 pub const YIELD: Command = Command {
     name: "yield",
-    files: &[REPORT, PAGE, "yield.csv", "course.csv", "rates.csv"],
+    files: &[
+        REPORT,
+        PAGE,
+        "settings.csv",
+        "yield.csv",
+        "course.csv",
+        "rates.csv",
+    ],
     pictures: &["course", "yield", "shaking"],
 };
 

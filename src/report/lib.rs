@@ -1,5 +1,6 @@
 //! Results for people and programs to read.
 //!
+//! - [`document`] - a result as one document that terminal, JSON, CSV, page and pictures are made from;
 //! - [`json`] - `report.json`, everything that is known;
 //! - [`columns`] - what is told of states and of barriers, once for all outputs;
 //! - [`names`] - what states, places, faces and files are called;
@@ -33,6 +34,7 @@ pub mod crosstalk;
 pub mod csv;
 pub mod docking;
 mod docking_tables;
+pub mod document;
 pub mod dynamics;
 pub mod figures;
 pub mod files;

@@ -1,172 +1,52 @@
-//! The yield of a shaken table as JSON, tables and a summary.
-
-use std::fmt::Write;
+//! What a shaken table yields.
 
 use serde_json::{Value, json};
 
-use super::csv::{number, table};
-use super::files::{Files, PICTURES};
-use super::page::yield_charts;
-use super::terminal::write_table;
+use crate::document::{Document, Drawing, Entries, Table, entries, rows};
+use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::design::Design;
 use jobs::yields::attachment::Source;
-use jobs::yields::{Outcome, Question, StateRates, Yields};
+use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
 use physics::kinetics::mixture::Mixture;
-use physics::units::{duration, plain, si};
+use physics::order::Order;
+use physics::units::{duration, si};
 
-/// The answer as `report.json` has it.
-pub fn json(design: &Design, question: &Question, found: &Yields) -> Value {
-    let best = found.best();
-    let motion = &question.effort.motion;
-    json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "design": { "name": design.name, "sha256": design.sha256 },
-        "model": design.interaction.model.name(),
-        "seed": question.seed,
-        "tiles": question.tiles,
-        "time_s": question.time,
-        "coverage": question.coverage,
-        "tile_area_m2": found.tile_area,
-        "table_area_m2": found.crowd.area,
-        // Share of all possible pairs that are in the bond at the end, at the best of the kT.
-        "yield": finite(best.bound),
-        "yield_interval": best.interval.map(finite),
-        "best_kT_J": best.kt,
-        // By kT, in the order asked for; null where there is no answer, and why.
-        "settings": question.kts.iter().map(|kt| setting(found, *kt)).collect::<Value>(),
-        // One kT after another, blind to the tiles, in equal slots; no schedule yields more than
-        // the upper bound, not even one that sees the tiles.
-        "mixture": found.mixture.as_ref().map(|(tiles, mixture)| json!({
-            "tiles": tiles,
-            "schedule_kT_J": mixture.schedule.iter().map(|k| found.outcomes[*k].kt)
-                .collect::<Vec<_>>(),
-            "yield": mixture.value,
-            "upper_bound": mixture.bound,
-        })),
-        "rates": format!("{}; detachment by detailed balance", question.effort.told()),
-        "docking": {
-            "runs": question.effort.runs, "duration_s": question.effort.duration,
-            "drag_per_s": motion.drag, "restitution": motion.restitution,
-            "friction": motion.friction,
-        },
-    })
-}
-
-fn setting(found: &Yields, kt: f64) -> Value {
-    match found.at(kt) {
-        Ok(found) => outcome(found),
-        Err(why) => json!({"kT_J": kt, "yield": null, "why_not": why.map(ToString::to_string)}),
+/// What there is to know of a yield.
+pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
+    let told = question.effort.told();
+    let interval = match question.effort.source {
+        Source::Docking => "of the attachment rate, 95 %",
+        Source::Overdamped => "what the two finest meshes differ by",
+    };
+    let mixture = found.mixture.as_ref();
+    let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
+    let without = found.without.iter().map(|(_, why)| why.to_string());
+    Document {
+        title: format!("Yield of {}", design.name),
+        answer: answer(design, question, found),
+        remarks: vec![format!(
+            "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: {interval})",
+            found.crowd.tiles[0],
+            found.crowd.tiles[1],
+            100.0 * question.coverage,
+            found.crowd.area,
+        )],
+        entries: found_entries(design, question, found),
+        pictures: pictures(question, found),
+        notes: without
+            .chain(schedule)
+            .chain([format!(
+                "on: {told}; off: by detailed balance, with kT as if the table had one"
+            )])
+            .collect(),
+        origin: format!(
+            "{} magnets; {told}, detachment by detailed balance; a tile binds one partner at most",
+            design.interaction.model.name(),
+        ),
     }
 }
 
-fn outcome(outcome: &Outcome) -> Value {
-    json!({
-        "kT_J": outcome.kt,
-        "why_not": null,
-        "yield": finite(outcome.bound),
-        "yield_interval": outcome.interval.map(finite),
-        "trapped": finite(outcome.trapped),
-        "yield_difference_equations": outcome.smooth,
-        "yield_equilibrium": outcome.equilibrium,
-        "yield_simulated": outcome.simulated.map(|[mean, error]| json!({
-            "mean": mean, "standard_error": error,
-        })),
-        "mean_time_to_bond_s": finite(outcome.mean_times[0]),
-        "mean_time_out_of_bond_s": finite(outcome.mean_times[1]),
-        "states": outcome.states.iter().map(state).collect::<Value>(),
-        "attachments_elsewhere": outcome.attached.elsewhere,
-        "docked_s": outcome.attached.time,
-        "over_time": outcome.course.iter().map(|[time, bound, trapped]| json!({
-            "time_s": time, "bound": finite(*bound), "trapped": finite(*trapped),
-        })).collect::<Value>(),
-        "table": outcome.table.iter().map(|(tiles, coverage, bound)| json!({
-            "tiles": tiles, "coverage": coverage, "yield": finite(*bound),
-        })).collect::<Value>(),
-    })
-}
-
-fn state(state: &StateRates) -> Value {
-    json!({
-        "state": state.name,
-        "attachments": state.attachments,
-        "on_m2_per_s": state.on,
-        "on_interval_m2_per_s": state.on_interval,
-        "off_per_s": state.off,
-        "depth_kT": state.depth,
-        "ln_K": finite(state.ln_k),
-    })
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
-
-/// Tables and pictures, by their names.
-pub fn files(question: &Question, found: &Yields) -> Files {
-    let rows = found.outcomes.iter().flat_map(|outcome| {
-        let kt = number(outcome.kt);
-        outcome.table.iter().map(move |(tiles, coverage, bound)| {
-            vec![
-                kt.clone(),
-                tiles.to_string(),
-                number(*coverage),
-                number(*bound),
-            ]
-        })
-    });
-    let yields = table(&["kT_J", "tiles", "coverage", "yield"], rows);
-    let rows = found.outcomes.iter().flat_map(|outcome| {
-        let kt = outcome.kt;
-        let row = move |[time, bound, trapped]: &[f64; 3]| {
-            [kt, *time, *bound, *trapped].map(number).to_vec()
-        };
-        outcome.course.iter().map(row)
-    });
-    let course = table(&["kT_J", "time_s", "bound", "trapped"], rows);
-    let rows = found.outcomes.iter().flat_map(|outcome| {
-        let kt = number(outcome.kt);
-        outcome.states.iter().map(move |state| {
-            let [low, high] = state.on_interval;
-            let numbers = [state.on, low, high, state.off, state.depth, state.ln_k];
-            let numbers = numbers.map(number);
-            [
-                &[
-                    kt.clone(),
-                    state.name.clone(),
-                    state.attachments.to_string(),
-                ][..],
-                &numbers[..],
-            ]
-            .concat()
-        })
-    });
-    let head = [
-        "kT_J",
-        "state",
-        "attachments",
-        "on_m2_per_s",
-        "on_low_m2_per_s",
-        "on_high_m2_per_s",
-        "off_per_s",
-        "depth_kT",
-        "ln_K",
-    ];
-    let rates = table(&head, rows);
-    let pictures = yield_charts::all(question, found).into_iter();
-    let tables = [
-        ("yield.csv", yields),
-        ("course.csv", course),
-        ("rates.csv", rates),
-    ];
-    tables
-        .into_iter()
-        .map(|(name, text)| (name.to_owned(), text.into_bytes()))
-        .chain(pictures.map(|(stem, _, svg)| (format!("{PICTURES}/{stem}.svg"), svg.into_bytes())))
-        .collect()
-}
-
-/// The sentence that answers.
-pub fn headline(design: &Design, question: &Question, found: &Yields) -> String {
+fn answer(design: &Design, question: &Question, found: &Yields) -> String {
     let best = found.best();
     let among = match (found.outcomes.len(), found.without.len()) {
         (1, _) => String::new(),
@@ -176,127 +56,221 @@ pub fn headline(design: &Design, question: &Question, found: &Yields) -> String 
     format!(
         "{}: {} of all pairs are bound after {} at kT = {}{among}",
         design.name,
-        percent(best.bound, Some(best.interval)),
+        within(best.bound, best.interval),
         duration(question.time, 3),
         si(best.kt, "J", 3),
     )
 }
 
-/// A few lines for the terminal.
-pub fn summary(design: &Design, question: &Question, found: &Yields) -> String {
-    let mut text = format!("{}\n", headline(design, question, found));
-    let _ = writeln!(
-        text,
-        "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: {})\n",
-        found.crowd.tiles[0],
-        found.crowd.tiles[1],
-        100.0 * question.coverage,
-        found.crowd.area,
-        match question.effort.source {
-            Source::Docking => "of the attachment rate, 95 %",
-            Source::Overdamped => "what the two finest meshes differ by",
-        }
-    );
-    let head = [
-        "kT",
-        "bound",
-        "in traps",
-        "in the end",
-        "simulated",
-        "to bond",
-        "out of bond",
-    ];
-    let mut rows = vec![head.map(str::to_owned)];
-    rows.extend(question.kts.iter().map(|kt| row(found, *kt)));
-    write_table(&mut text, &rows);
-    for (_, why) in &found.without {
-        let _ = writeln!(text, "{why}");
+// One line an entry.
+#[rustfmt::skip]
+fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entries {
+    let (best, effort) = (found.best(), &question.effort);
+    let at_best = format!("states at kT = {}", si(best.kt, "J", 3));
+    entries(design)
+        .data("seed", question.seed)
+        .fact("tiles", "", question.tiles)
+        .fact("time_s", "", question.time)
+        .fact("coverage", "", question.coverage)
+        .fact("tile_area_m2", "", found.tile_area)
+        .fact("table_area_m2", "", found.crowd.area)
+        .fact("yield", "bound", best.bound).viewed(within(best.bound, best.interval)).noted("of all pairs")
+        .fact("yield_interval", "", best.interval)
+        .fact("trapped", "in traps", best.trapped).share().in_view()
+        .fact("best_kT_J", "kT", best.kt).noted("best of those asked for")
+        .table(by_kt(question, found))
+        .data("mixture", mixture(found))
+        .data("rates", format!("{}; detachment by detailed balance", effort.told()))
+        .data("docking", json!({
+            "runs": effort.runs, "duration_s": effort.duration,
+            "drag_per_s": effort.motion.drag, "restitution": effort.motion.restitution,
+            "friction": effort.motion.friction,
+        }))
+        .table(states(best).titled(at_best, "").in_view())
+}
+
+/// One kT after another, blind to the tiles, in equal slots; no schedule yields more than the upper
+/// bound, not even one that sees the tiles.
+fn mixture(found: &Yields) -> Value {
+    let told = |(tiles, mixture): &(usize, Mixture)| {
+        let kts = mixture.schedule.iter().map(|k| found.outcomes[*k].kt);
+        json!({
+            "tiles": tiles,
+            "schedule_kT_J": kts.collect::<Vec<_>>(),
+            "yield": mixture.value,
+            "upper_bound": mixture.bound,
+        })
+    };
+    json!(found.mixture.as_ref().map(told))
+}
+
+/// A kT that was asked for, and what was found at it.
+type AtKt<'a> = (f64, Result<&'a Outcome, Option<&'a YieldError>>);
+
+// One line a column: what files and people call it, what it means, its value.
+#[rustfmt::skip]
+fn by_kt(question: &Question, found: &Yields) -> Table {
+    let of = |get: fn(&Outcome) -> f64| move |(_, at): &AtKt| at.ok().map(get);
+    let known = |get: fn(&Outcome) -> Option<f64>| move |(_, at): &AtKt| at.ok().and_then(get);
+    let inner = |get: fn(&Outcome) -> Table| move |(_, at): &AtKt| at.ok().map(get);
+    let simulated = |(_, at): &AtKt| at.ok().and_then(|it| it.simulated);
+    let entry = |[mean, error]: [f64; 2]| json!({ "mean": mean, "standard_error": error });
+    let told = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
+    rows(question.kts.iter().map(|kt| (*kt, found.at(*kt))))
+        .column("kT_J", "kT", "effective energy of shaking", |(kt, _)| *kt)
+        .column("why_not", "", "", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
+        .column("yield", "bound", "share of all pairs in the bond at the end, with its interval", of(|it| it.bound))
+            .viewed(|(_, at)| at.map_or("-".to_owned(), |it| within(it.bound, it.interval)))
+        .column("yield_interval", "", "", |(_, at)| at.ok().map(|it| it.interval))
+        .column("trapped", "in traps", "share of all pairs in traps at the end", of(|it| it.trapped)).share()
+        .column("yield_difference_equations", "", "of difference equations, for many tiles", known(|it| it.smooth))
+        .column("yield_equilibrium", "in the end", "share in the bond in equilibrium", known(|it| it.equilibrium)).share()
+        .column("yield_simulated", "simulated", "by simulation, with twice its standard error", move |row| json!(simulated(row).map(entry)))
+            .viewed(move |row| simulated(row).map_or("-".to_owned(), told)).without_csv()
+        .column("mean_time_to_bond_s", "to bond", "mean time until a free tile is bound", of(|it| it.mean_times[0])).digits(2)
+        .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond is left", of(|it| it.mean_times[1])).digits(2)
+        .column("states", "", "", inner(states)).in_json()
+        .column("attachments_elsewhere", "", "", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
+        .column("docked_s", "", "time of all docking runs", of(|it| it.attached.time)).in_json()
+        .column("over_time", "", "", inner(course)).in_json()
+        .column("table", "", "", inner(crowds)).in_json()
+        .table("settings")
+        .in_file("settings")
+}
+
+#[rustfmt::skip]
+fn states(outcome: &Outcome) -> Table {
+    let attached = |it: &StateRates| match outcome.attached.solved {
+        Some(_) => "-".to_owned(),
+        None => format!("{} of {}", it.attachments, outcome.attached.runs),
+    };
+    rows(&outcome.states)
+        .column("state", "state", "a kind of state", |it| it.name.clone())
+        .column("attachments", "attached", "docking runs that ended in it", |it| it.attachments).viewed(|it| attached(it))
+        .column("on_m2_per_s", "on", "how often a pair falls into it, times the table's area", |it| it.on)
+            .viewed(|it| format!("{:.1e} m2/s", it.on))
+        .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
+        .column("off_per_s", "off", "how often it is left", |it| it.off).digits(2)
+        .column("depth_kT", "depth", "its energy over kT", |it| it.depth)
+        .column("ln_K", "ln K", "logarithm of the binding constant over the concentration", |it| it.ln_k)
+            .viewed(|it| format!("{:.1}", it.ln_k))
+        .table("states")
+        .in_file("rates")
+}
+
+fn course(outcome: &Outcome) -> Table {
+    rows(&outcome.course)
+        .column("time_s", "time", "since the start", |it| it[0])
+        .column("bound", "bound", "share of all pairs in the bond", |it| {
+            it[1]
+        })
+        .column("trapped", "in traps", "share of all pairs in traps", |it| {
+            it[2]
+        })
+        .table("over_time")
+        .in_file("course")
+}
+
+fn crowds(outcome: &Outcome) -> Table {
+    rows(&outcome.table)
+        .column("tiles", "tiles", "on the table", |it| it.0)
+        .column("coverage", "covered", "share of the table", |it| it.1)
+        .column("yield", "bound", "share of all pairs in the bond", |it| {
+            it.2
+        })
+        .table("table")
+        .in_file("yield")
+}
+
+fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
+    let best = found.best();
+    let chart = |name, title: &str, x, y: &str| Chart {
+        name,
+        title: title.to_owned(),
+        x,
+        y: Dimension::share("share", y),
+        series: Vec::new(),
+        remark: String::new(),
+    };
+    let time = Dimension::new("time_s", "time").logarithmic();
+    let line = |k: usize| best.course.iter().map(move |point| [point[0], point[k]]);
+    let course = chart(
+        "course",
+        "Bound and trapped over time",
+        time,
+        "share of all pairs",
+    )
+    .with("in the bond", Look::Line, line(1))
+    .with("in traps", Look::Line, line(2));
+    let mut tiles: Vec<f64> = best.table.iter().map(|row| row.0 as f64).collect();
+    tiles.dedup();
+    let mut coverages: Vec<f64> = best.table.iter().map(|row| row.1).collect();
+    coverages.order_by(f64::total_cmp);
+    coverages.dedup();
+    let tiles = Dimension::new(
+        "tiles",
+        format!("tiles (after {})", duration(question.time, 3)),
+    )
+    .logarithmic()
+    .marked(tiles);
+    let title = "Bound over number of tiles and coverage";
+    let mut crowds = chart("yield", title, tiles, "share of all pairs in the bond");
+    for coverage in coverages {
+        let rows = best.table.iter().filter(|row| row.1 == coverage);
+        let name = format!("{} % covered", (1e3 * coverage).round() / 10.0);
+        crowds = crowds.with(name, Look::Line, rows.map(|row| [row.0 as f64, row.2]));
     }
-    if let Some((tiles, mixture)) = &found.mixture {
-        let _ = writeln!(
-            text,
-            "\n{tiles} tiles, one shaking after another: {} ({}); no schedule yields more than {}",
-            percent(mixture.value, None),
-            phases(question, found, mixture),
-            mixture
-                .bound
-                .map_or("?".to_owned(), |bound| percent(bound, None)),
+    let mut all = vec![course, crowds];
+    if found.outcomes.len() > 1 {
+        let mut by_kt: Vec<&Outcome> = found.outcomes.iter().collect();
+        by_kt.order_by(|a, b| a.kt.total_cmp(&b.kt));
+        let kt = Dimension::new("kT_J", "kT").marked(by_kt.iter().map(|it| it.kt));
+        let bound = by_kt.iter().map(|it| Point {
+            x: it.kt,
+            y: it.bound,
+            ends: it
+                .interval
+                .iter()
+                .all(|end| end.is_finite())
+                .then_some(it.interval),
+        });
+        let points = |of: fn(&Outcome) -> f64| by_kt.iter().map(move |it| [it.kt, of(it)]);
+        let equilibrium = points(|it| it.equilibrium.unwrap_or(f64::NAN));
+        all.push(
+            chart("shaking", "Bound over kT", kt, "share of all pairs")
+                .with("in the bond", Look::Line, bound)
+                .with("in traps", Look::Line, points(|it| it.trapped))
+                .with("in the bond in the end", Look::Dashed, equilibrium),
         );
     }
-    let best = found.best();
-    let _ = writeln!(text, "\nstates at kT = {}:", si(best.kt, "J", 3));
-    let head = ["state", "depth", "ln K", "attached", "on", "off"];
-    let mut rows = vec![head.map(str::to_owned)];
-    rows.extend(best.states.iter().map(|state| {
-        [
-            state.name.clone(),
-            format!("{:.1} kT", state.depth),
-            format!("{:.1}", state.ln_k),
-            match best.attached.solved {
-                Some(_) => "-".to_owned(),
-                None => format!("{} of {}", state.attachments, best.attached.runs),
-            },
-            format!("{} m2/s", scientific(state.on)),
-            format!("{} /s", plain(state.off, 2)),
-        ]
-    }));
-    write_table(&mut text, &rows);
-    let _ = writeln!(
-        text,
-        "(on: {}; off: by detailed balance, with kT as if the table had one)",
-        question.effort.told()
-    );
-    text
+    all.into_iter().map(Into::into).collect()
 }
 
 /// Which shaking when: `30 min at 2 mJ, then 30 min at 1 mJ`.
-pub(super) fn phases(question: &Question, found: &Yields, mixture: &Mixture) -> String {
+fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture) -> String {
     let kts = mixture.schedule.chunk_by(|a, b| a == b);
     let phases = kts.map(|part| {
         let time = question.time * part.len() as f64 / mixture.schedule.len() as f64;
         let kt = found.outcomes[part[0]].kt;
         format!("{} at {}", duration(time, 2), si(kt, "J", 2))
     });
-    phases.collect::<Vec<_>>().join(", then ")
-}
-
-fn row(found: &Yields, kt: f64) -> [String; 7] {
-    let Ok(outcome) = found.at(kt) else {
-        let mut row = std::array::from_fn(|_| "-".to_owned());
-        row[0] = si(kt, "J", 3);
-        return row;
-    };
-    let time = |time: f64| match time.is_finite() {
-        true => duration(time, 2),
-        false => "never".to_owned(),
-    };
-    [
-        si(outcome.kt, "J", 3),
-        percent(outcome.bound, Some(outcome.interval)),
-        percent(outcome.trapped, None),
-        outcome
-            .equilibrium
-            .map_or("-".to_owned(), |share| percent(share, None)),
-        outcome.simulated.map_or("-".to_owned(), |[mean, error]| {
-            format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error)
-        }),
-        time(outcome.mean_times[0]),
-        time(outcome.mean_times[1]),
-    ]
+    format!(
+        "{tiles} tiles, one shaking after another: {} ({}); no schedule yields more than {}",
+        percent(mixture.value),
+        phases.collect::<Vec<_>>().join(", then "),
+        mixture.bound.map_or("?".to_owned(), percent),
+    )
 }
 
 /// `42 % (38-45)`.
-fn percent(share: f64, interval: Option<[f64; 2]>) -> String {
-    let one = |share: f64| match 100.0 * share {
-        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2}"),
-        percent => format!("{percent:.0}"),
-    };
-    match interval {
-        Some([low, high]) => format!("{} % ({}-{})", one(share), one(low), one(high)),
-        None => format!("{} %", one(share)),
-    }
+fn within(share: f64, interval: [f64; 2]) -> String {
+    let [low, high] = interval.map(|end| percent(end).replace(" %", ""));
+    format!("{} ({low}-{high})", percent(share))
 }
 
-fn scientific(value: f64) -> String {
-    format!("{value:.1e}")
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
+        percent => format!("{percent:.0} %"),
+    }
 }

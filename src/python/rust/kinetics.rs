@@ -10,7 +10,8 @@ use tilebind::kinetics::{Certify, why_unprovable};
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
 use tilebind::report::bond::BondReport;
-use tilebind::report::{json, rates as report, yields as yields_report};
+use tilebind::report::yields::document;
+use tilebind::report::{json, rates as report};
 use tilebind::yields::{Question, YieldError, yields};
 
 use crate::{barrier, convert, fault, job};
@@ -165,8 +166,5 @@ pub fn yielded<'py>(
         }
         _ => fault::run(error),
     })?;
-    convert::json(
-        py,
-        &json::text(&yields_report::json(design, question, &found)),
-    )
+    convert::json(py, &document(design, question, &found).report())
 }

@@ -66,6 +66,7 @@ impl Page {
             subtitle: headline(assembly),
             facts,
             pictures: vec![Illustration {
+                is_titled: false,
                 title: "What grows without errors".to_owned(),
                 svg: grown,
             }],

@@ -66,6 +66,7 @@ impl Page {
             subtitle: format!("ranked by {by}"),
             facts,
             pictures: vec![Illustration {
+                is_titled: false,
                 title: format!("Ranked by {by}"),
                 svg: ranking,
             }],

@@ -39,6 +39,7 @@ impl Page {
             facts,
             meetings: drawn.then(|| meetings(set, found)),
             pictures: vec![Illustration {
+                is_titled: false,
                 title: "Gaps of all pairs of faces".to_owned(),
                 svg: histogram(&gaps(found)),
             }],

@@ -17,13 +17,14 @@ function showPage() {
     box.append(make("dt", fact.name), make("dd", fact.value, "value"), make("dd", fact.note, "note"));
     element("facts").append(box);
   }
-  for (const { title, svg: source } of page.pictures) {
+  for (const { title, is_titled: isTitled, svg: source } of page.pictures) {
     const image = make("img");
     image.alt = title;
     image.src = URL.createObjectURL(new Blob([source], { type: "image/svg+xml" }));
-    element("pictures").append(make("h2", title), image);
+    element("pictures").append(...(isTitled ? [] : [make("h2", title)]), image);
   }
   for (const table of page.tables) buildTable(table, choose, choosePath);
+  element("notes").append(...page.notes.map((note) => make("p", note)));
   listFiles(page.files);
   element("reproduce").hidden = !page.citation;
   element("command").hidden = !page.command;

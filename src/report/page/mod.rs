@@ -22,8 +22,6 @@ mod thumbnail;
 mod tree;
 mod word_charts;
 mod words;
-pub(crate) mod yield_charts;
-mod yields;
 
 use serde::Serialize;
 use serde_json::Value;
@@ -76,6 +74,8 @@ pub struct Page {
     pub pictures: Vec<Illustration>,
     /// Tables, in order.
     pub tables: Vec<Table>,
+    /// What else to know, a paragraph each.
+    pub notes: Vec<String>,
     /// How it was made: version, seed, checksum.
     pub origin: String,
     /// The command line that makes the same page; empty where it is not known.
@@ -117,6 +117,8 @@ impl Fact {
 pub struct Illustration {
     /// What it shows.
     pub title: String,
+    /// Whether it says so itself.
+    pub is_titled: bool,
     /// A whole document, put into the page as it is.
     pub svg: String,
 }
@@ -125,6 +127,7 @@ pub struct Illustration {
 fn illustrations(pictures: Vec<(&str, &str, String)>) -> Vec<Illustration> {
     let shown = |(_, title, svg): (&str, &str, String)| Illustration {
         title: title.to_owned(),
+        is_titled: false,
         svg,
     };
     pictures.into_iter().map(shown).collect()
@@ -156,6 +159,8 @@ pub struct Column {
     /// SI unit of its numbers, to which the page adds a prefix; `rad` is shown in degrees, `%` for
     /// a share. Empty for counts and texts.
     pub unit: &'static str,
+    /// What it means, told under the pointer; may be empty.
+    pub meaning: &'static str,
 }
 
 impl Table {
@@ -181,6 +186,7 @@ impl Column {
         Self {
             name: name.to_owned(),
             unit,
+            meaning: "",
         }
     }
 }
@@ -210,7 +216,7 @@ impl Page {
     }
 
     /// A page with nothing on it but its title.
-    fn titled(title: String) -> Self {
+    pub(super) fn titled(title: String) -> Self {
         Self {
             title,
             subtitle: String::new(),
@@ -220,6 +226,7 @@ impl Page {
             meetings: None,
             pictures: Vec::new(),
             tables: Vec::new(),
+            notes: Vec::new(),
             origin: String::new(),
             command: String::new(),
             citation: CITATION,

@@ -83,6 +83,7 @@ impl Page {
 
 fn column(name: &str, unit: &'static str) -> Column {
     Column {
+        meaning: "",
         name: name.to_owned(),
         unit,
     }

@@ -86,6 +86,7 @@ function buildTable(table, choose, choosePath) {
     cell.scope = "col";
     const button = make("button", formats[k].unit ? `${column.name} (${formats[k].unit})` : column.name);
     button.type = "button";
+    button.title = column.meaning;
     button.addEventListener("click", () => sort(k));
     cell.append(button);
     head.append(cell);

@@ -47,12 +47,14 @@ impl Page {
         let mut pictures = Vec::new();
         if (1..=MOST_DRAWN).contains(&answer.words.len()) {
             pictures.push(Illustration {
+                is_titled: false,
                 title: "Gaps of all pairs of words".to_owned(),
                 svg: histogram(&gaps(request, answer)),
             });
         }
         if !answer.frontier.is_empty() {
             pictures.push(Illustration {
+                is_titled: false,
                 title: "Number of words against the gap".to_owned(),
                 svg: frontier(answer),
             });

@@ -56,11 +56,16 @@ impl Curve<'_, '_, '_> {
             estimate.is_some_and(|estimate| estimate.value.is_finite())
         };
         for piece in known.split(|point| !finite(point)) {
-            let piece: Vec<(f64, Estimate)> = piece
-                .iter()
-                .filter_map(|(x, e)| Some((*x, (*e)?)))
-                .collect();
-            self.piece(&piece)?;
+            let placed = piece.iter().filter_map(|(x, estimate)| {
+                let estimate = (*estimate)?;
+                let ends = estimate.low.zip(estimate.high);
+                Some(Placed {
+                    at: self.at(*x, estimate.value),
+                    ends: ends.map(|(low, high)| [self.at(*x, low), self.at(*x, high)]),
+                })
+            });
+            let placed: Vec<Placed> = placed.collect();
+            self::piece(self.root, &placed, self.colour, self.width)?;
         }
         for (x, _) in known
             .iter()
@@ -76,28 +81,40 @@ impl Curve<'_, '_, '_> {
         }
         Ok(known.iter().any(|(_, estimate)| estimate.is_some()))
     }
+}
 
-    /// A curve without a break, with its band.
-    fn piece(&self, piece: &[(f64, Estimate)]) -> Result<(), PictureError> {
-        for bounded in piece.split(|(_, e)| e.low.is_none() || e.high.is_none()) {
-            let edge = |of: fn(&Estimate) -> Option<f64>| -> Vec<Pixel> {
-                let edge = bounded.iter();
-                edge.map(|(x, e)| self.at(*x, of(e).unwrap_or(e.value)))
-                    .collect()
-            };
-            let mut band = edge(|e| e.low);
-            band.extend(edge(|e| e.high).into_iter().rev());
-            if bounded.len() > 1 {
-                polygon(self.root, &band, self.colour.mix(0.25), None)?;
-            } else if let [low, high] = band[..] {
-                polyline(self.root, &[low, high], self.colour.mix(0.5), 4.0)?;
+/// A point of a curve with the ends between which it lies (pixels).
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// The point.
+    pub at: Pixel,
+    /// Its ends.
+    pub ends: Option<[Pixel; 2]>,
+}
+
+/// A curve without a break, with its band.
+pub fn piece(
+    root: &Area,
+    piece: &[Placed],
+    colour: RGBColor,
+    width: f64,
+) -> Result<(), PictureError> {
+    for bounded in piece.split(|placed| placed.ends.is_none()) {
+        let ends: Vec<[Pixel; 2]> = bounded.iter().filter_map(|placed| placed.ends).collect();
+        match ends[..] {
+            [] => {}
+            [ends] => polyline(root, &ends, colour.mix(0.5), 4.0)?,
+            _ => {
+                let low = ends.iter().map(|ends| ends[0]);
+                let high = ends.iter().rev().map(|ends| ends[1]);
+                let band: Vec<Pixel> = low.chain(high).collect();
+                polygon(root, &band, colour.mix(0.25), None)?;
             }
         }
-        let line: Vec<Pixel> = piece.iter().map(|(x, e)| self.at(*x, e.value)).collect();
-        polyline(self.root, &line, self.colour, self.width)?;
-        line.iter()
-            .try_for_each(|p| disc(self.root, *p, self.colour))
     }
+    let line: Vec<Pixel> = piece.iter().map(|placed| placed.at).collect();
+    polyline(root, &line, colour, width)?;
+    line.iter().try_for_each(|p| disc(root, *p, colour))
 }
 
 /// Later curves are thinner, so that an earlier one can be seen beneath.

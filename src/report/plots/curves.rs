@@ -1,14 +1,14 @@
 //! The figures of a sweep as curves over one varied number, bounds as bands around them.
 
-use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::chart::{COLOURS, Look, names_of_series};
 use super::composition::{Composition, Panel, part, remark, stacked};
 use super::curve::{Curve, Scale, caption, cross, ring, width};
-use super::curve_data::{CurvePoint, Group, Series, Variable};
-use super::marks::{Box4, Pixel, polyline};
+use super::curve_data::{CurvePoint, Group, Variable};
+use super::marks::{Box4, polyline};
 use super::picture::{Area, PictureError};
-use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
+use super::style::{Axis, INK, SMALL, SOFT, Text, chart, pixel};
 use super::{Figure, Sheet};
 use crate::csv::{number, table};
 use crate::figures::Shown;
@@ -24,16 +24,6 @@ const MARGIN: [f64; 4] = [34.0, 20.0, 58.0, 78.0];
 /// Numbers that span more powers of ten stand by their logarithms.
 const MOST_DECADES: f64 = 2.0;
 
-/// Okabe and Ito's colours, told apart by colour-blind readers.
-const COLOURS: [RGBColor; 7] = [
-    BLUE,
-    VERMILLION,
-    GREEN,
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    INK,
-];
 /// Most series in a picture: one a colour.
 pub const MOST_SERIES: usize = COLOURS.len();
 
@@ -69,13 +59,16 @@ pub fn draw(
             move |root, _, place| panel.draw(root, place, variable),
         )
     });
+    let names = group.series.iter().zip(COLOURS);
+    let names = names.map(|(series, colour)| (series.name.clone(), colour, Look::Line));
+    let names = names.collect();
     let composition = Composition {
         name: name.to_owned(),
         title: group.title.clone(),
         note: (group.left_out > 0).then(|| format!("{} more series in sweep.csv", group.left_out)),
         width: WIDTH,
         panels: panels.collect(),
-        key: Some(stacked(key(group), remark(SIGNS.to_owned()))),
+        key: Some(stacked(names_of_series(names), remark(SIGNS.to_owned()))),
     };
     Figure::new(&composition, sheet, data(group, variable))
 }
@@ -118,41 +111,6 @@ pub fn numbers(design: Option<&Assessment>, at: [String; 2]) -> Vec<Vec<String>>
         Some(row)
     };
     figures.filter_map(row).collect()
-}
-
-/// Which colour is which series, in as many lines as it takes.
-fn key<'a>(group: &'a Group<'a>) -> Panel<'a> {
-    const LINE: f64 = 24.0;
-    let font = Text::new(LABEL);
-    let all: &[Series] = if group.series.len() > 1 {
-        &group.series
-    } else {
-        &[]
-    };
-    let places = move |width: f64| -> Vec<Pixel> {
-        let (mut x, mut y) = (22.0, 14.0);
-        let mut place = |series: &Series| {
-            let wide = 31.0 + 1.08 * font.width(&series.name) + 22.0;
-            if x > 22.0 && x + wide > width {
-                (x, y) = (22.0, y + LINE);
-            }
-            let at = (x, y);
-            x += wide;
-            at
-        };
-        all.iter().map(&mut place).collect()
-    };
-    let height = move |width| places(width).last().map_or(0.0, |(_, y)| y + 14.0);
-    Panel::new("", 0.0, height, move |root, _, [left, top, right, _]| {
-        let places = places(right - left);
-        for ((series, colour), (x, y)) in all.iter().zip(COLOURS).zip(places) {
-            let (x, y) = (left + x, top + y);
-            polyline(root, &[(x, y), (x + 24.0, y)], colour, 2.4)?;
-            let at = (x + 31.0, y);
-            font.write(root, &series.name, at, (HPos::Left, VPos::Center))?;
-        }
-        Ok(())
-    })
 }
 
 impl CurvePanel<'_> {

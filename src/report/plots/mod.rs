@@ -15,6 +15,7 @@
 
 mod approach;
 mod canvas;
+pub mod chart;
 mod composition;
 mod contour;
 mod curve;

@@ -95,7 +95,7 @@ impl Sheet {
     }
 
     /// Whether titles are drawn.
-    pub(super) fn is_titled(&self) -> bool {
+    pub(crate) fn is_titled(&self) -> bool {
         self.print.is_none_or(|print| print.width.is_none())
     }
 

@@ -1,0 +1,73 @@
+//! Where results go.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::output::{Command, Output};
+use tilebind::report::document::Document;
+
+use super::figures::{FigureOptions, command_line};
+use super::options::{ForceOption, PrintOptions};
+use super::progress::Progress;
+use super::{Failure, interrupt, style};
+
+/// What is kept and what is printed.
+#[derive(Args)]
+pub struct ResultOptions {
+    /// Folder for report.html, report.json, tables and pictures
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    force: ForceOption,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+
+    #[command(flatten)]
+    print: PrintOptions,
+}
+
+impl ResultOptions {
+    /// The folder for results of a command that reads `inputs`, if any is asked for. What is in the way
+    /// is refused.
+    pub fn output(
+        &self,
+        command: &'static Command,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Option<Output>, Failure> {
+        self.figures.sheet()?;
+        let folder = self.out.as_ref();
+        let folder = folder.map(|it| self.force.folder(command, it, inputs));
+        folder.transpose()
+    }
+
+    /// The bar that shows progress, unless all is to be quiet.
+    pub fn progress(&self) -> Progress {
+        self.print.progress()
+    }
+
+    /// Writes what is found to its folder, and prints it.
+    pub fn deliver(
+        &self,
+        document: &Document,
+        output: Option<Output>,
+        progress: &Progress,
+    ) -> Result<(), Failure> {
+        if let Some(output) = output {
+            let files = document.files(&self.figures.sheet()?, &command_line())?;
+            interrupt::without(|| output.write(&files))?;
+        }
+        progress.finish();
+        self.print.results(&document.report(), || {
+            let told = document.text(style::columns());
+            match &self.out {
+                Some(folder) => format!(
+                    "{told}results in {}: report.html to look at; report.json, tables, pictures\n",
+                    folder.display()
+                ),
+                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
+            }
+        })
+    }
+}

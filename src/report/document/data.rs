@@ -1,0 +1,147 @@
+//! Documents for programs: the report as JSON, tables of numbers as CSV.
+
+use serde_json::{Map, Value};
+
+use super::table::Parts;
+use super::{Cell, Document, Entry, Head, Table};
+use crate::csv::{self, number};
+use crate::files::Files;
+use crate::json;
+
+impl Document<'_> {
+    /// The report.
+    pub fn json(&self) -> Value {
+        object(&self.entries.0)
+    }
+
+    /// The report's text.
+    pub fn report(&self) -> String {
+        json::text(&self.json())
+    }
+
+    /// Tables of numbers by their files' names: those of the document, and those within their rows.
+    pub fn numbers(&self) -> Files {
+        let mut sheets: Vec<Numbers> = Vec::new();
+        for table in self.tables() {
+            collect(table, None, &mut sheets);
+        }
+        let file = |sheet: Numbers| {
+            let text = csv::table(sheet.columns, sheet.rows);
+            (format!("{}.csv", sheet.file), text.into_bytes())
+        };
+        sheets.into_iter().map(file).collect()
+    }
+}
+
+fn object(entries: &[Entry]) -> Value {
+    let mut map = Map::new();
+    for entry in entries {
+        match entry {
+            Entry::Fact(fact) if fact.head.is_data => {
+                map.insert(fact.head.key.to_owned(), fact.cell.json());
+            }
+            Entry::Table(table) if table.is_data => {
+                map.insert(table.key.to_owned(), table.json());
+            }
+            Entry::Group(key, inner) => {
+                map.insert((*key).to_owned(), object(inner));
+            }
+            Entry::Data(key, value) => {
+                map.insert((*key).to_owned(), value.clone());
+            }
+            Entry::Fact(_) | Entry::Table(_) => {}
+        }
+    }
+    Value::Object(map)
+}
+
+impl Table {
+    /// An object for each row.
+    pub fn json(&self) -> Value {
+        let row = |cells: &Vec<(Cell, Option<String>)>| -> Value {
+            let cells = self.heads.iter().zip(cells);
+            let shown = cells.filter(|(head, _)| head.is_data);
+            let entry = |(head, (cell, _)): (&Head, &(Cell, _))| (head.key.to_owned(), cell.json());
+            Value::Object(shown.map(entry).collect())
+        };
+        self.rows.iter().map(row).collect()
+    }
+}
+
+/// A file of numbers.
+struct Numbers {
+    file: &'static str,
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+/// Adds a table with those within its rows; `outer` is the cell of the row that it is within.
+fn collect(table: &Table, outer: Option<(&'static str, &str)>, sheets: &mut Vec<Numbers>) {
+    let shown: Vec<usize> = (0..table.heads.len())
+        .filter(|k| table.heads[*k].is_csv)
+        .collect();
+    if let Some(file) = table.file {
+        let place = sheets.iter().position(|sheet| sheet.file == file);
+        let place = place.unwrap_or_else(|| {
+            let own = shown.iter().flat_map(|k| keys(&table.heads[*k]));
+            let outer = outer.map(|(key, _)| key.to_owned());
+            sheets.push(Numbers {
+                file,
+                columns: outer.into_iter().chain(own).collect(),
+                rows: Vec::new(),
+            });
+            sheets.len() - 1
+        });
+        let rows = table.rows.iter().map(|row| {
+            let outer = outer.map(|(_, cell)| cell.to_owned());
+            let own = shown
+                .iter()
+                .flat_map(|k| texts(&table.heads[*k], &row[*k].0));
+            outer.into_iter().chain(own).collect()
+        });
+        sheets[place].rows.extend(rows);
+    }
+    for row in &table.rows {
+        let first = texts(&table.heads[0], &row[0].0).swap_remove(0);
+        for (cell, _) in row {
+            if let Cell::Rows(inner) = cell {
+                collect(inner, Some((table.heads[0].key, &first)), sheets);
+            }
+        }
+    }
+}
+
+/// The keys of the columns of numbers that a column is.
+fn keys(head: &Head) -> Vec<String> {
+    let key = head.key;
+    match head.parts {
+        Parts::One => vec![key.to_owned()],
+        Parts::Ends => ["low", "high"]
+            .map(|end| key.replace("interval", end).replace("bounds", end))
+            .to_vec(),
+        Parts::Pose => ["x_m", "y_m", "theta_rad"].map(str::to_owned).to_vec(),
+        Parts::Sampled => ["share", "low", "high"]
+            .map(|part| format!("{key}_{part}"))
+            .to_vec(),
+    }
+}
+
+/// A cell in those columns; empty where nothing is known.
+fn texts(head: &Head, cell: &Cell) -> Vec<String> {
+    let known = |value: Option<f64>| {
+        let value = value.filter(|value| value.is_finite());
+        value.map_or(String::new(), number)
+    };
+    match cell {
+        Cell::Number(value) => vec![known(Some(*value))],
+        Cell::Whole(value) => vec![value.to_string()],
+        Cell::Truth(value) => vec![value.to_string()],
+        Cell::Text(text) => vec![text.clone()],
+        Cell::Interval(ends) => ends.map(known).to_vec(),
+        Cell::Pose(q) => q.to_array().map(|value| known(Some(value))).to_vec(),
+        Cell::Sampled(sampled) => [sampled.share(), sampled.low, sampled.high]
+            .map(|value| known(Some(value)))
+            .to_vec(),
+        Cell::Missing | Cell::Rows(_) | Cell::Data(_) => vec![String::new(); keys(head).len()],
+    }
+}

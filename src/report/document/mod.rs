@@ -1,0 +1,200 @@
+//! A result as one document that every output reads.
+//!
+//! One function makes the [`Document`] of a result; the terminal ([`text`]), JSON ([`data`]), CSV
+//! ([`data`]), the page ([`page`]) and pictures ([`super::plots`]) are made from it. A new figure or
+//! column is one entry of the document and appears in all of them; `.in_data()` and `.in_view()` keep
+//! one to programs or to people.
+
+mod cell;
+mod data;
+mod page;
+mod table;
+mod text;
+
+pub use cell::{Cell, Unit, told};
+pub use table::{Head, Rows, Table, rows};
+
+use serde_json::{Value, json};
+
+use crate::plots::{Figure, PictureError, Sheet};
+use jobs::design::Design;
+
+/// What there is to know of a result.
+pub struct Document<'a> {
+    /// The heading.
+    pub title: String,
+    /// The sentence that answers the question.
+    pub answer: String,
+    /// What to know before reading on.
+    pub remarks: Vec<String>,
+    /// All that was found, in the order of the report.
+    pub entries: Entries,
+    /// Its pictures, in order.
+    pub pictures: Vec<Drawing<'a>>,
+    /// What to know in the end.
+    pub notes: Vec<String>,
+    /// How it was made: version, model, method.
+    pub origin: String,
+}
+
+/// Something that was found.
+pub enum Entry {
+    /// One figure.
+    Fact(Fact),
+    /// Rows of figures.
+    Table(Table),
+    /// Entries that belong together, under one key.
+    Group(&'static str, Vec<Entry>),
+    /// What programs alone read.
+    Data(&'static str, Value),
+}
+
+/// One figure.
+pub struct Fact {
+    /// What it is.
+    pub head: Head,
+    /// Its value.
+    pub cell: Cell,
+    /// The value as people read it, where that is more than the value.
+    pub view: Option<String>,
+    /// What else to know of it.
+    pub note: String,
+}
+
+/// A picture yet to be drawn.
+pub struct Drawing<'a> {
+    /// What it shows.
+    pub title: String,
+    /// Draws it.
+    pub draw: Box<dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a>,
+}
+
+/// Entries one after another.
+#[derive(Default)]
+pub struct Entries(Vec<Entry>);
+
+/// What every report begins with: the version, the design by its name and checksum, its model.
+pub fn entries(design: &Design) -> Entries {
+    let identity = json!({"name": design.name, "sha256": design.sha256});
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("design", identity)
+        .data("model", design.interaction.model.name())
+}
+
+impl Entries {
+    /// A figure: its key in files, which ends in its unit, what people call it (nothing where they do
+    /// not see it), and its value.
+    #[must_use]
+    pub fn fact(mut self, key: &'static str, name: &'static str, cell: impl Into<Cell>) -> Self {
+        self.0.push(Entry::Fact(Fact {
+            head: Head::new(key, name, ""),
+            cell: cell.into(),
+            view: None,
+            note: String::new(),
+        }));
+        self
+    }
+
+    fn last(mut self, change: impl FnOnce(&mut Fact)) -> Self {
+        if let Some(Entry::Fact(fact)) = self.0.last_mut() {
+            change(fact);
+        }
+        self
+    }
+
+    /// With what else there is to know of the last figure.
+    #[must_use]
+    pub fn noted(self, note: impl Into<String>) -> Self {
+        self.last(|fact| fact.note = note.into())
+    }
+
+    /// The last figure as people read it.
+    #[must_use]
+    pub fn viewed(self, view: impl Into<String>) -> Self {
+        self.last(|fact| fact.view = Some(view.into()))
+    }
+
+    /// The last figure is a share of all.
+    #[must_use]
+    pub fn share(self) -> Self {
+        self.last(|fact| fact.head.unit = Unit::Share)
+    }
+
+    /// People see so many digits of the last figure.
+    #[must_use]
+    pub fn digits(self, digits: usize) -> Self {
+        self.last(|fact| fact.head.digits = digits)
+    }
+
+    /// The last figure is for people only.
+    #[must_use]
+    pub fn in_view(self) -> Self {
+        self.last(|fact| fact.head.is_data = false)
+    }
+
+    /// A table.
+    #[must_use]
+    pub fn table(mut self, table: Table) -> Self {
+        self.0.push(Entry::Table(table));
+        self
+    }
+
+    /// Entries under one key.
+    #[must_use]
+    pub fn group(mut self, key: &'static str, entries: Self) -> Self {
+        self.0.push(Entry::Group(key, entries.0));
+        self
+    }
+
+    /// What programs read under a key.
+    #[must_use]
+    pub fn data(mut self, key: &'static str, value: impl Into<Value>) -> Self {
+        self.0.push(Entry::Data(key, value.into()));
+        self
+    }
+}
+
+impl Fact {
+    /// As people read it.
+    pub fn to_text(&self) -> String {
+        let told = || self.head.told(&self.cell);
+        self.view.clone().unwrap_or_else(told)
+    }
+}
+
+impl Document<'_> {
+    /// All facts and tables, those of groups too.
+    fn walk<'b>(entries: &'b [Entry], see: &mut dyn FnMut(&'b Entry)) {
+        for entry in entries {
+            match entry {
+                Entry::Group(_, inner) => Self::walk(inner, see),
+                entry => see(entry),
+            }
+        }
+    }
+
+    /// The tables, in order.
+    pub fn tables(&self) -> Vec<&Table> {
+        let mut tables = Vec::new();
+        Self::walk(&self.entries.0, &mut |entry| {
+            if let Entry::Table(table) = entry {
+                tables.push(table);
+            }
+        });
+        tables
+    }
+
+    /// The figures that people see, in order.
+    pub fn facts(&self) -> Vec<&Fact> {
+        let mut facts = Vec::new();
+        Self::walk(&self.entries.0, &mut |entry| {
+            if let Entry::Fact(fact) = entry
+                && fact.head.is_viewed
+            {
+                facts.push(fact);
+            }
+        });
+        facts
+    }
+}

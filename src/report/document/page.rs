@@ -1,0 +1,86 @@
+//! Documents as a page, and all files of a document.
+
+use serde_json::{Value, json};
+
+use super::{Document, Fact, Table};
+use crate::files::{Files, PAGE, PICTURES, REPORT};
+use crate::page::{self, Illustration, Page};
+use crate::plots::{PictureError, Sheet};
+use physics::parallel;
+
+impl Document<'_> {
+    /// The report, tables, pictures with their numbers, and the page that shows them all, made by
+    /// `command`.
+    ///
+    /// # Errors
+    /// Where a picture cannot be drawn.
+    pub fn files(&self, sheet: &Sheet, command: &str) -> Result<Files, PictureError> {
+        let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
+        let figures = figures.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut files = self.numbers();
+        files.insert(REPORT.to_owned(), self.report().into_bytes());
+        let mut page = self.page();
+        for (picture, figure) in self.pictures.iter().zip(figures) {
+            page.pictures.push(Illustration {
+                title: picture.title.clone(),
+                is_titled: sheet.is_titled(),
+                svg: figure.svg().to_owned(),
+            });
+            let named = figure.files();
+            files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
+        }
+        let page = page.made_by(command).beside(files.keys()).to_html();
+        files.insert(PAGE.to_owned(), page.into_bytes());
+        Ok(files)
+    }
+
+    /// The page, without pictures.
+    pub fn page(&self) -> Page {
+        let tables = self.tables().into_iter().filter(|table| table.is_shown());
+        Page {
+            subtitle: self.answer.clone(),
+            facts: self.facts().into_iter().map(Fact::shown).collect(),
+            tables: tables.map(Table::shown).collect(),
+            notes: [&self.remarks[..], &self.notes].concat(),
+            origin: format!("tilebind {}; {}", env!("CARGO_PKG_VERSION"), self.origin),
+            ..Page::titled(self.title.clone())
+        }
+    }
+}
+
+impl Fact {
+    fn shown(&self) -> page::Fact {
+        page::Fact {
+            name: self.head.name.to_owned(),
+            value: self.to_text(),
+            note: self.note.clone(),
+        }
+    }
+}
+
+impl Table {
+    fn shown(&self) -> page::Table {
+        let columns = self.viewed().map(|k| page::Column {
+            name: self.heads[k].name.to_owned(),
+            unit: "",
+            meaning: self.heads[k].meaning,
+        });
+        let cell = |row: usize, k: usize| -> Value {
+            match (self.rows[row][k].0.key(), self.text(row, k)) {
+                (Value::Null, text) if text == "-" => Value::Null,
+                (key, text) => json!([key, text]),
+            }
+        };
+        let rows = 0..self.rows.len();
+        page::Table {
+            title: self.title.clone(),
+            note: self.note.clone(),
+            columns: columns.collect(),
+            rows: rows
+                .map(|row| self.viewed().map(|k| cell(row, k)).collect())
+                .collect(),
+            states: Vec::new(),
+            paths: Vec::new(),
+        }
+    }
+}

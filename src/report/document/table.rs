@@ -1,0 +1,274 @@
+//! Tables: their columns are declared once, each with its key, name, meaning and value.
+
+use super::{Cell, Unit};
+
+/// What a figure or a column is.
+#[derive(Clone, Debug)]
+pub struct Head {
+    /// What files call it; ends in the unit.
+    pub key: &'static str,
+    /// What people call it; empty for what programs only read.
+    pub name: &'static str,
+    /// What it means, in a sentence.
+    pub meaning: &'static str,
+    /// What it is measured in.
+    pub unit: Unit,
+    /// Which columns it is in tables of numbers.
+    pub(super) parts: Parts,
+    /// Digits that people see.
+    pub digits: usize,
+    /// Whether programs read it, in JSON ...
+    pub is_data: bool,
+    /// ... and in tables of numbers.
+    pub is_csv: bool,
+    /// Whether people see it.
+    pub is_viewed: bool,
+}
+
+/// What a column of figures is in tables of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Parts {
+    /// One column.
+    One,
+    /// `low` and `high`, where the key has `interval` or `bounds`.
+    Ends,
+    /// x, y and theta.
+    Pose,
+    /// A share with the ends of its interval.
+    Sampled,
+}
+
+impl Parts {
+    fn of_key(key: &str) -> Self {
+        match key {
+            "pose" => Self::Pose,
+            _ if key.contains("interval") || key.contains("bounds") => Self::Ends,
+            _ => Self::One,
+        }
+    }
+}
+
+impl Head {
+    /// Of a quantity whose unit its key says.
+    pub fn new(key: &'static str, name: &'static str, meaning: &'static str) -> Self {
+        Self {
+            key,
+            name,
+            meaning,
+            unit: Unit::of_key(key),
+            parts: Parts::of_key(key),
+            digits: 3,
+            is_data: true,
+            is_csv: true,
+            is_viewed: !name.is_empty(),
+        }
+    }
+
+    /// A value as people read it.
+    pub fn told(&self, cell: &Cell) -> String {
+        cell.told(self.unit, self.digits)
+    }
+}
+
+/// Rows of which a table is made, column by column.
+///
+/// ```
+/// use tilebind_report::document::rows;
+///
+/// let table = rows([(1e-3, 0.25), (2e-3, 0.5)])
+///     .column("kT_J", "kT", "energy of shaking", |row| row.0)
+///     .column("yield", "bound", "share of all pairs", |row| row.1).share()
+///     .table("settings");
+/// assert_eq!(table.text(1, 0), "2.00 mJ");
+/// assert_eq!(table.text(1, 1), "50 %");
+/// ```
+pub struct Rows<'a, Row> {
+    rows: Vec<Row>,
+    columns: Vec<Column<'a, Row>>,
+}
+
+/// A column whose cells are made from `Row`s.
+struct Column<'a, Row> {
+    head: Head,
+    get: Box<dyn Fn(&Row) -> Cell + 'a>,
+    view: Option<Box<dyn Fn(&Row) -> String + 'a>>,
+}
+
+/// Rows for some things.
+pub fn rows<'a, Row>(rows: impl IntoIterator<Item = Row>) -> Rows<'a, Row> {
+    Rows {
+        rows: rows.into_iter().collect(),
+        columns: Vec::new(),
+    }
+}
+
+impl<'a, Row> Rows<'a, Row> {
+    /// A column more: its key in files, which ends in its unit, what people call it, what it means,
+    /// and its value in a row.
+    #[must_use]
+    pub fn column<C: Into<Cell>>(
+        mut self,
+        key: &'static str,
+        name: &'static str,
+        meaning: &'static str,
+        get: impl Fn(&Row) -> C + 'a,
+    ) -> Self {
+        self.columns.push(Column {
+            head: Head::new(key, name, meaning),
+            get: Box::new(move |row| get(row).into()),
+            view: None,
+        });
+        self
+    }
+
+    /// The last column as people read it, where that is more than the value.
+    #[must_use]
+    pub fn viewed(mut self, view: impl Fn(&Row) -> String + 'a) -> Self {
+        if let Some(column) = self.columns.last_mut() {
+            column.view = Some(Box::new(view));
+        }
+        self
+    }
+
+    fn last(mut self, change: impl Fn(&mut Head)) -> Self {
+        if let Some(column) = self.columns.last_mut() {
+            change(&mut column.head);
+        }
+        self
+    }
+
+    /// The last column has shares of all.
+    #[must_use]
+    pub fn share(self) -> Self {
+        self.last(|head| head.unit = Unit::Share)
+    }
+
+    /// People see so many digits of the last column.
+    #[must_use]
+    pub fn digits(self, digits: usize) -> Self {
+        self.last(|head| head.digits = digits)
+    }
+
+    /// The last column has sampled shares of all.
+    #[must_use]
+    pub fn sampled(self) -> Self {
+        self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))
+    }
+
+    /// The last column is for programs only.
+    #[must_use]
+    pub fn in_data(self) -> Self {
+        self.last(|head| head.is_viewed = false)
+    }
+
+    /// The last column is in JSON only.
+    #[must_use]
+    pub fn in_json(self) -> Self {
+        self.in_data().without_csv()
+    }
+
+    /// The last column is no number, and in no table of them.
+    #[must_use]
+    pub fn without_csv(self) -> Self {
+        self.last(|head| head.is_csv = false)
+    }
+
+    /// The last column is in tables of numbers only.
+    #[must_use]
+    pub fn in_csv(self) -> Self {
+        self.in_data().last(|head| head.is_data = false)
+    }
+
+    /// The last column is for people only.
+    #[must_use]
+    pub fn in_view(self) -> Self {
+        self.last(|head| (head.is_data, head.is_csv) = (false, false))
+    }
+
+    /// The table, by what JSON calls it.
+    pub fn table(self, key: &'static str) -> Table {
+        let cells = |row: &Row| -> Vec<_> {
+            let cell = |column: &Column<Row>| {
+                let view = column.view.as_ref().map(|view| view(row));
+                ((column.get)(row), view)
+            };
+            self.columns.iter().map(cell).collect()
+        };
+        Table {
+            key,
+            file: None,
+            title: String::new(),
+            note: String::new(),
+            is_data: true,
+            is_viewed: true,
+            rows: self.rows.iter().map(cells).collect(),
+            heads: self.columns.into_iter().map(|it| it.head).collect(),
+        }
+    }
+}
+
+/// Rows of figures.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// What JSON calls it.
+    pub key: &'static str,
+    /// The stem of its file of numbers, if it has one.
+    pub file: Option<&'static str>,
+    /// What its rows are.
+    pub title: String,
+    /// What else there is to know of it.
+    pub note: String,
+    /// Whether JSON has it.
+    pub is_data: bool,
+    /// Whether people see it.
+    pub is_viewed: bool,
+    /// What its columns are.
+    pub heads: Vec<Head>,
+    /// The cells, with their texts where these are more than the values.
+    pub rows: Vec<Vec<(Cell, Option<String>)>>,
+}
+
+impl Table {
+    /// With a file of numbers of this name.
+    #[must_use]
+    pub fn in_file(mut self, stem: &'static str) -> Self {
+        self.file = Some(stem);
+        self
+    }
+
+    /// With what its rows are, and what else there is to know of it.
+    #[must_use]
+    pub fn titled(mut self, title: impl Into<String>, note: impl Into<String>) -> Self {
+        self.title = title.into();
+        self.note = note.into();
+        self
+    }
+
+    /// For programs only.
+    #[must_use]
+    pub fn in_data(mut self) -> Self {
+        self.is_viewed = false;
+        self
+    }
+
+    /// For people only.
+    #[must_use]
+    pub fn in_view(mut self) -> Self {
+        self.is_data = false;
+        self.file = None;
+        self
+    }
+
+    /// The columns that people see, by their numbers.
+    pub fn viewed(&self) -> impl Iterator<Item = usize> {
+        let heads = self.heads.iter().enumerate();
+        heads.filter(|(_, head)| head.is_viewed).map(|(k, _)| k)
+    }
+
+    /// A cell as people read it.
+    pub fn text(&self, row: usize, column: usize) -> String {
+        let (cell, view) = &self.rows[row][column];
+        view.clone()
+            .unwrap_or_else(|| self.heads[column].told(cell))
+    }
+}
