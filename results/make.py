@@ -333,9 +333,9 @@ def rates(work):
 def docking(work):
     work.run("tilebind", "dock", "shapes/paper-tile.toml", "--runs", "12000", "--out", "target/dock")
     out = work.folder / "target/dock"
-    report = json.loads((out / "dock.json").read_text())
+    report = json.loads((out / "report.json").read_text())
     del report["timing"]
-    work.keep("paper-tile-docking/dock.json", json.dumps(report, indent=2) + "\n")
+    work.keep("paper-tile-docking/report.json", json.dumps(report, indent=2) + "\n")
     work.keep("paper-tile-docking/map.csv", out / "map.csv")
     work.keep("paper-tile-docking/chances.svg", out / "pictures/chances.svg")
 
@@ -385,7 +385,7 @@ PARTS = [
            shaken(name)) for name, minutes in YIELDS.items()),
     Part("rates", "rates", 0.2, ["rates.csv"], rates),
     Part("docking", "docking", 0.3,
-         [f"paper-tile-docking/{file}" for file in ("dock.json", "map.csv", "chances.svg")], docking),
+         [f"paper-tile-docking/{file}" for file in ("report.json", "map.csv", "chances.svg")], docking),
     Part("assembly-lattice", "assembly", 2, ["assembly/lattice.csv"], assembly_table("lattice")),
     Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
          f"{GROWN}; git, cc and libX11's headers for xgrow"),

@@ -6,7 +6,7 @@
 //! | [`inspection`], [`workshop`] | a design at a glance; a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
-//! | [`yields`] | what comes out of a shaken table |
+//! | [`docking`], [`yields`] | tiles sent towards each other; what comes out of a shaken table |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
 
@@ -15,6 +15,7 @@ pub mod calibration;
 pub mod checksum;
 pub mod comparison;
 pub mod design;
+pub mod docking;
 pub mod inspection;
 pub mod output;
 pub mod pipeline;

@@ -1,104 +1,110 @@
-//! Docking experiments as JSON, CSV and a summary.
+//! Docking experiments: how tiles end that are sent towards each other.
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::inspection::pole;
-use super::json;
+use crate::document::{Document, Drawing, Entries, Interactive, Table, entries, rows};
+use crate::page::{Landscape, Played};
+use crate::plots::{Scene, dock, paths};
 use jobs::design::Design;
-use physics::dynamics::docking::{
-    Docking, DockingMap, DockingSettings, ENGINE, End, MatchRule, OnRate, share_within,
-};
-use physics::landscape::Proportion;
+use jobs::docking::Paths;
+use physics::configuration::Configuration;
+use physics::dynamics::docking::{Docking, DockingMap, DockingRun, End, MatchRule, OnRate};
+use physics::dynamics::{MotionSettings, Snapshot};
+use physics::landscape::{Inventory, State, StateKind};
 use physics::order::Order;
 use physics::problem::Problem;
-use physics::tile::Tile;
-use physics::tile::barcode::Pole;
-use physics::units::si;
+use physics::units::{plain, si};
 
-pub use super::docking_tables::{map_csv, runs_csv, trajectory_csv};
+/// Cells of the map of chances along the orientation and the speed.
+pub const CELLS: [usize; 2] = [12, 13];
+/// Traps that people see.
+const LISTED: usize = 12;
 
-/// Where the paper's figure 6 says that the chance of a match is above [`PAPER_CHANCE`]: relative
-/// orientation (rad) and speed (m/s).
-pub const PAPER_REGION: [[f64; 2]; 2] = [[-0.5, 1.5], [0.4, 0.8]];
-/// See [`PAPER_REGION`].
-pub const PAPER_CHANCE: f64 = 0.04;
+/// What there is to know of an experiment; with some of its paths, pictures and what the page plays.
+pub fn document<'a>(
+    (design, problem): (&'a Design, &'a Problem),
+    docking: &'a Docking,
+    paths: Option<&'a Paths>,
+) -> Document<'a> {
+    let bound = docking.runs.iter().filter(|run| run.is_bound()).count();
+    Document {
+        title: format!("{}: docking", design.name),
+        answer: format!(
+            "{}: {bound} of {} trajectories of {} each end in the bond (seed {})",
+            design.name,
+            docking.runs.len(),
+            si(docking.settings.duration, "s", 2),
+            docking.settings.seed
+        ),
+        remarks: Vec::new(),
+        entries: found(design, problem, docking, paths),
+        interactive: paths.map(|paths| scene(design, problem, docking, paths)),
+        pictures: paths.map_or_else(Vec::new, |paths| pictures(design, docking, paths)),
+        notes: notes(docking),
+        origin: format!(
+            "seed {}, {} magnets",
+            docking.settings.seed,
+            design.interaction.model.name()
+        ),
+    }
+}
 
-/// `dock.json`: the counts, and everything that reproduces them.
-pub fn json(design: &Design, docking: &Docking, map: &DockingMap) -> String {
-    let settings = &docking.settings;
-    let (motion, starts) = (&settings.motion, &settings.starts);
-    let rate = OnRate::new(docking);
-    let [orientation, speed] = PAPER_REGION;
-    let traps: Vec<_> = docking
-        .traps
-        .iter()
-        .map(|trap| {
-            json!({
-                "pose": trap.configuration.to_array(),
-                "energy_J": trap.energy,
-                "caught": proportion(&trap.caught),
-            })
-        })
-        .collect();
-    let fans: Vec<_> = motion
-        .fans
-        .iter()
-        .map(|fan| {
-            json!({
-                "place_m": fan.place, "energy_J": fan.energy, "width_m": fan.width,
-                "amplitude": fan.amplitude, "frequency_Hz": fan.frequency,
-            })
-        })
-        .collect();
-    json::text(&json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "design": {"name": design.name, "sha256": design.sha256},
-        "seed": settings.seed,
-        "settings": {
-            "runs": settings.runs, "duration_s": settings.duration,
-            "match_threshold_m": docking.threshold,
-            "starts": {
-                "distance_m": starts.distance, "direction_rad": starts.direction,
-                "orientation_rad": starts.orientation, "speed_m_per_s": starts.speed,
-                "aim_rad": starts.aim, "spin_rad_per_s": starts.spin,
-            },
-            "motion": {
-                "drag_per_s": motion.drag, "restitution": motion.restitution,
-                "friction": motion.friction, "walls": motion.walls, "fans": fans,
-                "shaking_J": motion.shaking, "tolerance_m": motion.tolerance,
-                "contact_step_s": motion.contact_step, "contact_travel_m": motion.contact_travel,
-            },
+// One line an entry.
+#[rustfmt::skip]
+fn found(design: &Design, problem: &Problem, docking: &Docking, paths: Option<&Paths>) -> Entries {
+    let map = DockingMap::new(docking, CELLS);
+    let all = entries(design)
+        .data("seed", docking.settings.seed)
+        .data("settings", settings(docking))
+        .fact("bound", "bond", docking.bound).noted("of all runs end in it")
+        .fact("misbound", "traps", docking.trapped).noted("caught without a match")
+        .fact("free", "free", docking.free).noted("neither")
+        .table(ends(docking))
+        .table(traps(problem, docking))
+        .data("time_to_bind_s", json!(times(docking)))
+        .data("on_rate", rate("attachments", &OnRate::new(docking)))
+        .fact("", "on-rate", told_rate(&OnRate::new(docking))).in_view()
+        .data("timing", timing(docking))
+        .table(runs(docking))
+        .table(chances(&map));
+    match paths.and_then(|paths| paths.played.first()) {
+        Some((_, snapshots)) => all.table(trajectory(snapshots)),
+        None => all,
+    }
+}
+
+fn settings(docking: &Docking) -> Value {
+    let (settings, starts) = (&docking.settings, &docking.settings.starts);
+    json!({
+        "runs": settings.runs, "duration_s": settings.duration,
+        "match_threshold_m": docking.threshold,
+        "starts": {
+            "distance_m": starts.distance, "direction_rad": starts.direction,
+            "orientation_rad": starts.orientation, "speed_m_per_s": starts.speed,
+            "aim_rad": starts.aim, "spin_rad_per_s": starts.spin,
         },
-        "bound": proportion(&docking.bound),
-        "misbound": proportion(&docking.trapped),
-        "free": proportion(&docking.free),
-        "traps": traps,
-        "time_to_bind_s": times(docking),
-        "on_rate": rate_entry("attachments", &rate),
-        // Both are of the paper's tile, and null for any other.
-        "paper_figure_6": is_paper_tile(design).then(|| json!({
-            "claim": PAPER_CHANCE, "orientation_rad": orientation, "speed_m_per_s": speed,
-            "matched": proportion(&share_within(docking, orientation, speed)),
-            "cells_below_claim": below_claim(map),
-        })),
-        "open_dynamics_engine": is_engine_comparison(design, settings).then(|| json!({
-            "matched": ENGINE.matched, "slid": ENGINE.slid, "margin": ENGINE.margin,
-            "restitution_in_the_mean": ENGINE.restitution,
-            "matched_with_correction_limited": ENGINE.corrected.0,
-            "margin_with_correction_limited": ENGINE.corrected.1,
-            "core_s_per_step": ENGINE.cost,
-            "core_s_per_simulated_s": ENGINE.steps.map(|step| ENGINE.cost / step),
-            "best_speed_m_per_s": ENGINE.best.0, "best_matched": ENGINE.best.1,
-            "here_at_best_speed":
-                proportion(&share_within(docking, [-starts.orientation, starts.orientation], ENGINE.best.0)),
-        })),
-        "timing": timing(docking),
-    }))
+        "motion": motion(&settings.motion),
+    })
+}
+
+/// How tiles move, as reports have it.
+pub(crate) fn motion(motion: &MotionSettings) -> Value {
+    let fans = motion.fans.iter().map(|fan| {
+        json!({
+            "place_m": fan.place, "energy_J": fan.energy, "width_m": fan.width,
+            "amplitude": fan.amplitude, "frequency_Hz": fan.frequency,
+        })
+    });
+    json!({
+        "drag_per_s": motion.drag, "restitution": motion.restitution,
+        "friction": motion.friction, "walls": motion.walls, "fans": fans.collect::<Value>(),
+        "shaking_J": motion.shaking, "tolerance_m": motion.tolerance,
+        "contact_step_s": motion.contact_step, "contact_travel_m": motion.contact_travel,
+    })
 }
 
 /// A rate, with the number of what was counted under its name.
-pub(super) fn rate_entry(events: &str, rate: &OnRate) -> Value {
+pub(crate) fn rate(events: &str, rate: &OnRate) -> Value {
     json!({
         events: rate.attachments, "time_s": rate.time, "rate_per_s": rate.rate,
         "interval_per_s": rate.interval, "statistic": rate.statistic,
@@ -106,88 +112,18 @@ pub(super) fn rate_entry(events: &str, rate: &OnRate) -> Value {
     })
 }
 
-/// Whether both tiles are the paper's: straight squares of 43 cm with four magnets of 0.2865 A m^2,
-/// 40 mm apart, on every face, NNNS on the fixed tile and NSSS on the moving one.
-pub fn is_paper_tile(design: &Design) -> bool {
-    let is_one = |tile: &Tile, code: &str| {
-        let faces = &tile.faces;
-        let square = faces.len() == 4
-            && tile.outline.vertices().len() == 4
-            && faces.iter().all(|face| (face.length() - 0.43).abs() < 1e-9);
-        let carries_code = |k: usize| {
-            let magnets = tile.magnets.iter().filter(|magnet| magnet.face == k);
-            let found: Vec<(f64, Pole, f64)> = magnets
-                .map(|magnet| {
-                    let s = (magnet.position - faces[k].middle()).dot(&faces[k].tangent());
-                    (s, pole(tile, magnet), magnet.moment)
-                })
-                .collect();
-            found.len() == code.len()
-                && found
-                    .iter()
-                    .zip(code.chars())
-                    .enumerate()
-                    .all(|(i, (magnet, letter))| {
-                        let place = 0.04 * (i as f64 - 1.5);
-                        (magnet.0 - place).abs() < 1e-9
-                            && (magnet.1 == Pole::North) == (letter == 'N')
-                            && (magnet.2 - 0.2865).abs() < 1e-4
-                    })
-        };
-        square && (0..4).all(carries_code)
-    };
-    is_one(&design.pair.fixed, "NNNS") && is_one(&design.pair.moving, "NSSS")
-}
-
-/// Whether this is the experiment that was made with the Open Dynamics Engine as well, with
-/// whatever restitution.
-pub fn is_engine_comparison(design: &Design, settings: &DockingSettings) -> bool {
-    let mut other = DockingSettings::engine_comparison();
-    other.motion.restitution = settings.motion.restitution;
-    is_paper_tile(design)
-        && settings.motion == other.motion
-        && settings.starts == other.starts
-        && settings.duration == other.duration
-        && settings.threshold.is_none()
-}
-
-/// Cells of the paper's region in which the chance is below its claim with its whole interval, and
-/// all cells of the region.
-pub fn below_claim(map: &DockingMap) -> [usize; 2] {
-    let [orientation, speed] = PAPER_REGION;
-    let inside = |cell: [f64; 2], region: [f64; 2]| {
-        cell[0] >= region[0] - 1e-9 && cell[1] <= region[1] + 1e-9
-    };
-    let cells = map.cells.iter().filter(|cell| {
-        inside(cell.orientation, orientation) && inside(cell.speed, speed) && cell.matched.of > 0
-    });
-    cells.fold([0, 0], |[below, all], cell| {
-        [
-            below + usize::from(cell.matched.high < PAPER_CHANCE),
-            all + 1,
-        ]
-    })
-}
-
-fn proportion(p: &Proportion) -> impl Serialize + use<> {
-    json!({"count": p.count, "of": p.of, "share": p.share(), "low": p.low, "high": p.high})
-}
-
 /// Least, middle and largest time to bind (s).
 fn times(docking: &Docking) -> Option<[f64; 3]> {
-    let mut times: Vec<f64> = docking
-        .runs
-        .iter()
-        .filter_map(|run| match run.end {
-            End::Bound { since } => Some(since),
-            _ => None,
-        })
-        .collect();
+    let since = |run: &DockingRun| match run.end {
+        End::Bound { since } => Some(since),
+        _ => None,
+    };
+    let mut times: Vec<f64> = docking.runs.iter().filter_map(since).collect();
     times.order_by(f64::total_cmp);
     Some([*times.first()?, times[times.len() / 2], *times.last()?])
 }
 
-fn timing(docking: &Docking) -> serde_json::Value {
+fn timing(docking: &Docking) -> Value {
     let contact: usize = docking.runs.iter().map(|run| run.contact_steps).sum();
     let free: usize = docking.runs.iter().map(|run| run.free_steps).sum();
     let simulated = docking.settings.duration * docking.runs.len() as f64;
@@ -200,118 +136,188 @@ fn timing(docking: &Docking) -> serde_json::Value {
     })
 }
 
-/// A few lines for the terminal.
-pub fn summary(design: &Design, problem: &Problem, docking: &Docking, map: &DockingMap) -> String {
-    let share = |p: &Proportion| {
-        format!(
-            "{:.1} % ({:.1} to {:.1} %)",
-            100.0 * p.share(),
-            100.0 * p.low,
-            100.0 * p.high
-        )
-    };
-    let mut text = format!(
-        "{}: {} of {} trajectories of {} each end in the bond (seed {})\n",
-        design.name,
-        docking.runs.iter().filter(|run| run.is_bound()).count(),
-        docking.runs.len(),
-        si(docking.settings.duration, "s", 2),
-        docking.settings.seed
-    );
-    text += &format!("  bond  {}\n", share(&docking.bound));
-    text += &format!("  traps {}\n", share(&docking.trapped));
-    // Cannot fail: the experiment had a rule.
+fn told_rate(rate: &OnRate) -> String {
+    let [low, high] = rate.interval.map(|end| plain(end, 3));
+    format!("{} /s ({low} to {high})", plain(rate.rate, 3))
+}
+
+fn ends(docking: &Docking) -> Table {
+    let all = [
+        ("bond", docking.bound),
+        ("traps", docking.trapped),
+        ("free", docking.free),
+    ];
+    rows(all)
+        .column("end", "end", "where runs end", |(name, _)| *name)
+        .column("share", "share", "of all runs, 95 %", |(_, share)| *share)
+        .column("runs", "runs", "how many", |(_, share)| share.count)
+        .table("ends")
+        .in_view()
+}
+
+fn traps(problem: &Problem, docking: &Docking) -> Table {
     let rule = MatchRule::new(problem, docking.settings.threshold).ok();
-    for trap in docking.traps.iter().take(4) {
-        let q = trap.configuration;
-        let is_bond = rule.as_ref().is_some_and(|rule| rule.holds(&q));
-        text += &format!(
-            "    {} at ({:.4}, {:.4}, {:.3}), {}{}\n",
-            share(&trap.caught),
-            q.x,
-            q.y,
-            q.theta,
-            si(trap.energy, "J", 4),
-            if is_bond {
-                ": the bond, not reached yet or held short of it by friction"
-            } else {
-                ""
-            }
-        );
-    }
-    text += &format!("  free  {}\n", share(&docking.free));
+    let is_bond = move |q: &Configuration| rule.as_ref().is_some_and(|rule| rule.holds(q));
+    let bond = "the bond, not reached yet or held short of it by friction";
+    rows(&docking.traps)
+        .column("pose", "x, y (mm), \u{3b8}", "the minimum", |it| {
+            it.configuration
+        })
+        .column("energy_J", "energy", "at the minimum", |it| it.energy)
+        .digits(4)
+        .column("caught", "caught", "share of all runs, 95 %", |it| {
+            it.caught
+        })
+        .column("", "", "", move |it| match is_bond(&it.configuration) {
+            true => bond,
+            false => "",
+        })
+        .in_view()
+        .table("traps")
+        .titled(
+            "where tiles are caught without a match",
+            "the minimum below where they ended, symmetric copies taken together",
+        )
+        .showing(LISTED)
+}
+
+/// `runs.csv`: one trajectory a line.
+// One line a column.
+#[rustfmt::skip]
+pub fn runs(docking: &Docking) -> Table {
+    let velocity = |axis: usize| move |run: &&DockingRun| run.start.motion.velocity[axis];
+    rows(&docking.runs)
+        .column("run", "", "", |run| run.index)
+        .column("pose", "", "at the start", |run| run.start.motion.configuration)
+        .column("vx_m_per_s", "", "", velocity(0))
+        .column("vy_m_per_s", "", "", velocity(1))
+        .column("spin_rad_per_s", "", "", velocity(2))
+        .column("orientation_rad", "", "relative to the bond, at the start", |run| run.start.orientation)
+        .column("speed_m_per_s", "", "at the start", |run| run.start.speed)
+        .column("end", "", "", |run| paths::ending(&run.end))
+        .column("trap", "", "number of the trap", |run| match run.end {
+            End::Trapped { trap } => trap,
+            _ => None,
+        })
+        .column("time_to_bind_s", "", "", |run| match run.end {
+            End::Bound { since } => Some(since),
+            _ => None,
+        })
+        .column("end_pose", "", "at the end", |run| run.last.motion.configuration)
+        .table("runs")
+        .in_file("runs")
+        .in_csv()
+}
+
+/// `map.csv`: one cell of the map a line.
+pub fn chances(map: &DockingMap) -> Table {
+    rows(&map.cells)
+        .column("orientation_bounds_rad", "", "", |it| it.orientation)
+        .column("speed_bounds_m_per_s", "", "", |it| it.speed)
+        .column("matched", "", "", |it| it.matched.count)
+        .column("runs", "", "", |it| it.matched.of)
+        .column("share", "", "", |it| it.matched.share())
+        .column("share_interval", "", "95 %", |it| {
+            [it.matched.low, it.matched.high]
+        })
+        .table("map")
+        .in_file("map")
+        .in_csv()
+}
+
+/// One trajectory, a snapshot a line.
+pub fn trajectory(snapshots: &[Snapshot]) -> Table {
+    let velocity = |axis: usize| move |at: &&Snapshot| at.motion.velocity[axis];
+    rows(snapshots)
+        .column("time_s", "", "", |at| at.time)
+        .column("pose", "", "", |at| at.motion.configuration)
+        .column("vx_m_per_s", "", "", velocity(0))
+        .column("vy_m_per_s", "", "", velocity(1))
+        .column("spin_rad_per_s", "", "", velocity(2))
+        .column("potential_J", "", "", |at| at.potential)
+        .column("kinetic_J", "", "", |at| at.kinetic)
+        .table("trajectory")
+        .in_file("trajectory")
+        .in_csv()
+}
+
+fn notes(docking: &Docking) -> Vec<String> {
+    let mut notes = Vec::new();
     if let Some([least, middle, most]) = times(docking) {
-        text +=
-            &format!("  bound after {least:.2} s to {most:.2} s, half of them by {middle:.2} s\n");
+        notes.push(format!(
+            "bound after {least:.2} s to {most:.2} s, half of them by {middle:.2} s"
+        ));
     }
     let rate = OnRate::new(docking);
-    text += &format!(
-        "  on-rate {:.4} per s ({:.4} to {:.4}); times between attachments {} exponential\n",
-        rate.rate,
-        rate.interval[0],
-        rate.interval[1],
-        if rate.is_exponential() {
-            "are compatible with an"
-        } else {
-            "refute an"
+    notes.push(format!(
+        "on-rate {}; times between attachments {} an exponential distribution",
+        told_rate(&rate),
+        match rate.is_exponential() {
+            true => "are compatible with",
+            false => "refute",
         }
-    );
-    text = text.replace("an exponential\n", "an exponential distribution\n");
-    if is_paper_tile(design) {
-        let [orientation, speed] = PAPER_REGION;
-        let region = share_within(docking, orientation, speed);
-        let [below, cells] = below_claim(map);
-        text += &format!(
-            "  paper, figure 6 (above 4 % at -0.5 to 1.5 rad, 0.4 to 0.8 m/s): {} there, below 4 % \
-             for certain in {below} of {cells} cells\n",
-            share(&region)
-        );
-    }
-    if is_engine_comparison(design, &docking.settings) {
-        let starts = &docking.settings.starts;
-        let all = [-starts.orientation, starts.orientation];
-        text += &format!(
-            "  Open Dynamics Engine: {:.1} to {:.1} % bound (+- {:.1} %), with a restitution of {:.2} \
-             in the mean where 0.01 is asked for; here {} with {}\n  \
-             with its correction of overlap limited, which leaves 0.02: {:.1} % (+- {:.1} %)\n  at {} to {} m/s: {:.0} %; here {}\n",
-            100.0 * ENGINE.matched[0],
-            100.0 * ENGINE.matched[1],
-            100.0 * ENGINE.margin,
-            ENGINE.restitution,
-            share(&docking.bound),
-            docking.settings.motion.restitution,
-            100.0 * ENGINE.corrected.0,
-            100.0 * ENGINE.corrected.1,
-            ENGINE.best.0[0],
-            ENGINE.best.0[1],
-            100.0 * ENGINE.best.1,
-            share(&share_within(docking, all, ENGINE.best.0))
-        );
-    }
-    let contact: usize = docking
-        .runs
-        .iter()
-        .map(|run| run.contact_steps + run.free_steps)
-        .sum();
-    let core = docking.wall_s * docking.threads as f64;
-    text += &format!(
-        "  {} a step, {} a simulated second (of one core that has nothing else to do){}\n",
-        si(core / contact.max(1) as f64, "s", 2),
-        si(
-            core / (docking.settings.duration * docking.runs.len().max(1) as f64),
-            "s",
-            2
+    ));
+    notes
+}
+
+fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> Vec<Drawing<'a>> {
+    let coarse = DockingMap::new(docking, dock::cells(docking.runs.len()));
+    vec![
+        Drawing::new("Chance of a match", move |sheet| {
+            dock::chances(design, &coarse, sheet)
+        }),
+        Drawing::new("Paths", move |sheet| {
+            paths::trajectories(design, &paths.drawn, sheet)
+        }),
+    ]
+}
+
+/// What the page plays.
+fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Interactive {
+    let inventory = Inventory {
+        states: states(problem, docking, design.pair.bound),
+        ..Inventory::default()
+    };
+    let played = paths.played.iter();
+    let played = played
+        .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
+    let scene = Scene::new(design, problem, &inventory);
+    Interactive::Landscape(Landscape::new(design, &scene, played.collect()))
+}
+
+/// The bond and the traps, to be marked.
+fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<State> {
+    let rule = MatchRule::new(problem, docking.settings.threshold);
+    let is_bond = |q: &Configuration| rule.as_ref().is_ok_and(|rule| rule.holds(q));
+    let traps = docking.traps.iter().take(LISTED);
+    let traps = traps.filter(|trap| !is_bond(&trap.configuration));
+    let traps = traps.map(|trap| (StateKind::Trap, trap.configuration, trap.energy));
+    let all = std::iter::once((StateKind::Bond, bound, problem.energy(&bound))).chain(traps);
+    all.enumerate()
+        .map(|(id, (kind, configuration, energy))| State {
+            id,
+            kind,
+            configuration,
+            energy,
+            class: id,
+            faces: Vec::new(),
+            attracting: 0,
+            repelling: 0,
+            block_energy: None,
+            capture: None,
+            sideways: None,
+        })
+        .collect()
+}
+
+fn name(docking: &Docking, run: &DockingRun) -> String {
+    let end = match run.end {
+        End::Bound { since } => format!("bound after {since:.2} s"),
+        End::Free => "free".to_owned(),
+        End::Trapped { trap } => trap.and_then(|trap| docking.traps.get(trap)).map_or_else(
+            || "caught".to_owned(),
+            |trap| format!("caught above {}", si(trap.energy, "J", 3)),
         ),
-        if is_engine_comparison(design, &docking.settings) {
-            format!(
-                "; Open Dynamics Engine {} and {} to {}",
-                si(ENGINE.cost, "s", 2),
-                si(ENGINE.cost / ENGINE.steps[0], "s", 2),
-                si(ENGINE.cost / ENGINE.steps[1], "s", 2)
-            )
-        } else {
-            String::new()
-        }
-    );
-    text
+    };
+    format!("trajectory {}: {end}", run.index)
 }

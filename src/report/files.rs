@@ -72,8 +72,8 @@ pub const SWEEP: Command = Command {
 /// `tilebind dock`.
 pub const DOCK: Command = Command {
     name: "dock",
-    files: &[PAGE, "dock.json", "runs.csv", "map.csv", "trajectory.csv"],
-    pictures: &["chances", "trajectories"],
+    files: &[REPORT, PAGE, "runs.csv", "map.csv", "trajectory.csv"],
+    pictures: &["chances", "trajectories", "bound"],
 };
 
 /// `tilebind words`.

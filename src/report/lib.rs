@@ -33,7 +33,6 @@ pub mod comparison;
 pub mod crosstalk;
 pub mod csv;
 pub mod docking;
-mod docking_tables;
 pub mod document;
 pub mod dynamics;
 pub mod figures;

@@ -1,87 +1,128 @@
-//! Bound tiles that come loose, as JSON and as a sentence.
+//! Bound tiles that are shaken loose.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::docking::rate_entry;
-use super::json;
+use super::docking::{motion, rate};
+use crate::document::{Document, entries};
+use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
-use physics::dynamics::docking::{DockingSettings, Release, off_rate};
+use physics::dynamics::docking::{DockingSettings, OnRate, Release, off_rate};
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::rates::Loosening;
+use physics::order::Order;
 use physics::units::{plain, si};
 
-/// The off-rate, and everything that reproduces it.
-///
-/// `overdamped` are the rates (1/s) of overdamped motion.
-pub fn json(
+/// What there is to know of them; `overdamped` are the rates (1/s) of overdamped motion.
+pub fn document(
     design: &Design,
     settings: &DockingSettings,
     releases: &[Release],
     overdamped: Option<Loosening>,
-) -> String {
-    let motion = &settings.motion;
-    let rate = off_rate(releases);
-    json::text(&json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "design": {"name": design.name, "sha256": design.sha256},
-        "seed": settings.seed,
-        "settings": {
-            "runs": settings.runs, "duration_s": settings.duration,
-            "match_threshold_m": settings.threshold,
-            "motion": {
-                "drag_per_s": motion.drag, "restitution": motion.restitution,
-                "friction": motion.friction, "walls": motion.walls,
-                "shaking_J": motion.shaking, "fans": motion.fans.len(),
-            },
-        },
-        "off_rate": rate_entry("detachments", &rate),
-        "overdamped": overdamped.map(|found| json!({
-            "lower_per_s": found.bounds[0], "rate_per_s": found.rate,
-            "upper_per_s": found.bounds[1], "in_well_per_s": found.in_well,
-        })),
-        "times_s": releases.iter().filter(|it| it.left).map(|it| it.time).collect::<Vec<_>>(),
-    }))
+) -> Document<'static> {
+    let off = off_rate(releases);
+    let kt = si(settings.motion.shaking.unwrap_or(0.0), "J", 3);
+    let [rate_told, low, high] =
+        [off.rate, off.interval[0], off.interval[1]].map(|it| plain(it, 3));
+    let mut left: Vec<f64> = releases
+        .iter()
+        .filter(|it| it.left)
+        .map(|it| it.time)
+        .collect();
+    let times = left.clone();
+    left.order_by(f64::total_cmp);
+    Document {
+        title: format!("{}: bound tiles shaken loose", design.name),
+        answer: format!(
+            "{}: bound tiles shaken at kT = {kt} come loose {rate_told} times a second ({low} to {high})",
+            design.name
+        ),
+        remarks: vec![
+            format!(
+                "{} of {} left the bond within {} each; {}",
+                off.attachments,
+                releases.len(),
+                si(settings.duration, "s", 3),
+                exponential(&off),
+            ),
+            format!(
+                "drag {} per s, restitution {}; the rate is of these, and of no temperature alone",
+                settings.motion.drag, settings.motion.restitution
+            ),
+        ],
+        entries: entries(design)
+            .data("seed", settings.seed)
+            .data(
+                "settings",
+                json!({
+                    "runs": settings.runs, "duration_s": settings.duration,
+                    "match_threshold_m": settings.threshold,
+                    "motion": motion(&settings.motion),
+                }),
+            )
+            .fact(
+                "",
+                "comes loose",
+                format!("{rate_told} /s ({low} to {high})"),
+            )
+            .in_view()
+            .noted("of bound tiles, 95 %")
+            .data("off_rate", rate("detachments", &off))
+            .data(
+                "overdamped",
+                overdamped.as_ref().map_or(Value::Null, beside),
+            )
+            .data("times_s", times),
+        interactive: None,
+        pictures: vec![still_bound(&left, releases.len(), settings.duration).into()],
+        notes: overdamped.as_ref().map(told_beside).into_iter().collect(),
+        origin: format!(
+            "seed {}, {} magnets",
+            settings.seed,
+            design.interaction.model.name()
+        ),
+    }
 }
 
-/// A few lines for the terminal.
-pub fn summary(
-    design: &Design,
-    settings: &DockingSettings,
-    releases: &[Release],
-    overdamped: Option<Loosening>,
-) -> String {
-    let rate = off_rate(releases);
-    let kt = settings.motion.shaking.unwrap_or(0.0);
-    let exponential = match (rate.attachments, rate.is_exponential()) {
-        (0, _) => "none came loose: the rate is not known to be above 0".to_owned(),
-        (_, true) => {
-            "times between detachments are compatible with an exponential distribution".to_owned()
-        }
-        (_, false) => "times between detachments refute an exponential distribution".to_owned(),
-    };
-    let beside = overdamped.map_or_else(String::new, |found| {
-        let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
-        let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
-        format!(
-            "  overdamped motion at that kT and drag, knocks without loss, comes loose {rate} times a \
-             second\n  ({lower} to {upper}), the way out to free tiles included, and {in_well} times a \
-             second in the well;\n  what is counted ends where the bond is last left: between the two; \
-             tiles move so from a drag of {OVERDAMPED} per s on\n"
-        )
-    });
+fn exponential(rate: &OnRate) -> &'static str {
+    match (rate.attachments, rate.is_exponential()) {
+        (0, _) => "none came loose: the rate is not known to be above 0",
+        (_, true) => "times between detachments are compatible with an exponential distribution",
+        (_, false) => "times between detachments refute an exponential distribution",
+    }
+}
+
+fn beside(found: &Loosening) -> Value {
+    json!({
+        "lower_per_s": found.bounds[0], "rate_per_s": found.rate,
+        "upper_per_s": found.bounds[1], "in_well_per_s": found.in_well,
+    })
+}
+
+fn told_beside(found: &Loosening) -> String {
+    let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
+    let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
     format!(
-        "{}: bound tiles shaken at kT = {} come loose {} times a second ({} to {})\n  \
-         {} of {} left the bond within {} each; {exponential}\n  drag {} per s, restitution {}; \
-         the rate is of these, and of no temperature alone\n{beside}",
-        design.name,
-        si(kt, "J", 3),
-        plain(rate.rate, 3),
-        plain(rate.interval[0], 3),
-        plain(rate.interval[1], 3),
-        rate.attachments,
-        releases.len(),
-        si(settings.duration, "s", 3),
-        settings.motion.drag,
-        settings.motion.restitution,
+        "overdamped motion at that kT and drag, knocks without loss, comes loose {rate} times a second\n\
+         ({lower} to {upper}), the way out to free tiles included, and {in_well} times a second in the \
+         well;\nwhat is counted ends where the bond is last left: between the two; tiles move so from a \
+         drag of {OVERDAMPED} per s on"
     )
+}
+
+/// The share that is still bound over time; `left` are the times (s) of those that came loose.
+fn still_bound(left: &[f64], all: usize, duration: f64) -> Chart {
+    let share = |gone: usize| 1.0 - gone as f64 / all.max(1) as f64;
+    let steps = left.iter().enumerate();
+    let steps = steps.flat_map(|(k, time)| [[*time, share(k)], [*time, share(k + 1)]]);
+    let ends = [[0.0, 1.0], [duration, share(left.len())]];
+    let points = [ends[0]].into_iter().chain(steps).chain([ends[1]]);
+    Chart {
+        name: "bound",
+        title: "Share still bound over time".to_owned(),
+        x: Dimension::new("time_s", "time"),
+        y: Dimension::share("bound", "still bound"),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with("still bound", Look::Steps, points)
 }

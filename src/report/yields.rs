@@ -32,6 +32,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
             found.crowd.area,
         )],
         entries: found_entries(design, question, found),
+        interactive: None,
         pictures: pictures(question, found),
         notes: without
             .chain(schedule)

@@ -64,7 +64,7 @@ def main():
             check_words(check, arguments.program, pathlib.Path(folder))
             print("tests/page: docking")
             out = pathlib.Path(folder, "docking")
-            subprocess.run([arguments.program, "dock", SHAPES / "paper-tile.toml", "--engine", "--runs", "200",
+            subprocess.run([arguments.program, "dock", SHAPES / "paper-tile.toml", "--drag", "0.5", "--no-walls", "--runs", "200",
                             "--out", out, "--quiet"], check=True)
             check_docking(check, out / "report.html")
         finally:

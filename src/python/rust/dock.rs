@@ -11,6 +11,7 @@ use tilebind::dynamics::docking::{
 };
 use tilebind::landscape::Proportion;
 use tilebind::report::docking as report;
+use tilebind::report::document::Document;
 use tilebind::report::plots::{Sheet, dock as picture};
 use tilebind::report::release;
 
@@ -19,15 +20,9 @@ use crate::keywords::Keywords;
 use crate::table::{self, Named, Values};
 use crate::{convert, fault, job, pickle};
 
-/// Cells of the map along the orientation and the speed.
-const CELLS: [usize; 2] = [12, 13];
-
 fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
     let given = Keywords::new(given);
-    let mut settings = match given.or("engine", false)? {
-        true => DockingSettings::engine_comparison(),
-        false => DockingSettings::default(),
-    };
+    let mut settings = DockingSettings::default();
     settings.runs = given.or("runs", settings.runs)?;
     settings.seed = given.or("seed", settings.seed)?;
     settings.duration = given.or("duration", settings.duration)?;
@@ -86,8 +81,6 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
 /// seed : int, optional
 /// duration : float, optional
 ///     Of each, in s.
-/// engine : bool, optional
-///     The experiment made with the Open Dynamics Engine too: drag 0.5 per second, no rim.
 /// drag, friction, restitution : float, optional
 ///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
 ///     back.
@@ -148,7 +141,10 @@ pub fn released<'py>(
     let found = run(py, progress, settings.runs, |step| {
         docking::releases(content.problem(None), &settings, step)
     })?;
-    convert::json(py, &release::json(&content.design, &settings, &found, None))
+    convert::json(
+        py,
+        &release::document(&content.design, &settings, &found, None).report(),
+    )
 }
 
 /// Many trajectories, with word of how many have ended.
@@ -179,7 +175,12 @@ pub struct Docking {
 
 impl Docking {
     fn map(&self) -> DockingMap {
-        DockingMap::new(&self.found, CELLS)
+        DockingMap::new(&self.found, report::CELLS)
+    }
+
+    fn document(&self) -> Document<'_> {
+        let problem = self.content.problem(None);
+        report::document((&self.content.design, problem), &self.found, None)
     }
 }
 
@@ -218,7 +219,7 @@ impl Docking {
     /// number of the trap, time to bind.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&report::runs_csv(&self.found)))
+        table::structured(py, table::of_csv(&report::runs(&self.found).csv()))
     }
 
     /// numpy.ndarray : The traps, structured, the one with most trajectories first: pose,
@@ -247,7 +248,7 @@ impl Docking {
     /// numpy.ndarray : The chance of a match over orientation and speed at the start, structured.
     #[getter]
     fn chances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&report::map_csv(&self.map())))
+        table::structured(py, table::of_csv(&report::chances(&self.map()).csv()))
     }
 
     /// One trajectory, point by point.
@@ -282,14 +283,13 @@ impl Docking {
             docking::trajectory(problem, &self.found.settings, index, interval)
         })?;
         let snapshots = snapshots.map_err(fault::value)?;
-        table::structured(py, table::of_csv(&report::trajectory_csv(&snapshots)))
+        table::structured(py, table::of_csv(&report::trajectory(&snapshots).csv()))
     }
 
-    /// dict : Everything, as ``dock.json`` has it.
+    /// dict : Everything, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let json = report::json(&self.content.design, &self.found, &self.map());
-        convert::json(py, &json)
+        convert::json(py, &self.document().report())
     }
 
     /// What came of it, in a few lines.
@@ -298,8 +298,7 @@ impl Docking {
     /// -------
     /// str
     fn summary(&self) -> String {
-        let problem = self.content.problem(None);
-        report::summary(&self.content.design, problem, &self.found, &self.map())
+        self.document().text(None)
     }
 
     /// The chances of a match over orientation and speed, an SVG document.

@@ -129,12 +129,12 @@ impl Cell {
             Self::Interval([Some(low), None]) => format!("{} or more", told(*low, unit, digits)),
             Self::Interval([None, Some(high)]) => format!("at most {}", told(*high, unit, digits)),
             Self::Interval([None, None]) => "-".to_owned(),
-            Self::Pose(q) => format!(
-                "{:.1}, {:.1}, {:.1}\u{b0}",
-                1e3 * q.x + 0.0,
-                1e3 * q.y + 0.0,
-                q.theta.to_degrees() + 0.0
-            ),
+            Self::Pose(q) => {
+                let parts = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()];
+                // To a tenth, and none of them -0.
+                let [x, y, theta] = parts.map(|part| (10.0 * part).round() / 10.0 + 0.0);
+                format!("{x:.1}, {y:.1}, {theta:.1}\u{b0}")
+            }
             Self::Sampled(sampled) => crate::figures::percent(sampled),
             Self::Rows(_) | Self::Data(_) => String::new(),
         }

@@ -66,6 +66,14 @@ impl Table {
         };
         self.rows.iter().map(row).collect()
     }
+
+    /// The file of its numbers, without those of tables within its rows.
+    pub fn csv(&self) -> String {
+        let mut sheets = Vec::new();
+        collect(&self.clone().in_file(self.key), None, &mut sheets);
+        let sheet = sheets.swap_remove(0);
+        csv::table(sheet.columns, sheet.rows)
+    }
 }
 
 /// A file of numbers.
@@ -119,7 +127,9 @@ fn keys(head: &Head) -> Vec<String> {
         Parts::Ends => ["low", "high"]
             .map(|end| key.replace("interval", end).replace("bounds", end))
             .to_vec(),
-        Parts::Pose => ["x_m", "y_m", "theta_rad"].map(str::to_owned).to_vec(),
+        Parts::Pose => ["x_m", "y_m", "theta_rad"]
+            .map(|axis| key.replace("pose", axis))
+            .to_vec(),
         Parts::Sampled => ["share", "low", "high"]
             .map(|part| format!("{key}_{part}"))
             .to_vec(),

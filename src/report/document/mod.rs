@@ -16,6 +16,7 @@ pub use table::{Head, Rows, Table, rows};
 
 use serde_json::{Value, json};
 
+use crate::page::{Charts, Landscape, Meetings};
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::design::Design;
 
@@ -29,6 +30,8 @@ pub struct Document<'a> {
     pub remarks: Vec<String>,
     /// All that was found, in the order of the report.
     pub entries: Entries,
+    /// What the page lets one move about in.
+    pub interactive: Option<Interactive>,
     /// Its pictures, in order.
     pub pictures: Vec<Drawing<'a>>,
     /// What to know in the end.
@@ -61,12 +64,35 @@ pub struct Fact {
     pub note: String,
 }
 
+/// A part of a page that answers to the pointer.
+pub enum Interactive {
+    /// An energy over configurations, with ways to be played.
+    Landscape(Landscape),
+    /// Figures of many designs over what is varied.
+    Charts(Charts),
+    /// All faces of a set of words against all.
+    Meetings(Meetings),
+}
+
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
     /// What it shows.
     pub title: String,
     /// Draws it.
     pub draw: Box<dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a>,
+}
+
+impl<'a> Drawing<'a> {
+    /// What it shows, and what draws it.
+    pub fn new(
+        title: impl Into<String>,
+        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            draw: Box::new(draw),
+        }
+    }
 }
 
 /// Entries one after another.
@@ -130,7 +156,7 @@ impl Entries {
     /// The last figure is for people only.
     #[must_use]
     pub fn in_view(self) -> Self {
-        self.last(|fact| fact.head.is_data = false)
+        self.last(|fact| (fact.head.is_data, fact.head.is_viewed) = (false, true))
     }
 
     /// A table.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Document, Fact, Table};
+use super::{Document, Entry, Fact, Interactive, Table};
 use crate::files::{Files, PAGE, PICTURES, REPORT};
 use crate::page::{self, Illustration, Page};
 use crate::plots::{PictureError, Sheet};
@@ -20,6 +20,12 @@ impl Document<'_> {
         let mut files = self.numbers();
         files.insert(REPORT.to_owned(), self.report().into_bytes());
         let mut page = self.page();
+        match &self.interactive {
+            Some(Interactive::Landscape(shown)) => page.landscape = Some(shown.clone()),
+            Some(Interactive::Charts(shown)) => page.charts = Some(shown.clone()),
+            Some(Interactive::Meetings(shown)) => page.meetings = Some(shown.clone()),
+            None => {}
+        }
         for (picture, figure) in self.pictures.iter().zip(figures) {
             page.pictures.push(Illustration {
                 title: picture.title.clone(),
@@ -35,16 +41,45 @@ impl Document<'_> {
     }
 
     /// The page, without pictures.
-    pub fn page(&self) -> Page {
+    fn page(&self) -> Page {
         let tables = self.tables().into_iter().filter(|table| table.is_shown());
         Page {
             subtitle: self.answer.clone(),
             facts: self.facts().into_iter().map(Fact::shown).collect(),
-            tables: tables.map(Table::shown).collect(),
+            tables: tables.map(Table::shown).chain(self.settings()).collect(),
             notes: [&self.remarks[..], &self.notes].concat(),
             origin: format!("tilebind {}; {}", env!("CARGO_PKG_VERSION"), self.origin),
             ..Page::titled(self.title.clone())
         }
+    }
+}
+
+impl Document<'_> {
+    /// What reproduces the result, setting by setting.
+    fn settings(&self) -> Option<page::Table> {
+        let asked = self.entries.0.iter().find_map(|entry| match entry {
+            Entry::Data("settings", asked) => Some(asked),
+            _ => None,
+        });
+        let mut rows = Vec::new();
+        flatten("", asked?, &mut rows);
+        Some(page::Table::of_settings(rows))
+    }
+}
+
+/// The values of an object and of those in it, each with the keys that lead to it.
+fn flatten(name: &str, value: &Value, rows: &mut Vec<(String, Value)>) {
+    match value {
+        Value::Object(inner) => {
+            for (key, value) in inner {
+                flatten(format!("{name} {key}").trim_start(), value, rows);
+            }
+        }
+        Value::Array(parts) => {
+            let parts: Vec<String> = parts.iter().map(Value::to_string).collect();
+            rows.push((name.to_owned(), json!(parts.join(", "))));
+        }
+        value => rows.push((name.to_owned(), value.clone())),
     }
 }
 
@@ -71,10 +106,10 @@ impl Table {
                 (key, text) => json!([key, text]),
             }
         };
-        let rows = 0..self.rows.len();
+        let rows = 0..self.count();
         page::Table {
             title: self.title.clone(),
-            note: self.note.clone(),
+            note: self.remark(),
             columns: columns.collect(),
             rows: rows
                 .map(|row| self.viewed().map(|k| cell(row, k)).collect())

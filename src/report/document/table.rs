@@ -32,7 +32,7 @@ pub(super) enum Parts {
     One,
     /// `low` and `high`, where the key has `interval` or `bounds`.
     Ends,
-    /// x, y and theta.
+    /// x, y and theta, where the key ends in `pose`.
     Pose,
     /// A share with the ends of its interval.
     Sampled,
@@ -41,7 +41,7 @@ pub(super) enum Parts {
 impl Parts {
     fn of_key(key: &str) -> Self {
         match key {
-            "pose" => Self::Pose,
+            _ if key.ends_with("pose") => Self::Pose,
             _ if key.contains("interval") || key.contains("bounds") => Self::Ends,
             _ => Self::One,
         }
@@ -182,7 +182,7 @@ impl<'a, Row> Rows<'a, Row> {
     /// The last column is for people only.
     #[must_use]
     pub fn in_view(self) -> Self {
-        self.last(|head| (head.is_data, head.is_csv) = (false, false))
+        self.last(|head| (head.is_data, head.is_csv, head.is_viewed) = (false, false, true))
     }
 
     /// The table, by what JSON calls it.
@@ -201,6 +201,7 @@ impl<'a, Row> Rows<'a, Row> {
             note: String::new(),
             is_data: true,
             is_viewed: true,
+            most: usize::MAX,
             rows: self.rows.iter().map(cells).collect(),
             heads: self.columns.into_iter().map(|it| it.head).collect(),
         }
@@ -222,6 +223,8 @@ pub struct Table {
     pub is_data: bool,
     /// Whether people see it.
     pub is_viewed: bool,
+    /// Rows that people see at most.
+    pub most: usize,
     /// What its columns are.
     pub heads: Vec<Head>,
     /// The cells, with their texts where these are more than the values.
@@ -247,6 +250,21 @@ impl Table {
     /// For programs only.
     #[must_use]
     pub fn in_data(mut self) -> Self {
+        self.is_viewed = false;
+        self
+    }
+
+    /// People see so many rows at most.
+    #[must_use]
+    pub fn showing(mut self, most: usize) -> Self {
+        self.most = most;
+        self
+    }
+
+    /// In its file of numbers only.
+    #[must_use]
+    pub fn in_csv(mut self) -> Self {
+        self.is_data = false;
         self.is_viewed = false;
         self
     }

@@ -9,7 +9,6 @@ mod assembly;
 mod charts;
 mod comparison;
 mod crosstalk;
-mod docking;
 mod html;
 pub(super) mod landscape;
 pub(super) mod meetings;
@@ -31,6 +30,7 @@ use html::{CITATION, escaped, filled, hash};
 pub use charts::Charts;
 pub use landscape::Landscape;
 pub use meetings::Meetings;
+pub use pathways::Played;
 
 use super::plots::Scene;
 use jobs::design::Design;
@@ -165,14 +165,16 @@ pub struct Column {
 
 impl Table {
     /// What reproduces a result: quantities by their names.
-    fn of_settings(settings: impl IntoIterator<Item = (&'static str, Value)>) -> Self {
+    pub(super) fn of_settings<N: Into<String>>(
+        settings: impl IntoIterator<Item = (N, Value)>,
+    ) -> Self {
         Self {
             title: "How it was computed".to_owned(),
             note: String::new(),
             columns: vec![Column::new("quantity", ""), Column::new("value", "")],
             rows: settings
                 .into_iter()
-                .map(|(name, value)| vec![Value::from(name), value])
+                .map(|(name, value)| vec![Value::from(name.into()), value])
                 .collect(),
             states: Vec::new(),
             paths: Vec::new(),

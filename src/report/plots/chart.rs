@@ -188,6 +188,8 @@ pub enum Look {
     /// A line with dots at its points and a band between their ends.
     #[default]
     Line,
+    /// A line without dots.
+    Steps,
     /// A dashed line.
     Dashed,
     /// Filled dots, with lines to their ends.
@@ -326,9 +328,12 @@ impl Chart {
                 let run: Vec<Placed> = run.iter().map(placed).collect();
                 match series.look {
                     Look::Line => piece(root, &run, colour, 2.0)?,
-                    Look::Dashed => {
+                    Look::Steps | Look::Dashed => {
                         let line: Vec<Pixel> = run.iter().map(|placed| placed.at).collect();
-                        dashed(root, &line, colour)?;
+                        match series.look {
+                            Look::Steps => polyline(root, &line, colour, 2.0)?,
+                            _ => dashed(root, &line, colour)?,
+                        }
                     }
                     Look::Dots | Look::Rings => {
                         for placed in &run {
@@ -441,7 +446,7 @@ pub fn names_of_series<'a>(series: Vec<(String, RGBColor, Look)>) -> Panel<'a> {
                     };
                     dot(root, &placed, *colour, *look)?;
                 }
-                Look::Line | Look::Bars => polyline(root, &line, *colour, 2.4)?,
+                Look::Line | Look::Steps | Look::Bars => polyline(root, &line, *colour, 2.4)?,
             }
             font.write(root, name, (x + 31.0, y), (HPos::Left, VPos::Center))?;
         }

@@ -10,7 +10,6 @@ use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::colour;
 use super::style::{Axis, INK, SMALL, Text, chart, pixel, units};
 use super::{Figure, Sheet};
-use crate::docking::map_csv;
 use jobs::design::Design;
 use physics::dynamics::docking::DockingMap;
 
@@ -73,7 +72,7 @@ pub fn chances(design: &Design, map: &DockingMap, sheet: &Sheet) -> Result<Figur
         panels: vec![panel],
         key: Some(stacked(bar, remark(said))),
     };
-    Figure::new(&composition, sheet, map_csv(map))
+    Figure::new(&composition, sheet, crate::docking::chances(map).csv())
 }
 
 /// Colour of a share of the greatest chance.

@@ -10,8 +10,8 @@ use super::style::{Axis, FIXED_FILL, GREEN, INK, MOVING_FILL, chart, pixel};
 use super::{Figure, Sheet};
 use crate::csv::table;
 use jobs::design::Design;
+use jobs::docking::Path;
 use physics::configuration::Configuration;
-use physics::dynamics::Snapshot;
 use physics::dynamics::docking::End;
 use physics::tile::Pair;
 
@@ -25,7 +25,7 @@ const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
 /// See [`PictureError`].
 pub fn trajectories(
     design: &Design,
-    trajectories: &[(End, Vec<Snapshot>)],
+    trajectories: &[Path],
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
     let mut entries = vec![
@@ -53,10 +53,10 @@ pub fn trajectories(
     let rows = trajectories
         .iter()
         .enumerate()
-        .flat_map(|(number, (end, snapshots))| {
+        .flat_map(|(number, (run, snapshots))| {
             snapshots.iter().map(move |snapshot| {
                 let q = snapshot.motion.configuration;
-                let mut row = vec![number.to_string(), ending(end).to_owned()];
+                let mut row = vec![number.to_string(), ending(&run.end).to_owned()];
                 row.extend([snapshot.time, q.x, q.y, q.theta].map(super::length));
                 row
             })
@@ -66,7 +66,7 @@ pub fn trajectories(
 }
 
 /// What a path's end is called.
-fn ending(end: &End) -> &'static str {
+pub fn ending(end: &End) -> &'static str {
     match end {
         End::Bound { .. } => "bound",
         End::Trapped { .. } => "misbound",
@@ -83,7 +83,7 @@ fn paths(
     root: &Area,
     place: Box4,
     design: &Design,
-    trajectories: &[(End, Vec<Snapshot>)],
+    trajectories: &[Path],
 ) -> Result<(), PictureError> {
     let reach = trajectories
         .iter()
@@ -112,14 +112,14 @@ fn paths(
     tile(root, &view, moving, bound, MOVING_FILL)?;
     let origin = Configuration::new(0.0, 0.0, 0.0);
     tile(root, &view, fixed, &origin, FIXED_FILL)?;
-    for (end, snapshots) in trajectories {
+    for (run, snapshots) in trajectories {
         let points: Vec<_> = snapshots
             .iter()
             .map(|s| s.motion.configuration.position())
             .take_while(|p| p.amax() <= reach)
             .map(|p| view.pixel(p))
             .collect();
-        let (colour, width) = look(end);
+        let (colour, width) = look(&run.end);
         polyline(root, &points, colour, width)?;
         if let Some(first) = points.first() {
             start(root, *first, colour)?;

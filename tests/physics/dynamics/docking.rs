@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use tilebind::dynamics::docking::{
-    DockingError, DockingSettings, ENGINE, MatchRule, dock, share_within, trajectory,
-};
+use tilebind::dynamics::MotionSettings;
+use tilebind::dynamics::docking::{DockingError, DockingSettings, MatchRule, dock, trajectory};
+use tilebind::landscape::Proportion;
 use tilebind::{Configuration, Design};
 
 use super::paper_tile;
@@ -12,23 +12,28 @@ use super::paper_tile;
 fn few(runs: usize) -> DockingSettings {
     DockingSettings {
         runs,
-        ..DockingSettings::engine_comparison()
+        motion: MotionSettings {
+            drag: 0.5,
+            walls: false,
+            ..MotionSettings::default()
+        },
+        ..DockingSettings::default()
     }
 }
+
+/// What the Open Dynamics Engine found from such starts (2000, at steps of 1 to 0.2 ms): shares bound
+/// and the half width of their intervals, as it is, when its knocks give back 0.10 in the mean though
+/// 0.01 is asked for; and with the speed of its correction of overlap limited to 1 cm/s (8000 starts),
+/// when they give back 0.02.
+const ENGINE: [(f64, [f64; 2]); 2] = [
+    (0.10, [0.072 - 0.011, 0.082 + 0.011]),
+    (0.01, [0.0905 - 0.0063, 0.0905 + 0.0063]),
+];
 
 /// The engine's share with the restitution that it really has, and with the one it is asked for.
 #[test]
 fn chances_agree_with_the_open_dynamics_engine() {
-    let [low, high] = ENGINE.matched;
-    let (corrected, margin) = ENGINE.corrected;
-    let expected = [
-        (
-            ENGINE.restitution,
-            [low - ENGINE.margin, high + ENGINE.margin],
-        ),
-        (0.01, [corrected - margin, corrected + margin]),
-    ];
-    for (restitution, [low, high]) in expected {
+    for (restitution, [low, high]) in ENGINE {
         let mut settings = few(500);
         settings.motion.restitution = restitution;
         let docking = dock(&paper_tile().problem(), &settings, &|| ()).unwrap();
@@ -81,9 +86,13 @@ fn mirrored_tiles_dock_alike_from_either_side() {
     let mut settings = few(500);
     settings.starts.speed = [0.1, 0.7];
     let docking = dock(&design.problem(), &settings, &|| ()).unwrap();
-    let speeds = settings.starts.speed;
-    let left = share_within(&docking, [-1.5, 0.0], speeds);
-    let right = share_within(&docking, [0.0, 1.5], speeds);
+    let share = |is_left: bool| {
+        let runs = docking.runs.iter();
+        let side = runs.filter(|run| (run.start.orientation < 0.0) == is_left);
+        let bound = side.clone().filter(|run| run.is_bound());
+        Proportion::new(bound.count(), side.count())
+    };
+    let [left, right] = [true, false].map(share);
     assert!(left.count + right.count > 20, "{left:?} {right:?}");
     assert!(
         left.low < right.high && right.low < left.high,

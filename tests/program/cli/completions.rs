@@ -46,7 +46,7 @@ fn bash_offers_commands_options_words_and_files() {
         stdout(&output).lines().map(str::to_owned).collect()
     };
     assert_eq!(offered(&["ba"]), ["barrier"]);
-    assert_eq!(offered(&["dock", "--eng"]), ["--engine"]);
+    assert_eq!(offered(&["dock", "--no-w"]), ["--no-walls"]);
     let words = ["dipole", "cuboid"];
     for command in ["analyse", "energy", "compare", "calibrate"] {
         assert_eq!(offered(&[command, "a.toml", "--model", ""]), words);

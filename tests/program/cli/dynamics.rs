@@ -53,7 +53,7 @@ fn barriers_are_checked_by_moving_tiles_and_the_check_is_reported() {
     assert!(!std::path::Path::new(&format!("{out}/dynamics.csv")).exists());
 }
 
-/// Docking runs of a design; `dock.json`.
+/// Docking runs of a design; `report.json`.
 fn dock(arguments: &[&str]) -> Value {
     json(&[&["dock"], arguments, &["--json"]].concat())
 }
@@ -64,7 +64,9 @@ fn docking_runs_are_the_same_on_any_number_of_threads_and_written_whole() {
     let run = |threads: &str| {
         let arguments = [
             "shapes/paper-tile.toml",
-            "--engine",
+            "--drag",
+            "0.5",
+            "--no-walls",
             "--runs",
             "40",
             "--out",

@@ -347,37 +347,3 @@ fn the_summary_fits_its_terminal() {
         "{told}"
     );
 }
-
-#[test]
-fn docking_tells_the_paper_s_figures_for_the_paper_s_tile_only() {
-    let run = |design: &str| {
-        let output = tilebind(&[
-            "dock",
-            design,
-            "--runs",
-            "4",
-            "--duration",
-            "1",
-            "--quiet",
-            "--json",
-        ]);
-        let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
-        json["paper_figure_6"].clone()
-    };
-    assert!(run("shapes/paper-tile.toml").is_object());
-    assert!(run("shapes/tab-20mm.toml").is_null());
-    let output = tilebind(&[
-        "dock",
-        "shapes/tab-20mm.toml",
-        "--runs",
-        "4",
-        "--duration",
-        "1",
-    ]);
-    let told = stdout(&output);
-    assert!(
-        !told.contains("paper") && !told.contains("Open Dynamics"),
-        "{told}"
-    );
-    assert!(told.contains("--out DIR"), "{told}");
-}

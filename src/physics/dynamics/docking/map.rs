@@ -58,19 +58,3 @@ impl DockingMap {
         }
     }
 }
-
-/// Share matched of the trajectories that started with an orientation and a speed in the given
-/// ranges (rad, m/s).
-pub fn share_within(docking: &Docking, orientation: [f64; 2], speed: [f64; 2]) -> Proportion {
-    let inside = |value: f64, [low, high]: [f64; 2]| value >= low && value <= high;
-    let chosen = docking
-        .runs
-        .iter()
-        .filter(|run| inside(run.start.orientation, orientation) && inside(run.start.speed, speed));
-    let (mut matched, mut of) = (0, 0);
-    for run in chosen {
-        matched += usize::from(run.is_bound());
-        of += 1;
-    }
-    Proportion::new(matched, of)
-}

@@ -9,7 +9,7 @@ mod starts;
 
 use experiment::{Experiment, STEPS_BETWEEN_LOOKS};
 pub(super) use experiment::{minimum_below, out_of_contact};
-pub use map::{DockingMap, MapCell, share_within};
+pub use map::{DockingMap, MapCell};
 pub use matching::MatchRule;
 pub use rate::{OnRate, exponential_statistic, poisson_interval};
 pub use release::{Release, off_rate, releases};
@@ -52,77 +52,6 @@ impl Default for DockingSettings {
         }
     }
 }
-
-impl DockingSettings {
-    /// The experiment that was also made with the Open Dynamics Engine on the paper's tile: the
-    /// default starts, drag 0.5 per second, no rim, 5 s. See [`ENGINE`] for what it found.
-    pub fn engine_comparison() -> Self {
-        Self {
-            motion: MotionSettings {
-                drag: 0.5,
-                walls: false,
-                ..MotionSettings::default()
-            },
-            ..Self::default()
-        }
-    }
-}
-
-/// What the Open Dynamics Engine found in [`DockingSettings::engine_comparison`] on the paper's
-/// tile, with 2000 starts at steps of 1 ms to 0.2 ms.
-///
-/// # Why it finds fewer
-///
-/// The engine is asked for a restitution of 0.01 but gives back [`EngineFigures::restitution`],
-/// 0.10 in the mean and anything from 0.01 to 0.20: its correction of overlap (ERP 0.2) pushes the
-/// tile out at 0.2 of the overlap a step, and how far a step takes the tile in is a matter of
-/// chance, up to the whole way of the step. The velocity stays afterwards, and as overlap grows
-/// with the step like the time to push it out, smaller steps do not help: a tile without magnets
-/// that meets the other flush at 0.5 m/s leaves with 0.104 of it in the mean at steps of 1 ms and
-/// with 0.099 at 0.2 ms. With the speed of the correction limited to 1 cm/s it leaves with 0.02,
-/// and the engine's share rises to [`EngineFigures::corrected`]; the other way round, this
-/// simulation falls to the engine's figure with a restitution of 0.1. From the same 8000 starts:
-///
-/// | | restitution | bound | slid by one magnet | other ends in contact |
-/// |---|---|---|---|---|
-/// | engine, as it is | 0.10 (0.01 to 0.20) | 7.2 % (6.6 to 7.8) | 4.2 % | 6.4 % |
-/// | here | 0.1 | 6.9 % (6.3 to 7.4) | | |
-/// | engine, correction at most 1 cm/s | 0.02 | 9.1 % (8.4 to 9.7) | 5.4 % | 8.4 % |
-/// | here | 0.01 | 9.1 % (8.4 to 9.7) | | |
-///
-/// For the restitution that is stated, 0.01, the higher figure is right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EngineFigures {
-    /// Share matched, lowest and highest over the steps.
-    pub matched: [f64; 2],
-    /// Half width of the interval of a share.
-    pub margin: f64,
-    /// Share slid, about.
-    pub slid: f64,
-    /// Range of speeds (m/s) in which most match, and the share there.
-    pub best: ([f64; 2], f64),
-    /// Restitution that its knocks have in the mean.
-    pub restitution: f64,
-    /// Share matched with the correction of overlap limited to 1 cm/s, and its interval's half
-    /// width (8000 starts, steps of 1 ms).
-    pub corrected: (f64, f64),
-    /// Time for a step (s).
-    pub cost: f64,
-    /// The longest and the shortest step (s).
-    pub steps: [f64; 2],
-}
-
-/// See [`EngineFigures`].
-pub const ENGINE: EngineFigures = EngineFigures {
-    matched: [0.072, 0.082],
-    margin: 0.011,
-    slid: 0.04,
-    best: ([0.2, 0.6], 0.12),
-    restitution: 0.10,
-    corrected: (0.0905, 0.0063),
-    cost: 1.0 / 0.6e6,
-    steps: [1e-3, 0.2e-3],
-};
 
 /// Why docking could not be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
