@@ -282,7 +282,7 @@ fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -
     let played = played
         .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
     let scene = Scene::new(design, problem, &inventory);
-    Interactive::Landscape(Landscape::new(design, &scene, played.collect()))
+    Interactive::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
 }
 
 /// The bond and the traps, to be marked.

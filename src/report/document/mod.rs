@@ -67,19 +67,22 @@ pub struct Fact {
 /// A part of a page that answers to the pointer.
 pub enum Interactive {
     /// An energy over configurations, with ways to be played.
-    Landscape(Landscape),
+    Landscape(Box<Landscape>),
     /// Figures of many designs over what is varied.
     Charts(Charts),
     /// All faces of a set of words against all.
     Meetings(Meetings),
 }
 
+/// What draws a picture.
+type Draw<'a> = dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a;
+
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
     /// What it shows.
     pub title: String,
     /// Draws it.
-    pub draw: Box<dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a>,
+    pub draw: Box<Draw<'a>>,
 }
 
 impl<'a> Drawing<'a> {

@@ -21,7 +21,7 @@ impl Document<'_> {
         files.insert(REPORT.to_owned(), self.report().into_bytes());
         let mut page = self.page();
         match &self.interactive {
-            Some(Interactive::Landscape(shown)) => page.landscape = Some(shown.clone()),
+            Some(Interactive::Landscape(shown)) => page.landscape = Some((**shown).clone()),
             Some(Interactive::Charts(shown)) => page.charts = Some(shown.clone()),
             Some(Interactive::Meetings(shown)) => page.meetings = Some(shown.clone()),
             None => {}

@@ -87,11 +87,14 @@ pub struct Rows<'a, Row> {
     columns: Vec<Column<'a, Row>>,
 }
 
+/// What makes something of a row.
+type Get<'a, Row, To> = dyn Fn(&Row) -> To + 'a;
+
 /// A column whose cells are made from `Row`s.
 struct Column<'a, Row> {
     head: Head,
-    get: Box<dyn Fn(&Row) -> Cell + 'a>,
-    view: Option<Box<dyn Fn(&Row) -> String + 'a>>,
+    get: Box<Get<'a, Row, Cell>>,
+    view: Option<Box<Get<'a, Row, String>>>,
 }
 
 /// Rows for some things.
