@@ -38,7 +38,7 @@ fn object(entries: &[Entry]) -> Value {
     for entry in entries {
         match entry {
             Entry::Fact(fact) if fact.head.is_data => {
-                map.insert(fact.head.key.to_owned(), fact.cell.json());
+                map.insert(fact.head.key.to_string(), fact.cell.json());
             }
             Entry::Table(table) if table.is_data => {
                 map.insert(table.key.to_owned(), table.json());
@@ -61,7 +61,7 @@ impl Table {
         let row = |cells: &Vec<(Cell, Option<String>)>| -> Value {
             let cells = self.heads.iter().zip(cells);
             let shown = cells.filter(|(head, _)| head.is_data);
-            let entry = |(head, (cell, _)): (&Head, &(Cell, _))| (head.key.to_owned(), cell.json());
+            let entry = |(head, (cell, _)): (&Head, &(Cell, _))| (head.key.to_string(), cell.json());
             Value::Object(shown.map(entry).collect())
         };
         self.rows.iter().map(row).collect()
@@ -84,7 +84,7 @@ struct Numbers {
 }
 
 /// Adds a table with those within its rows; `outer` is the cell of the row that it is within.
-fn collect(table: &Table, outer: Option<(&'static str, &str)>, sheets: &mut Vec<Numbers>) {
+fn collect(table: &Table, outer: Option<(&str, &str)>, sheets: &mut Vec<Numbers>) {
     let shown: Vec<usize> = (0..table.heads.len())
         .filter(|k| table.heads[*k].is_csv)
         .collect();
@@ -113,7 +113,7 @@ fn collect(table: &Table, outer: Option<(&'static str, &str)>, sheets: &mut Vec<
         let first = texts(&table.heads[0], &row[0].0).swap_remove(0);
         for (cell, _) in row {
             if let Cell::Rows(inner) = cell {
-                collect(inner, Some((table.heads[0].key, &first)), sheets);
+                collect(inner, Some((&table.heads[0].key, &first)), sheets);
             }
         }
     }
@@ -121,9 +121,9 @@ fn collect(table: &Table, outer: Option<(&'static str, &str)>, sheets: &mut Vec<
 
 /// The keys of the columns of numbers that a column is.
 fn keys(head: &Head) -> Vec<String> {
-    let key = head.key;
+    let key = &head.key;
     match head.parts {
-        Parts::One => vec![key.to_owned()],
+        Parts::One => vec![key.to_string()],
         Parts::Ends => ["low", "high"]
             .map(|end| key.replace("interval", end).replace("bounds", end))
             .to_vec(),

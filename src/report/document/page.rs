@@ -86,7 +86,7 @@ fn flatten(name: &str, value: &Value, rows: &mut Vec<(String, Value)>) {
 impl Fact {
     fn shown(&self) -> page::Fact {
         page::Fact {
-            name: self.head.name.to_owned(),
+            name: self.head.name.to_string(),
             value: self.to_text(),
             note: self.note.clone(),
         }
@@ -96,7 +96,7 @@ impl Fact {
 impl Table {
     fn shown(&self) -> page::Table {
         let columns = self.viewed().map(|k| page::Column {
-            name: self.heads[k].name.to_owned(),
+            name: self.heads[k].name.to_string(),
             unit: "",
             meaning: self.heads[k].meaning,
         });

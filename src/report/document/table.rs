@@ -1,14 +1,16 @@
 //! Tables: their columns are declared once, each with its key, name, meaning and value.
 
+use std::borrow::Cow;
+
 use super::{Cell, Unit};
 
 /// What a figure or a column is.
 #[derive(Clone, Debug)]
 pub struct Head {
     /// What files call it; ends in the unit.
-    pub key: &'static str,
+    pub key: Cow<'static, str>,
     /// What people call it; empty for what programs only read.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// What it means, in a sentence.
     pub meaning: &'static str,
     /// What it is measured in.
@@ -50,17 +52,22 @@ impl Parts {
 
 impl Head {
     /// Of a quantity whose unit its key says.
-    pub fn new(key: &'static str, name: &'static str, meaning: &'static str) -> Self {
+    pub fn new(
+        key: impl Into<Cow<'static, str>>,
+        name: impl Into<Cow<'static, str>>,
+        meaning: &'static str,
+    ) -> Self {
+        let (key, name) = (key.into(), name.into());
         Self {
+            unit: Unit::of_key(&key),
+            parts: Parts::of_key(&key),
+            is_viewed: !name.is_empty(),
             key,
             name,
             meaning,
-            unit: Unit::of_key(key),
-            parts: Parts::of_key(key),
             digits: 3,
             is_data: true,
             is_csv: true,
-            is_viewed: !name.is_empty(),
         }
     }
 
@@ -111,8 +118,8 @@ impl<'a, Row> Rows<'a, Row> {
     #[must_use]
     pub fn column<C: Into<Cell>>(
         mut self,
-        key: &'static str,
-        name: &'static str,
+        key: impl Into<Cow<'static, str>>,
+        name: impl Into<Cow<'static, str>>,
         meaning: &'static str,
         get: impl Fn(&Row) -> C + 'a,
     ) -> Self {

@@ -58,7 +58,7 @@ impl Table {
 
     /// What people see, its head first.
     fn texts(&self) -> Vec<Vec<String>> {
-        let head = self.viewed().map(|k| self.heads[k].name.to_owned());
+        let head = self.viewed().map(|k| self.heads[k].name.to_string());
         let row = |row: usize| self.viewed().map(|k| self.text(row, k)).collect();
         let rows = (0..self.count()).map(row);
         [head.collect()].into_iter().chain(rows).collect()
