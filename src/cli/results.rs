@@ -63,11 +63,27 @@ impl ResultOptions {
             let told = document.text(style::columns());
             match &self.out {
                 Some(folder) => format!(
-                    "{told}results in {}: report.html to look at; report.json, tables, pictures\n",
-                    folder.display()
+                    "{told}results in {}: report.html to look at; {}report.json, tables, pictures\n",
+                    folder.display(),
+                    beside(document)
                 ),
                 None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
             }
         })
     }
+}
+
+/// What else is in the folder: `words.toml, designs/, `.
+fn beside(document: &Document) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for name in document.beside.keys() {
+        let name = match name.split_once('/') {
+            Some((folder, _)) => format!("{folder}/, "),
+            None => format!("{name}, "),
+        };
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names.concat()
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Document, Drawing, Entries, Interactive, Table, entries, rows};
+use crate::document::{Document, Drawing, Entries, Part, Table, entries, rows};
 use crate::page::{Landscape, Played};
 use crate::plots::{Scene, dock, paths};
 use jobs::design::Design;
@@ -36,9 +36,8 @@ pub fn document<'a>(
             si(docking.settings.duration, "s", 2),
             docking.settings.seed
         ),
-        remarks: Vec::new(),
         entries: found(design, problem, docking, paths),
-        interactive: paths.map(|paths| scene(design, problem, docking, paths)),
+        part: paths.map(|paths| scene(design, problem, docking, paths)),
         pictures: paths.map_or_else(Vec::new, |paths| pictures(design, docking, paths)),
         notes: notes(docking),
         origin: format!(
@@ -46,6 +45,7 @@ pub fn document<'a>(
             docking.settings.seed,
             design.interaction.model.name()
         ),
+        ..Document::default()
     }
 }
 
@@ -178,7 +178,7 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
             "where tiles are caught without a match",
             "the minimum below where they ended, symmetric copies taken together",
         )
-        .showing(LISTED)
+        .listing(LISTED)
 }
 
 /// `runs.csv`: one trajectory a line.
@@ -205,8 +205,7 @@ pub fn runs(docking: &Docking) -> Table {
         })
         .column("end_pose", "", "at the end", |run| run.last.motion.configuration)
         .table("runs")
-        .in_file("runs")
-        .in_csv()
+        .in_csv("runs")
 }
 
 /// `map.csv`: one cell of the map a line.
@@ -221,8 +220,7 @@ pub fn chances(map: &DockingMap) -> Table {
             [it.matched.low, it.matched.high]
         })
         .table("map")
-        .in_file("map")
-        .in_csv()
+        .in_csv("map")
 }
 
 /// One trajectory, a snapshot a line.
@@ -237,8 +235,7 @@ pub fn trajectory(snapshots: &[Snapshot]) -> Table {
         .column("potential_J", "", "", |at| at.potential)
         .column("kinetic_J", "", "", |at| at.kinetic)
         .table("trajectory")
-        .in_file("trajectory")
-        .in_csv()
+        .in_csv("trajectory")
 }
 
 fn notes(docking: &Docking) -> Vec<String> {
@@ -273,7 +270,7 @@ fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> V
 }
 
 /// What the page plays.
-fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Interactive {
+fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Part {
     let inventory = Inventory {
         states: states(problem, docking, design.pair.bound),
         ..Inventory::default()
@@ -282,7 +279,7 @@ fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -
     let played = played
         .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
     let scene = Scene::new(design, problem, &inventory);
-    Interactive::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
+    Part::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
 }
 
 /// The bond and the traps, to be marked.

@@ -72,7 +72,6 @@ pub fn document(
                 overdamped.as_ref().map_or(Value::Null, beside),
             )
             .data("times_s", times),
-        interactive: None,
         pictures: vec![still_bound(&left, releases.len(), settings.duration).into()],
         notes: overdamped.as_ref().map(told_beside).into_iter().collect(),
         origin: format!(
@@ -80,6 +79,7 @@ pub fn document(
             settings.seed,
             design.interaction.model.name()
         ),
+        ..Document::default()
     }
 }
 

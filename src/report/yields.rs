@@ -32,7 +32,6 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
             found.crowd.area,
         )],
         entries: found_entries(design, question, found),
-        interactive: None,
         pictures: pictures(question, found),
         notes: without
             .chain(schedule)
@@ -44,6 +43,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
             "{} magnets; {told}, detachment by detailed balance; a tile binds one partner at most",
             design.interaction.model.name(),
         ),
+        ..Document::default()
     }
 }
 

@@ -61,7 +61,8 @@ impl Table {
         let row = |cells: &Vec<(Cell, Option<String>)>| -> Value {
             let cells = self.heads.iter().zip(cells);
             let shown = cells.filter(|(head, _)| head.is_data);
-            let entry = |(head, (cell, _)): (&Head, &(Cell, _))| (head.key.to_string(), cell.json());
+            let entry =
+                |(head, (cell, _)): (&Head, &(Cell, _))| (head.key.to_string(), cell.json());
             Value::Object(shown.map(entry).collect())
         };
         self.rows.iter().map(row).collect()

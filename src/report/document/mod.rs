@@ -16,11 +16,13 @@ pub use table::{Head, Rows, Table, rows};
 
 use serde_json::{Value, json};
 
+use crate::files::Files;
 use crate::page::{Charts, Landscape, Meetings};
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::design::Design;
 
 /// What there is to know of a result.
+#[derive(Default)]
 pub struct Document<'a> {
     /// The heading.
     pub title: String,
@@ -30,10 +32,12 @@ pub struct Document<'a> {
     pub remarks: Vec<String>,
     /// All that was found, in the order of the report.
     pub entries: Entries,
-    /// What the page lets one move about in.
-    pub interactive: Option<Interactive>,
     /// Its pictures, in order.
     pub pictures: Vec<Drawing<'a>>,
+    /// What one can move about in on its page, if anything.
+    pub part: Option<Part>,
+    /// Files of other forms that it comes with, by their names.
+    pub beside: Files,
     /// What to know in the end.
     pub notes: Vec<String>,
     /// How it was made: version, model, method.
@@ -64,38 +68,27 @@ pub struct Fact {
     pub note: String,
 }
 
-/// A part of a page that answers to the pointer.
-pub enum Interactive {
-    /// An energy over configurations, with ways to be played.
+/// A part of a page that answers to clicks.
+#[derive(Clone)]
+pub enum Part {
+    /// The energy over configurations, with pathways.
     Landscape(Box<Landscape>),
-    /// Figures of many designs over what is varied.
+    /// Curves and maps of a sweep.
     Charts(Charts),
     /// All faces of a set of words against all.
     Meetings(Meetings),
 }
 
-/// What draws a picture.
 type Draw<'a> = dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a;
 
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
     /// What it shows.
     pub title: String,
+    /// Whether the page has it; where a part of the page shows the same, it does not.
+    pub is_shown: bool,
     /// Draws it.
     pub draw: Box<Draw<'a>>,
-}
-
-impl<'a> Drawing<'a> {
-    /// What it shows, and what draws it.
-    pub fn new(
-        title: impl Into<String>,
-        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
-    ) -> Self {
-        Self {
-            title: title.into(),
-            draw: Box::new(draw),
-        }
-    }
 }
 
 /// Entries one after another.
@@ -109,6 +102,29 @@ pub fn entries(design: &Design) -> Entries {
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity)
         .data("model", design.interaction.model.name())
+}
+
+impl<'a> Drawing<'a> {
+    /// A picture of what its title says.
+    pub fn new(
+        title: impl Into<String>,
+        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            is_shown: true,
+            draw: Box::new(draw),
+        }
+    }
+
+    /// In a file only: a part of the page shows the same.
+    #[must_use]
+    pub fn off_page(self) -> Self {
+        Self {
+            is_shown: false,
+            ..self
+        }
+    }
 }
 
 impl Entries {
@@ -214,12 +230,13 @@ impl Document<'_> {
         tables
     }
 
-    /// The figures that people see, in order.
+    /// The figures that are known and that people see, in order.
     pub fn facts(&self) -> Vec<&Fact> {
         let mut facts = Vec::new();
         Self::walk(&self.entries.0, &mut |entry| {
             if let Entry::Fact(fact) = entry
                 && fact.head.is_viewed
+                && !matches!(fact.cell, Cell::Missing)
             {
                 facts.push(fact);
             }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Document, Entry, Fact, Interactive, Table};
+use super::{Document, Entry, Fact, Part, Table};
 use crate::files::{Files, PAGE, PICTURES, REPORT};
 use crate::page::{self, Illustration, Page};
 use crate::plots::{PictureError, Sheet};
@@ -18,20 +18,17 @@ impl Document<'_> {
         let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
         let figures = figures.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut files = self.numbers();
+        files.extend(self.beside.clone());
         files.insert(REPORT.to_owned(), self.report().into_bytes());
         let mut page = self.page();
-        match &self.interactive {
-            Some(Interactive::Landscape(shown)) => page.landscape = Some((**shown).clone()),
-            Some(Interactive::Charts(shown)) => page.charts = Some(shown.clone()),
-            Some(Interactive::Meetings(shown)) => page.meetings = Some(shown.clone()),
-            None => {}
-        }
         for (picture, figure) in self.pictures.iter().zip(figures) {
-            page.pictures.push(Illustration {
-                title: picture.title.clone(),
-                is_titled: sheet.is_titled(),
-                svg: figure.svg().to_owned(),
-            });
+            if picture.is_shown {
+                page.pictures.push(Illustration {
+                    title: picture.title.clone(),
+                    is_titled: sheet.is_titled(),
+                    svg: figure.svg().to_owned(),
+                });
+            }
             let named = figure.files();
             files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
         }
@@ -41,16 +38,23 @@ impl Document<'_> {
     }
 
     /// The page, without pictures.
-    fn page(&self) -> Page {
+    pub fn page(&self) -> Page {
         let tables = self.tables().into_iter().filter(|table| table.is_shown());
-        Page {
+        let mut page = Page {
             subtitle: self.answer.clone(),
             facts: self.facts().into_iter().map(Fact::shown).collect(),
             tables: tables.map(Table::shown).chain(self.settings()).collect(),
             notes: [&self.remarks[..], &self.notes].concat(),
             origin: format!("tilebind {}; {}", env!("CARGO_PKG_VERSION"), self.origin),
             ..Page::titled(self.title.clone())
+        };
+        match self.part.clone() {
+            Some(Part::Landscape(landscape)) => page.landscape = Some(*landscape),
+            Some(Part::Charts(charts)) => page.charts = Some(charts),
+            Some(Part::Meetings(meetings)) => page.meetings = Some(meetings),
+            None => {}
         }
+        page
     }
 }
 
@@ -106,10 +110,10 @@ impl Table {
                 (key, text) => json!([key, text]),
             }
         };
-        let rows = 0..self.count();
+        let rows = 0..self.rows.len();
         page::Table {
             title: self.title.clone(),
-            note: self.remark(),
+            note: self.note.clone(),
             columns: columns.collect(),
             rows: rows
                 .map(|row| self.viewed().map(|k| cell(row, k)).collect())

@@ -95,13 +95,13 @@ pub struct Rows<'a, Row> {
 }
 
 /// What makes something of a row.
-type Get<'a, Row, To> = dyn Fn(&Row) -> To + 'a;
+type Of<'a, Row, T> = dyn Fn(&Row) -> T + 'a;
 
 /// A column whose cells are made from `Row`s.
 struct Column<'a, Row> {
     head: Head,
-    get: Box<Get<'a, Row, Cell>>,
-    view: Option<Box<Get<'a, Row, String>>>,
+    get: Box<Of<'a, Row, Cell>>,
+    view: Option<Box<Of<'a, Row, String>>>,
 }
 
 /// Rows for some things.
@@ -211,7 +211,7 @@ impl<'a, Row> Rows<'a, Row> {
             note: String::new(),
             is_data: true,
             is_viewed: true,
-            most: usize::MAX,
+            listed: usize::MAX,
             rows: self.rows.iter().map(cells).collect(),
             heads: self.columns.into_iter().map(|it| it.head).collect(),
         }
@@ -233,8 +233,8 @@ pub struct Table {
     pub is_data: bool,
     /// Whether people see it.
     pub is_viewed: bool,
-    /// Rows that people see at most.
-    pub most: usize,
+    /// Rows that a terminal has at most, the first ones.
+    pub listed: usize,
     /// What its columns are.
     pub heads: Vec<Head>,
     /// The cells, with their texts where these are more than the values.
@@ -264,18 +264,17 @@ impl Table {
         self
     }
 
-    /// People see so many rows at most.
+    /// For programs only, as a file of numbers of this name.
     #[must_use]
-    pub fn showing(mut self, most: usize) -> Self {
-        self.most = most;
-        self
+    pub fn in_csv(mut self, stem: &'static str) -> Self {
+        (self.is_data, self.is_viewed) = (false, false);
+        self.in_file(stem)
     }
 
-    /// In its file of numbers only.
+    /// With so many rows on a terminal at most.
     #[must_use]
-    pub fn in_csv(mut self) -> Self {
-        self.is_data = false;
-        self.is_viewed = false;
+    pub fn listing(mut self, most: usize) -> Self {
+        self.listed = most;
         self
     }
 

@@ -19,9 +19,11 @@ impl Document<'_> {
             };
             let _ = write!(text, "\n{title}");
             write_folded(&mut text, &table.texts(), columns);
-            let remark = table.remark();
-            if !remark.is_empty() {
-                let _ = writeln!(text, "({remark})");
+            if let more @ 1.. = table.rows.len().saturating_sub(table.listed) {
+                let _ = writeln!(text, "... and {more} more");
+            }
+            if !table.note.is_empty() {
+                let _ = writeln!(text, "({})", table.note);
             }
         }
         if !self.notes.is_empty() {
@@ -40,27 +42,11 @@ impl Table {
         self.is_viewed && !self.rows.is_empty()
     }
 
-    /// How many rows people see.
-    pub(super) fn count(&self) -> usize {
-        self.rows.len().min(self.most)
-    }
-
-    /// What there is to know of it.
-    pub(super) fn remark(&self) -> String {
-        let more = match self.rows.len() - self.count() {
-            0 => String::new(),
-            more => format!("{more} more in report.json"),
-        };
-        let told = [self.note.clone(), more].into_iter();
-        let told: Vec<String> = told.filter(|text| !text.is_empty()).collect();
-        told.join("; ")
-    }
-
     /// What people see, its head first.
     fn texts(&self) -> Vec<Vec<String>> {
         let head = self.viewed().map(|k| self.heads[k].name.to_string());
         let row = |row: usize| self.viewed().map(|k| self.text(row, k)).collect();
-        let rows = (0..self.count()).map(row);
+        let rows = (0..self.rows.len().min(self.listed)).map(row);
         [head.collect()].into_iter().chain(rows).collect()
     }
 }

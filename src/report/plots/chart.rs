@@ -350,10 +350,7 @@ impl Chart {
 
 impl From<Chart> for Drawing<'_> {
     fn from(chart: Chart) -> Self {
-        Self {
-            title: chart.title.clone(),
-            draw: Box::new(move |sheet| chart.draw(sheet)),
-        }
+        Self::new(chart.title.clone(), move |sheet| chart.draw(sheet))
     }
 }
 
