@@ -9,31 +9,22 @@ use tilebind::comparison::{self, Assessment, Quantity};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
-use tilebind::report::files::{COMPARE, Files, with_page};
-use tilebind::report::page::Page;
-use tilebind::report::plots::{Sheet, ranking};
+use tilebind::report::files::COMPARE;
 
 use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
-use super::figures::{FigureOptions, command_line};
-use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::options::WorkOptions;
 use super::progress::Progress;
+use super::results::ResultOptions;
 use super::word::Word;
-use super::{Failure, input, interrupt, memory, style, workload};
+use super::{Failure, input, interrupt, memory, workload};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
-#[command(
-    mut_arg("json", |json| json.help("Print compare.json instead of the tables")),
-    mut_arg("quiet", |quiet| quiet.help("Print neither progress nor the tables")),
-    after_help = "\
-Writes report.html to look at, compare.csv, compare.json, compare.md, ranking.svg and
-ranking.png.
-
+#[command(after_help = "\
 Example:
   tilebind compare shapes/tab-10mm.toml shapes/tab-20mm.toml shapes/paper-tile.toml \\
-      --out target/compare"
-)]
+      --out target/compare")]
 pub struct Compare {
     /// The design files
     #[arg(required = true)]
@@ -43,13 +34,6 @@ pub struct Compare {
     #[arg(long, value_name = "MODEL", value_parser = input::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
-
-    /// Folder for the results; made if need be
-    #[arg(long, short, value_name = "DIR")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    force: ForceOption,
 
     /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
@@ -63,10 +47,7 @@ pub struct Compare {
     work: WorkOptions,
 
     #[command(flatten)]
-    figures: FigureOptions,
-
-    #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 impl Compare {
@@ -75,8 +56,7 @@ impl Compare {
         let designs = self.load()?;
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
-        let output = self.force.folder(&COMPARE, &self.out, inputs.collect())?;
-        let sheet = self.figures.sheet()?;
+        let output = self.results.output(&COMPARE, inputs.collect())?;
         let settings = self.options.settings(&designs);
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
@@ -84,7 +64,7 @@ impl Compare {
             workload::tell_of(design, &settings.settings(self.work.seed));
         }
 
-        let progress = self.print.progress();
+        let progress = self.results.progress();
         let assessments: Vec<Assessment> = designs
             .iter()
             .enumerate()
@@ -98,29 +78,8 @@ impl Compare {
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);
-        let shown = ranking::draw(&comparison, &Sheet::SCREEN)?;
-        let drawn = ranking::draw(&comparison, &sheet)?;
-        let json = comparison.json();
-        let mut files = Files::from([
-            ("compare.csv".to_owned(), comparison.csv().into_bytes()),
-            ("compare.md".to_owned(), comparison.markdown().into_bytes()),
-            ("compare.json".to_owned(), json.clone().into_bytes()),
-        ]);
-        // The numbers of the ranking are those of the table.
-        files.extend(drawn.files().filter(|(name, _)| !name.ends_with(".csv")));
-        let page = Page::of_comparison(&comparison, shown.svg().to_owned());
-        let files = with_page(files, Some(page), &command_line());
-        interrupt::without(|| output.write(&files))?;
-        progress.finish();
-        self.print.results(&json, || {
-            let folder = self.out.display();
-            let names =
-                "report.html, compare.csv, compare.json, compare.md, ranking.svg, ranking.png";
-            format!(
-                "{}results in {folder}: {names}\n",
-                comparison.summary(style::columns())
-            )
-        })?;
+        self.results
+            .deliver(&comparison.document(), output, &progress)?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));
         tell_refuted(&named.collect::<Vec<_>>())
     }

@@ -8,10 +8,8 @@ use clap::Args;
 use serde_json::json;
 use tilebind::Design;
 use tilebind::output::{Output, OutputError};
-use tilebind::report::files::{Files, PAGE, PICTURES, SWEEP};
+use tilebind::report::files::{REPORT, SWEEP};
 use tilebind::report::json;
-use tilebind::report::page::Page;
-use tilebind::report::plots::curve_data;
 use tilebind::report::sweep::{Sweep as Report, counts};
 use tilebind::sweep::{
     self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Source, Store,
@@ -27,6 +25,9 @@ use super::{Failure, input, interrupt, memory, print, style};
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
 
+/// What gives the same results, however the work was divided.
+const AGAIN: &str = "tilebind sweep --run plan.json; tilebind sweep --merge plan.json";
+
 const THREADS: &str = "\
 Points worked on at the same time [default: all cores]; the results do not depend on it";
 
@@ -36,8 +37,8 @@ Points worked on at the same time [default: all cores]; the results do not depen
     mut_arg("seed", |seed| seed.help("Seed that all points' seeds come from")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
-Writes report.html to look at, sweep.csv, sweep.json and pictures: curves over one varied number,
-maps over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep
+Writes report.html to look at, report.json, sweep.csv and pictures: curves over one varied number, maps
+over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep
 was stopped, the same command goes on with what is missing and ends in the same bytes.
 
 Examples:
@@ -269,29 +270,17 @@ impl Sweep {
                 counts(&progress)
             ))
         })?;
-        let json = report.json();
-        let mut files = Files::from([
-            ("sweep.csv".to_owned(), report.csv().into_bytes()),
-            ("sweep.json".to_owned(), json.clone().into_bytes()),
-            (PLAN.to_owned(), plan.to_text().into_bytes()),
-        ]);
-        let sheet = self.figures.sheet()?;
-        for figure in curve_data::pictures(&report, &sheet)? {
-            let named = |(name, bytes)| (format!("{PICTURES}/{name}"), bytes);
-            files.extend(figure.files().map(named));
+        let document = report.document();
+        let mut files = document.files(&self.figures.sheet()?, AGAIN)?;
+        if !output.reads(PLAN) {
+            files.insert(PLAN.to_owned(), plan.to_text().into_bytes());
         }
-        let page = Page::of_sweep(&report).beside(files.keys());
-        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
-        let designs = report.designs();
-        files.extend(designs.map(|(name, text)| (name, text.as_bytes().to_vec())));
-        files.retain(|name, _| name != PLAN || !output.reads(name));
         interrupt::without(|| output.write(&files))?;
-        self.print.results(&json, || {
-            let folder = folder.display();
-            let files = "report.html to look at; sweep.csv, sweep.json, pictures/";
+        self.print.results(&document.report(), || {
             format!(
-                "{}results in {folder}: {files}\n",
-                report.summary(style::columns())
+                "{}results in {}: report.html to look at; report.json, tables, pictures\n",
+                document.text(style::columns()),
+                folder.display()
             )
         })?;
         match report.progress().failed {
@@ -320,7 +309,7 @@ fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
 /// Writes the manifest of a sweep that is to be finished. That of results that are there stays with
 /// them until new ones come.
 fn begin(plan: &Plan, manifest: &Output, folder: &Path) -> Result<(), Failure> {
-    if folder.join("sweep.json").exists() {
+    if folder.join(REPORT).exists() {
         return Ok(());
     }
     Ok(interrupt::without(|| manifest.write_file(plan.to_text()))?)

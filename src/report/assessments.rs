@@ -1,20 +1,13 @@
-//! Assessments in files: JSON, and rows of tables.
+//! Figures of designs in documents.
 
-use std::iter::once;
+use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
-use super::csv::number;
-use jobs::comparison::quantity::QUANTITIES;
+use crate::document::Rows;
+use crate::figures::{cell, heading};
+use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, capture_range};
-
-/// Columns of what moving tiles say of the barriers: how many they checked, contradict, and show to
-/// be estimated too high.
-const CHECKED: [&str; 3] = [
-    "barriers_checked",
-    "barriers_contradicted",
-    "barriers_overestimated",
-];
 
 /// What a capture range depends on.
 pub fn capture_settings() -> Value {
@@ -36,7 +29,7 @@ pub fn merge(object: &mut Value, more: Value) {
 /// The figures of a design as JSON: a number, or an object with its bounds.
 pub fn quantities(design: &Assessment) -> Value {
     let entry = |quantity: &Quantity| {
-        let [value, low, high] = finite(quantity, design);
+        let [value, low, high] = finite(quantity, Some(design));
         let entry = match quantity.bounds {
             Some([below, above]) => json!({"value": value, below: low, above: high}),
             None => json!(value),
@@ -47,42 +40,83 @@ pub fn quantities(design: &Assessment) -> Value {
 }
 
 /// A figure and its bounds, `None` for what is not known or not finite.
-fn finite(quantity: &Quantity, design: &Assessment) -> [Option<f64>; 3] {
-    let estimate = quantity.of(design);
+fn finite(quantity: &Quantity, design: Option<&Assessment>) -> [Option<f64>; 3] {
+    let estimate = design.and_then(|design| quantity.of(design));
     estimate.map_or([None; 3], |estimate| estimate.finite())
 }
 
-/// Columns of a table of assessments.
-pub fn columns() -> Vec<String> {
-    let mut columns = Vec::new();
+/// Adds all figures of designs for programs, each with its bounds; empty where there is no design.
+pub fn numbers<'a, Row>(
+    mut rows: Rows<'a, Row>,
+    of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
+) -> Rows<'a, Row> {
     for quantity in QUANTITIES {
-        columns.push(quantity.name(""));
         let bounds = quantity.bounds.into_iter().flatten();
-        columns.extend(bounds.map(|bound| quantity.name(&format!("_{bound}"))));
+        let parts = [String::new()].into_iter();
+        let parts = parts.chain(bounds.map(|bound| format!("_{bound}")));
+        for (k, part) in parts.enumerate() {
+            let key = quantity.name(&part);
+            rows = rows.column(key, "", "", move |row| finite(quantity, of(row))[k]);
+        }
     }
-    columns.extend(["caged", "target_energy_J", "seed", "sha256"].map(str::to_owned));
-    columns.extend(CHECKED.map(str::to_owned));
-    columns
+    let checks = |k: usize| move |row: &Row| Some(of(row)?.checks()?[k]);
+    rows.column("caged", "", "", move |row| Some(of(row)?.is_caged()))
+        .column("target_energy_J", "", "", move |row| {
+            Some(of(row)?.target_energy)
+        })
+        .column("seed", "", "", move |row| Some(of(row)?.seed))
+        .column("sha256", "", "", move |row| Some(of(row)?.sha256.clone()))
+        // What moving tiles say of the barriers.
+        .column("barriers_checked", "", "", checks(0))
+        .column("barriers_contradicted", "", "", checks(1))
+        .column("barriers_overestimated", "", "", checks(2))
 }
 
-/// The cells of [`columns`]; empty where there is nothing to say, or no way at all.
-pub fn cells(design: &Assessment) -> Vec<String> {
-    let mut cells = Vec::new();
-    for quantity in QUANTITIES {
-        let [value, bounds @ ..] = finite(quantity, design);
-        let bounds = quantity.bounds.map(|_| bounds);
-        let numbers = once(value).chain(bounds.into_iter().flatten());
-        cells.extend(numbers.map(|value| value.map(number).unwrap_or_default()));
+/// Adds a figure of designs for people, or two that share a place, with bounds or the word for why
+/// there is none.
+pub fn view<'a, Row>(
+    rows: Rows<'a, Row>,
+    name: impl Into<Cow<'static, str>>,
+    of_place: Vec<&'static Quantity>,
+    of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
+) -> Rows<'a, Row> {
+    let first = of_place[0];
+    // A barrier that nothing crosses ranks above every number.
+    let value = move |row: &Row| Some(first.of(of(row)?)?.value.min(f64::MAX));
+    let told = move |row: &Row| of(row).map_or("-".to_owned(), |one| cell(&of_place, one));
+    rows.column("", name, first.label, value)
+        .in_view()
+        .viewed(told)
+}
+
+/// Adds the figures of one of the tables of designs, by its number.
+pub fn views<'a, Row>(
+    mut rows: Rows<'a, Row>,
+    table: u8,
+    of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
+) -> Rows<'a, Row> {
+    for (place, of_place) in placed(|quantity| quantity.column) {
+        if place.row == table {
+            let name = heading(place.heading, of_place[0].measure);
+            rows = view(rows, name, of_place, of);
+        }
     }
-    let caged = design.bond.as_ref().is_some_and(|b| b.way_out.bounds.caged);
-    cells.extend([
-        caged.to_string(),
-        number(design.target_energy),
-        design.seed.to_string(),
-        design.sha256.clone(),
-    ]);
-    let counts = design.checks();
-    let counts = counts.map(|checks| checks.map(|count| count.to_string()));
-    cells.extend(counts.unwrap_or_else(|| CHECKED.map(|_| String::new())));
-    cells
+    rows
+}
+
+/// How many tables the figures of designs are spread over.
+pub fn tables() -> u8 {
+    let rows = QUANTITIES.iter().filter_map(|quantity| quantity.column);
+    rows.map(|place| place.row + 1).max().unwrap_or(0)
+}
+
+/// A line on what moving tiles say of all barriers that they checked; none where they were not asked.
+pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> Option<String> {
+    let sums = designs
+        .filter_map(Assessment::checks)
+        .reduce(|sums, checks| std::array::from_fn(|k| sums[k] + checks[k]));
+    let [checked, contradicted, high] = sums?;
+    Some(format!(
+        "moving tiles checked {checked} barriers: {contradicted} contradicted, {high} estimated too high"
+    ))
 }

@@ -1,16 +1,13 @@
-//! Designs side by side: tables for the terminal, CSV, JSON and Markdown.
+//! Designs side by side.
 
 use std::fmt::Write;
-use std::iter::once;
 
 use serde_json::{Map, Value, json};
 
-use super::assessments::{capture_settings, cells, columns, merge, quantities};
-use super::csv::table;
-use super::figures::{WHY_NOT_HEAD_ON, cell, heading, misses_head_on};
-use super::json;
-use super::markdown::{markdown_table, without_html};
-use super::terminal::write_folded;
+use crate::assessments::{capture_settings, checked, merge, numbers, quantities, tables, views};
+use crate::document::{Document, Drawing, Entries, Table, rows};
+use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
+use crate::plots::ranking as picture;
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use physics::landscape::certificate::Ordering;
@@ -41,57 +38,58 @@ impl Comparison {
         }
     }
 
-    /// The tables and the proved order, for the terminal.
-    pub fn summary(&self, columns: Option<usize>) -> String {
-        let mut out = format!("{}\n", self.headline());
-        for table in self.tables() {
-            write_folded(&mut out, &table, columns);
-            out.push('\n');
-        }
-        for line in self.obstacles() {
-            let _ = writeln!(out, "{line}");
-        }
-        for line in self.orders() {
-            let _ = writeln!(out, "{line}");
-        }
-        if self.designs.iter().any(has_estimates) {
-            let _ = writeln!(out, "({ESTIMATES})");
-        }
-        let _ = writeln!(out, "(unlisted: {UNLISTED})");
-        if self.designs.iter().any(misses_head_on) {
-            let _ = writeln!(out, "({NOT_HEAD_ON}: {WHY_NOT_HEAD_ON})");
-        }
-        out + &checked(self.designs.iter())
+    /// What there is to know of it.
+    pub fn document(&self) -> Document<'_> {
+        let seed = self.designs.first().map_or(0, |first| first.seed);
+        let mut document = Document {
+            title: format!("{} designs side by side", self.designs.len()),
+            answer: self.headline(),
+            entries: self.entries(),
+            pictures: vec![Drawing::new(
+                format!("Ranked by {}", self.by.label),
+                |sheet| picture::draw(self, sheet),
+            )],
+            notes: self.notes(),
+            origin: format!("seed {seed}"),
+            ..Document::default()
+        };
+        let markdown = document.markdown();
+        document
+            .beside
+            .insert("compare.md".to_owned(), markdown.into_bytes());
+        document
     }
 
-    /// The same for people, as Markdown.
-    pub fn markdown(&self) -> String {
-        let mut out = format!("# Designs ranked by {}\n", self.by.label);
-        for table in self.tables() {
-            out.push('\n');
-            out += &markdown_table(&table);
+    fn entries(&self) -> Entries {
+        let mut all = Entries::default()
+            .data("tilebind", env!("CARGO_PKG_VERSION"))
+            .data("ranked_by", self.by.key)
+            .data("settings", json!(self.settings))
+            .data("capture_range", capture_settings())
+            .data("designs", self.designs())
+            .data("certified_order", self.proved())
+            .table(self.table());
+        for number in 0..tables() {
+            let named = rows(&self.designs)
+                .column("", "design", "best first", |one| self.name(one))
+                .in_view();
+            all = all.table(views(named, number, |one| Some(one)).table("").in_view());
         }
-        out.push('\n');
-        for line in self.obstacles().into_iter().chain(self.orders()) {
-            let _ = writeln!(out, "- {}", without_html(&line));
+        for (name, one, told) in self.firsts() {
+            all = all.fact("", name, one).in_view().noted(told);
         }
-        let _ = writeln!(out, "\n{}", self.note());
-        out
+        all.table(self.orders())
     }
 
     /// The sentence that answers: which design is best, and of how many.
     fn headline(&self) -> String {
-        let docking = self
-            .designs
-            .iter()
-            .filter(|one| one.obstacle().is_none())
-            .count();
+        let docking = self.designs.iter().filter(|one| one.obstacle().is_none());
         let of = match self.designs.len() {
             1 => "1 design".to_owned(),
             many => format!("{many} designs"),
         };
         match self.designs.first() {
-            Some(best) if docking > 0 => format!(
+            Some(best) if docking.count() > 0 => format!(
                 "{of}, ranked by {}: {} is first with {}",
                 self.by.label,
                 self.name(best),
@@ -104,56 +102,32 @@ impl Comparison {
         }
     }
 
-    /// Why designs stand last, a line for each.
-    fn obstacles(&self) -> Vec<String> {
-        let told = |one: &Assessment| {
+    /// Why designs stand last, and what the figures mean.
+    fn notes(&self) -> Vec<String> {
+        let behind = |one: &Assessment| {
             let (_, why) = one.obstacle()?;
             Some(format!(
                 "{} stands behind those that dock: {why}",
                 self.name(one)
             ))
         };
-        self.designs.iter().filter_map(told).collect()
-    }
-
-    /// What the tables' figures mean.
-    pub fn note(&self) -> String {
-        let mut note = format!(
-            "Brackets hold certified bounds; percentages are of {} far starts, with 95 % \
-             intervals. The capture range is how far off a tile that touches head-on may be slid, \
-             drawn back or tilted and still run downhill into the bond, to within {} % of its \
-             depth.",
+        let mut notes: Vec<String> = self.designs.iter().filter_map(behind).collect();
+        notes.push(format!(
+            "brackets: certified bounds; percentages: of {} far starts, with 95 % intervals; offset, gap \
+             and tilt: how far off a tile that touches head-on may be slid, drawn back or tilted and \
+             still run downhill into the bond, to within {} % of its depth",
             self.settings.far_starts,
             100.0 * capture_range::ENERGY_SHARE,
-        );
-        let _ = write!(note, " \u{201c}Unlisted\u{201d}: {UNLISTED}.");
+        ));
         if self.designs.iter().any(has_estimates) {
-            let _ = write!(note, " (The {ESTIMATES}.)");
+            notes.push(ESTIMATES.to_owned());
         }
-        for line in self.obstacles() {
-            let _ = write!(note, " {line}.");
-        }
+        notes.push(format!("unlisted: {UNLISTED}"));
         if self.designs.iter().any(misses_head_on) {
-            let _ = write!(note, " \u{201c}{NOT_HEAD_ON}\u{201d}: {WHY_NOT_HEAD_ON}.");
+            notes.push(format!("{NOT_HEAD_ON}: {WHY_NOT_HEAD_ON}"));
         }
-        note
-    }
-
-    /// Row by row, the first one the head.
-    fn tables(&self) -> Vec<Vec<Vec<String>>> {
-        let names = self.designs.iter().map(|design| vec![self.name(design)]);
-        let names: Vec<_> = once(vec!["design".to_owned()]).chain(names).collect();
-        let mut tables = Vec::new();
-        for (place, of) in placed(|quantity| quantity.column) {
-            let number = usize::from(place.row);
-            tables.resize(tables.len().max(number + 1), names.clone());
-            let cells = self.designs.iter().map(|design| cell(&of, design));
-            let column = once(heading(place.heading, of[0].measure)).chain(cells);
-            for (row, cell) in tables[number].iter_mut().zip(column) {
-                row.push(cell);
-            }
-        }
-        tables
+        notes.extend(checked(self.designs.iter()));
+        notes
     }
 
     /// A design's name, with the model where models differ.
@@ -166,29 +140,33 @@ impl Comparison {
         }
     }
 
-    /// A line for each figure whose order may be proved, from the highest to the lowest.
-    fn orders(&self) -> Vec<String> {
-        let mut lines: Vec<String> = self
-            .certified_orders()
-            .into_iter()
-            .map(|(figure, order)| format!("certified order of the {figure}: {order}"))
-            .collect();
-        if !lines.is_empty() {
-            lines.push("(> proved for the stated model, ~ undecided: bounds overlap)".to_owned());
+    /// The figures that designs are known by, and for each the design that has most of it.
+    fn firsts(&self) -> Vec<(String, String, String)> {
+        let best = QUANTITIES.iter().filter(|quantity| quantity.most.is_some());
+        let mut firsts: Vec<(String, String, String)> = Vec::new();
+        for quantity in std::iter::once(self.by).chain(best) {
+            let highest = || format!("highest {}", quantity.label);
+            let name = quantity.most.map_or_else(highest, str::to_owned);
+            let order = ranking::ranked(&self.designs, quantity);
+            let first = order.first().map(|first| &self.designs[*first]);
+            let known = first.filter(|first| quantity.of(first).is_some());
+            if let Some(first) = known
+                && firsts.iter().all(|(other, ..)| *other != name)
+            {
+                firsts.push((name, self.name(first), cell(&[quantity], first)));
+            }
         }
-        lines
+        firsts
     }
 
     /// Figures with bounds, and the designs from the highest to the lowest: `a > b ~ c`.
-    pub fn certified_orders(&self) -> Vec<(&'static str, String)> {
+    fn orders(&self) -> Table {
         let mut orders = Vec::new();
         for (heading, quantity) in ordered() {
-            let order = ranking::ranked(&self.designs, quantity);
-            let known: Vec<&Assessment> = order
-                .into_iter()
-                .map(|i| &self.designs[i])
-                .filter(|design| quantity.of(design).is_some_and(|e| e.low.is_some()))
-                .collect();
+            let order = ranking::ranked(&self.designs, quantity).into_iter();
+            let order = order.map(|i| &self.designs[i]);
+            let bounded = |one: &&Assessment| quantity.of(one).is_some_and(|e| e.low.is_some());
+            let known: Vec<&Assessment> = order.filter(bounded).collect();
             if known.len() < 2 {
                 continue;
             }
@@ -202,41 +180,41 @@ impl Comparison {
             }
             orders.push((heading, line));
         }
-        orders
+        rows(orders)
+            .column("", "figure", "", |(figure, _)| *figure)
+            .in_view()
+            .column("", "from the highest to the lowest", "", |(_, line)| {
+                line.clone()
+            })
+            .in_view()
+            .table("")
+            .titled(
+                "certified order",
+                "> proved for the stated model, ~ undecided: bounds overlap",
+            )
+            .in_view()
     }
 
     /// One line a design, best first.
-    pub fn csv(&self) -> String {
-        let mut head = ["rank", "name", "model"].map(str::to_owned).to_vec();
-        head.extend(columns());
-        let rows = self.designs.iter().zip(1..).map(|(design, rank)| {
-            let first = [rank.to_string(), design.name.clone(), design.model.clone()];
-            [first.to_vec(), cells(design)].concat()
-        });
-        table(head, rows)
+    pub fn table(&self) -> Table {
+        let ranked = rows(self.designs.iter().zip(1_usize..))
+            .column("rank", "", "", |(_, rank)| *rank)
+            .column("name", "", "", |(one, _)| one.name.clone())
+            .column("model", "", "", |(one, _)| one.model.clone());
+        numbers(ranked, |(one, _)| Some(*one))
+            .table("compare")
+            .in_csv("compare")
     }
 
-    /// Everything, with what reproduces it.
-    pub fn json(&self) -> String {
-        let designs: Vec<Value> = self
-            .designs
-            .iter()
-            .enumerate()
-            .map(|(k, design)| {
-                let mut entry = json!({"rank": k + 1});
-                merge(&mut entry, json!(design));
-                merge(&mut entry, json!({"quantities": quantities(design)}));
-                entry
-            })
-            .collect();
-        json::text(&json!({
-            "tilebind": env!("CARGO_PKG_VERSION"),
-            "ranked_by": self.by.key,
-            "settings": self.settings,
-            "capture_range": capture_settings(),
-            "designs": designs,
-            "certified_order": self.proved(),
-        }))
+    fn designs(&self) -> Value {
+        let designs = self.designs.iter().enumerate();
+        let entry = |(k, design): (usize, &Assessment)| {
+            let mut entry = json!({"rank": k + 1});
+            merge(&mut entry, json!(design));
+            merge(&mut entry, json!({"quantities": quantities(design)}));
+            entry
+        };
+        designs.map(entry).collect()
     }
 
     /// For each figure the pairs of designs whose order is proved, by their places in the ranking.
@@ -275,20 +253,6 @@ fn has_estimates(design: &Assessment) -> bool {
             && estimate.is_some_and(|e| e.low.is_none() && e.value.is_finite())
     };
     QUANTITIES.iter().any(|quantity| is_estimate(&quantity))
-}
-
-/// A line on what moving tiles say of all barriers that they checked; empty where they were not
-/// asked.
-pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> String {
-    let sums = designs
-        .filter_map(Assessment::checks)
-        .reduce(|sums, checks| std::array::from_fn(|k| sums[k] + checks[k]));
-    sums.map_or_else(String::new, |[checked, contradicted, high]| {
-        format!(
-            "moving tiles checked {checked} barriers: {contradicted} contradicted, {high} estimated \
-             too high\n"
-        )
-    })
 }
 
 /// The quantities whose order may be proved, with their headings in the tables.

@@ -44,28 +44,14 @@ pub const ANALYSE: Command = Command {
 /// `tilebind compare`.
 pub const COMPARE: Command = Command {
     name: "compare",
-    files: &[
-        PAGE,
-        "compare.json",
-        "compare.csv",
-        "compare.md",
-        "ranking.svg",
-        "ranking.png",
-        "ranking.pdf",
-    ],
-    pictures: &[],
+    files: &[REPORT, PAGE, "compare.csv", "compare.md"],
+    pictures: &["ranking"],
 };
 
 /// `tilebind sweep`; its points are files of their own, see [`jobs::sweep::Store`].
 pub const SWEEP: Command = Command {
     name: "sweep",
-    files: &[
-        PAGE,
-        "plan.json",
-        "sweep.json",
-        "sweep.csv",
-        "designs/*.toml",
-    ],
+    files: &[PAGE, REPORT, "plan.json", "sweep.csv", "designs/*.toml"],
     pictures: &["curves", "map"],
 };
 

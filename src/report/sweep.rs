@@ -1,13 +1,11 @@
 //! Sweeps: tables of all points, and what the terminal is told.
 
-use std::fmt::Write;
-
 use serde_json::{Map, Value as Json, json};
 
-use super::assessments::{capture_settings, cells, columns, merge, quantities};
-use super::comparison::checked;
-use super::csv::table;
-use super::json;
+use super::assessments::{capture_settings, checked, merge, numbers, quantities};
+use super::document::{Document, Entries, Part, Table, rows};
+use super::page::Charts;
+use super::plots::curve_data;
 use super::plots::curve_names::said;
 use jobs::comparison::Assessment;
 use jobs::sweep::{Outcome, Plan, Point, Progress, Store};
@@ -67,54 +65,58 @@ impl<'a> Sweep<'a> {
         reason(&self.outcomes[index])
     }
 
-    /// One line a point: the varied keys (as the design file has them, in SI units), the figures
-    /// with their bounds, and for impossible designs the reason.
-    pub fn csv(&self) -> String {
-        let figures = columns();
-        let mut head = ["index", "design"].map(str::to_owned).to_vec();
-        head.extend(self.plan.axes.iter().map(|axis| axis.key.clone()));
-        head.extend(["status", "reason", "model", "point"].map(str::to_owned));
-        head.extend(figures.iter().cloned());
-        let rows = self.points.iter().map(|point| {
-            let outcome = &self.outcomes[point.index];
-            let result = self.assessment(point.index);
-            let mut row = vec![
-                point.index.to_string(),
-                self.plan.designs[point.design].name.clone(),
-            ];
-            row.extend(point.values.iter().map(ToString::to_string));
-            row.extend([
-                status(outcome).to_owned(),
-                reason(outcome).unwrap_or_default().to_owned(),
-                result.map(|r| r.model.clone()).unwrap_or_default(),
-                point.name.clone(),
-            ]);
-            row.extend(result.map_or_else(|| vec![String::new(); figures.len()], cells));
-            row
+    /// What there is to know of it.
+    pub fn document(&self) -> Document<'_> {
+        let plan = self.plan;
+        let names: Vec<&str> = plan.designs.iter().map(|d| d.name.as_str()).collect();
+        let keys: Vec<&str> = plan.axes.iter().map(|axis| axis.key.as_str()).collect();
+        let counts = counts(&self.progress());
+        let designs = (0..self.outcomes.len()).filter_map(|index| self.assessment(index));
+        let refused = self.points.iter().filter_map(|point| {
+            let reason = self.reason(point.index)?;
+            Some(format!("  {}: {reason}", self.called(point)))
         });
-        table(head, rows)
+        let refused: Vec<String> = refused.collect();
+        let more = refused.len().saturating_sub(REASONS);
+        let more = (more > 0).then(|| format!("  and {more} more, see sweep.csv"));
+        let beside = self.designs();
+        let beside = beside.map(|(name, text)| (name, text.as_bytes().to_vec()));
+        Document {
+            title: format!("{}: a sweep over {}", names.join(", "), keys.join(", ")),
+            answer: self.answer().unwrap_or_else(|| counts.clone()),
+            entries: self.entries(),
+            part: Some(Part::Charts(Charts::new(self))),
+            pictures: curve_data::drawings(self),
+            notes: [counts]
+                .into_iter()
+                .chain(refused.into_iter().take(REASONS))
+                .chain(more)
+                .chain(checked(designs))
+                .collect(),
+            beside: beside.collect(),
+            origin: format!("seed {}; plan.json holds what reproduces it", plan.seed),
+            ..Document::default()
+        }
     }
 
-    /// Everything, with what reproduces it.
-    pub fn json(&self) -> String {
-        let points: Vec<Json> = self.points.iter().map(|point| self.entry(point)).collect();
-        let designs: Vec<Json> = self
-            .plan
-            .designs
-            .iter()
-            .map(|source| json!({"name": source.name, "sha256": source.sha256}))
-            .collect();
-        json::text(&json!({
-            "tilebind": self.plan.tilebind,
-            "designs": designs,
-            "axes": self.plan.axes,
-            "settings": self.plan.settings,
-            "capture_range": capture_settings(),
-            "seed": self.plan.seed,
-            "counts": self.progress(),
-            "baseline": self.plan.baseline_of(&self.points),
-            "points": points,
-        }))
+    // One line an entry.
+    #[rustfmt::skip]
+    fn entries(&self) -> Entries {
+        let plan = self.plan;
+        let designs = plan.designs.iter().map(|source| json!({"name": source.name, "sha256": source.sha256}));
+        Entries::default()
+            .data("tilebind", &plan.tilebind[..])
+            .data("designs", designs.collect::<Json>())
+            .data("axes", json!(plan.axes))
+            .data("settings", json!(plan.settings))
+            .data("capture_range", capture_settings())
+            .data("seed", plan.seed)
+            .data("counts", json!(self.progress()))
+            .data("baseline", json!(plan.baseline_of(&self.points)))
+            .data("points", self.points.iter().map(|point| self.entry(point)).collect::<Json>())
+            .fact("", "points", counts(&self.progress())).in_view()
+            .table(self.numbers())
+            .table(self.listed())
     }
 
     fn entry(&self, point: &Point) -> Json {
@@ -139,25 +141,28 @@ impl<'a> Sweep<'a> {
         entry
     }
 
-    /// What came of it, for the terminal.
-    pub fn summary(&self, columns: Option<usize>) -> String {
-        let mut out = self.answer() + &self.table(columns);
-        out += &counts(&self.progress());
-        out.push('\n');
-        let refused: Vec<(&Point, &str)> = self
-            .points
-            .iter()
-            .filter_map(|point| Some((point, reason(&self.outcomes[point.index])?)))
-            .collect();
-        for (point, reason) in refused.iter().take(REASONS) {
-            let _ = writeln!(out, "  {}: {reason}", self.called(point));
+    /// One line a point: the varied keys (as the design file has them, in SI units), the figures
+    /// with their bounds, and for impossible designs the reason.
+    pub fn numbers(&self) -> Table {
+        let points = self.points.iter();
+        let mut all = rows(points.map(|point| (point, self.assessment(point.index))))
+            .column("index", "", "", |(point, _)| point.index)
+            .column("design", "", "", |(point, _)| {
+                self.plan.designs[point.design].name.clone()
+            });
+        for (k, axis) in self.plan.axes.iter().enumerate() {
+            let value = move |(point, _): &(&Point, _)| point.values[k].to_string();
+            all = all.column(axis.key.clone(), "", "", value);
         }
-        if refused.len() > REASONS {
-            let more = refused.len() - REASONS;
-            let _ = writeln!(out, "  and {more} more, see sweep.csv");
-        }
-        let designs = (0..self.outcomes.len()).filter_map(|index| self.assessment(index));
-        out + &checked(designs)
+        let outcome = |point: &Point| &self.outcomes[point.index];
+        let all = all
+            .column("status", "", "", |(point, _)| status(outcome(point)))
+            .column("reason", "", "", |(point, _)| {
+                self.reason(point.index).map(str::to_owned)
+            })
+            .column("model", "", "", |(_, one)| one.map(|one| one.model.clone()))
+            .column("point", "", "", |(point, _)| point.name.clone());
+        numbers(all, |(_, one)| *one).table("sweep").in_csv("sweep")
     }
 
     /// The file of a point's design beside the results; `None` where it is impossible, or needs

@@ -1,10 +1,12 @@
 //! What a sweep answers: one sentence, and a table of its points.
 
-use super::figures::cell;
+use super::assessments::view;
+use super::document::{Table, rows};
+use super::figures::{cell, heading};
 use super::sweep::Sweep;
-use super::terminal::write_folded;
-use jobs::comparison::quantity::QUANTITIES;
+use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
+use jobs::sweep::Point;
 use physics::order::Order;
 
 /// Points that the table lists; of more, the first ones.
@@ -35,8 +37,8 @@ impl Sweep<'_> {
     }
 
     /// The sentence that answers: the best point, the least, and how much better the best is than
-    /// the one that all are set against, or the first; empty where nothing was assessed.
-    pub fn answer(&self) -> String {
+    /// the one that all are set against, or the first; `None` where nothing was assessed.
+    pub fn answer(&self) -> Option<String> {
         let done = self.done();
         let by = self.by();
         let mut ranked: Vec<(usize, &Assessment)> = done.clone();
@@ -48,7 +50,7 @@ impl Sweep<'_> {
                 .then(value(b).total_cmp(&value(a)))
         });
         let (Some(&best), Some(&least)) = (ranked.first(), ranked.last()) else {
-            return String::new();
+            return None;
         };
         let base = self.baseline();
         let is_base = |(index, _): &&(usize, &Assessment)| base.is_none_or(|base| base == *index);
@@ -63,7 +65,7 @@ impl Sweep<'_> {
             )
         };
         if best.1.obstacle().is_some() {
-            return format!("no point finds into its bond; {}\n", told(best));
+            return Some(format!("no point finds into its bond; {}", told(best)));
         }
         let mut sentence = format!("best {}", told(best));
         let ratio = value(best.1) / value(base.1);
@@ -79,44 +81,54 @@ impl Sweep<'_> {
                 sentence += &format!(" ({why})");
             }
         }
-        sentence + "\n"
+        Some(sentence)
     }
 
-    /// The points with their figures, in the order of the sweep; of many, the first ones.
-    pub(super) fn table(&self, columns: Option<usize>) -> String {
-        let done = self.done();
-        let head = std::iter::once("point").chain(COLUMNS.map(|key| quantity(key).label));
-        let mut rows = vec![head.map(str::to_owned).collect::<Vec<_>>()];
-        rows.extend(done.iter().take(LISTED).map(|(index, one)| {
-            let called = self.called(&self.points[*index]);
-            let figures = COLUMNS.map(|key| cell(&[quantity(key)], one));
-            std::iter::once(called).chain(figures).collect()
-        }));
+    /// The points with their figures, in the order of the sweep.
+    pub(super) fn listed<'a>(&'a self) -> Table {
         let by = self.by();
         let base = self.baseline().and_then(|index| {
             let value = by.of(self.assessment(index)?)?.value;
             Some((index, value)).filter(|_| value > 0.0)
         });
-        if let Some((index, base)) = base {
-            // How much better, beside what it is.
-            let place = COLUMNS.iter().position(|key| *key == by.key);
-            let place = place.map_or(1, |place| place + 2);
-            rows[0].insert(place, format!("x {}", self.called(&self.points[index])));
-            for (row, (_, one)) in rows[1..].iter_mut().zip(&done) {
-                let ratio = by.of(one).map(|own| own.value / base);
-                let ratio = ratio.filter(|ratio| ratio.is_finite());
-                row.insert(place, ratio.map_or("-".to_owned(), |x| format!("{x:.2}")));
+        let points = self.points.iter();
+        let of = |(_, one): &(&Point, Option<&'a Assessment>)| *one;
+        let mut table = rows(points.map(|point| (point, self.assessment(point.index))))
+            .column("", "point", "", |(point, _)| self.called(point))
+            .in_view();
+        for key in COLUMNS {
+            let shown = quantity(key);
+            table = view(table, shown.label, vec![shown], of);
+            if let Some((index, base)) = base.filter(|_| key == by.key) {
+                // How much better, beside what it is.
+                let ratio = move |(_, one): &(_, Option<&Assessment>)| {
+                    let value = by.of((*one)?)?.value / base;
+                    value.is_finite().then_some(value)
+                };
+                table = table
+                    .column(
+                        "",
+                        format!("x {}", self.called(&self.points[index])),
+                        "",
+                        ratio,
+                    )
+                    .in_view();
             }
         }
-        let mut text = String::new();
-        if done.is_empty() {
-            return text;
+        for (place, of_place) in placed(|quantity| quantity.column) {
+            if of_place.iter().all(|one| !COLUMNS.contains(&one.key)) {
+                let name = heading(place.heading, of_place[0].measure);
+                table = view(table, name, of_place, of).on_page();
+            }
         }
-        write_folded(&mut text, &rows, columns);
-        if done.len() > LISTED {
-            text += &format!("and {} more points, see sweep.csv\n", done.len() - LISTED);
-        }
-        text
+        table
+            .column("", "impossible", "", |(point, _)| {
+                self.reason(point.index).map(str::to_owned)
+            })
+            .on_page()
+            .table("")
+            .in_view()
+            .listing(LISTED)
     }
 
     /// The points that were assessed, with their places.

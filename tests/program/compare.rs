@@ -47,7 +47,7 @@ fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
     assert_eq!(output.status.code(), Some(0), "{message}");
     assert!(message.is_empty(), "silent where nobody watches: {message}");
 
-    let json: Value = serde_json::from_str(&read(folder.path(), "compare.json")).unwrap();
+    let json: Value = serde_json::from_str(&read(folder.path(), "report.json")).unwrap();
     let designs = json["designs"].as_array().unwrap();
     let names: Vec<&str> = designs
         .iter()
@@ -108,11 +108,16 @@ fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
         summary.lines().all(|line| line.chars().count() <= 120),
         "{summary}"
     );
-    assert!(read(folder.path(), "ranking.svg").contains("wrong-partner"));
+    assert!(read(folder.path(), "pictures/ranking.svg").contains("wrong-partner"));
 
     let again = tempfile::tempdir().unwrap();
     compare(&DESIGNS, again.path(), &["--threads", "2", "--quiet"]);
-    for name in ["compare.csv", "compare.json", "compare.md", "ranking.svg"] {
+    for name in [
+        "compare.csv",
+        "report.json",
+        "compare.md",
+        "pictures/ranking.svg",
+    ] {
         assert_eq!(
             read(folder.path(), name),
             read(again.path(), name),

@@ -170,7 +170,7 @@ def test_sweeps_are_those_of_the_program(tab, program, root, tmp_path):
     options = [f"--{k.replace('_', '-')}={v}" for k, v in few.items()]
     run = [program, "sweep", str(root / "shapes/tab-20mm.toml"), "--vary", f"{key}=0.01,0.02,5.0"]
     subprocess.run([*run, "--out", str(tmp_path), "--quiet", *options], check=True)
-    assert found.report == json.loads((tmp_path / "sweep.json").read_text())
+    assert found.report == json.loads((tmp_path / "report.json").read_text())
     again = pickle.loads(pickle.dumps(found))
     assert again.summary() == found.summary()
     assert found.design(0) == again.design(0)

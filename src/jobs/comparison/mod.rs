@@ -260,13 +260,19 @@ impl Assessment {
         Some([checked, self.contradictions.len(), self.overestimates.len()])
     }
 
+    /// Whether the bond is proved to have no way out at all.
+    pub fn is_caged(&self) -> bool {
+        let bond = self.bond.as_ref();
+        bond.is_some_and(|bond| bond.way_out.bounds.caged)
+    }
+
     /// Why tiles of this design do not find into the bond, where they do not: nothing holds, no way
     /// leads in, or none of the far starts came in. The worst first, by its number from 3 to 1.
     pub fn obstacle(&self) -> Option<(u8, String)> {
-        let Some(bond) = &self.bond else {
+        if self.bond.is_none() {
             return Some((3, "the bond does not hold".to_owned()));
-        };
-        if bond.way_out.bounds.caged {
+        }
+        if self.is_caged() {
             let proved = "proved: no way leads from far apart into the bond";
             return Some((2, proved.to_owned()));
         }

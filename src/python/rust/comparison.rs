@@ -6,7 +6,6 @@ use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison as Compared;
-use tilebind::report::page::Page;
 use tilebind::report::plots::{Sheet, ranking};
 
 use crate::design::Design;
@@ -124,13 +123,13 @@ impl Comparison {
     /// figure with its bounds, units in the names.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&self.0.csv()))
+        table::structured(py, table::of_csv(&self.0.table().csv()))
     }
 
-    /// dict : Everything, with what reproduces it, as ``compare.json`` has it.
+    /// dict : Everything, with what reproduces it, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.0.json())
+        convert::json(py, &self.0.document().report())
     }
 
     /// The tables and the proved orders as text.
@@ -139,7 +138,7 @@ impl Comparison {
     /// -------
     /// str
     fn summary(&self) -> String {
-        self.0.summary(Some(100))
+        self.0.document().text(Some(100))
     }
 
     /// The same as Markdown.
@@ -148,7 +147,7 @@ impl Comparison {
     /// -------
     /// str
     fn markdown(&self) -> String {
-        self.0.markdown()
+        self.0.document().markdown()
     }
 
     /// The picture of the ranking, an SVG document.
@@ -167,7 +166,7 @@ impl Comparison {
     /// -------
     /// str
     fn report_html(&self) -> PyResult<String> {
-        Ok(Page::of_comparison(&self.0, self.svg()?).to_html())
+        self.0.document().html().map_err(fault::run)
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

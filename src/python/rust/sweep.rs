@@ -5,8 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping};
-use tilebind::report::page::Page;
-use tilebind::report::plots::{Sheet, curve_data};
+use tilebind::report::plots::Sheet;
 use tilebind::report::sweep::Sweep as Swept;
 use tilebind::sweep::{Axis, Outcome, Plan, Value, run as work_on};
 
@@ -122,13 +121,13 @@ impl Sweep {
     /// `status` ("done", "impossible" or "failed"), `reason`, every figure with its bounds.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&self.swept().csv()))
+        table::structured(py, table::of_csv(&self.swept().numbers().csv()))
     }
 
-    /// dict : Everything, with what reproduces it, as ``sweep.json`` has it.
+    /// dict : Everything, with what reproduces it, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.swept().json())
+        convert::json(py, &self.swept().document().report())
     }
 
     /// What came of it.
@@ -137,7 +136,7 @@ impl Sweep {
     /// -------
     /// str
     fn summary(&self) -> String {
-        self.swept().summary(Some(100))
+        self.swept().document().text(Some(100))
     }
 
     /// The design of a point.
@@ -170,7 +169,7 @@ impl Sweep {
     /// list of str
     fn svg(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let swept = self.swept();
-        let drawn = job::quietly(py, || curve_data::pictures(&swept, &Sheet::SCREEN))?;
+        let drawn = job::quietly(py, || swept.document().figures(&Sheet::SCREEN))?;
         let drawn = drawn.map_err(fault::run)?;
         Ok(drawn.iter().map(|figure| figure.svg().to_owned()).collect())
     }
@@ -182,7 +181,8 @@ impl Sweep {
     /// str
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
         let swept = self.swept();
-        job::quietly(py, || Page::of_sweep(&swept).to_html())
+        let html = job::quietly(py, || swept.document().html())?;
+        html.map_err(fault::run)
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -14,6 +14,8 @@ mod text;
 pub use cell::{Cell, Unit, told};
 pub use table::{Head, Rows, Table, rows};
 
+use std::borrow::Cow;
+
 use serde_json::{Value, json};
 
 use crate::files::Files;
@@ -131,7 +133,12 @@ impl Entries {
     /// A figure: its key in files, which ends in its unit, what people call it (nothing where they do
     /// not see it), and its value.
     #[must_use]
-    pub fn fact(mut self, key: &'static str, name: &'static str, cell: impl Into<Cell>) -> Self {
+    pub fn fact(
+        mut self,
+        key: impl Into<Cow<'static, str>>,
+        name: impl Into<Cow<'static, str>>,
+        cell: impl Into<Cell>,
+    ) -> Self {
         self.0.push(Entry::Fact(Fact {
             head: Head::new(key, name, ""),
             cell: cell.into(),

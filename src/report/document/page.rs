@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::{Document, Entry, Fact, Part, Table};
 use crate::files::{Files, PAGE, PICTURES, REPORT};
 use crate::page::{self, Illustration, Page};
-use crate::plots::{PictureError, Sheet};
+use crate::plots::{Figure, PictureError, Sheet};
 use physics::parallel;
 
 impl Document<'_> {
@@ -15,35 +15,50 @@ impl Document<'_> {
     /// # Errors
     /// Where a picture cannot be drawn.
     pub fn files(&self, sheet: &Sheet, command: &str) -> Result<Files, PictureError> {
-        let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
-        let figures = figures.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let figures = self.figures(sheet)?;
+        let page = self.page(sheet, &figures);
         let mut files = self.numbers();
         files.extend(self.beside.clone());
         files.insert(REPORT.to_owned(), self.report().into_bytes());
-        let mut page = self.page();
-        for (picture, figure) in self.pictures.iter().zip(figures) {
-            if picture.is_shown {
-                page.pictures.push(Illustration {
-                    title: picture.title.clone(),
-                    is_titled: sheet.is_titled(),
-                    svg: figure.svg().to_owned(),
-                });
-            }
-            let named = figure.files();
-            files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
-        }
+        let named = figures.into_iter().flat_map(Figure::files);
+        files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
         let page = page.made_by(command).beside(files.keys()).to_html();
         files.insert(PAGE.to_owned(), page.into_bytes());
         Ok(files)
     }
 
-    /// The page, without pictures.
-    pub fn page(&self) -> Page {
+    /// The page by itself.
+    ///
+    /// # Errors
+    /// Where a picture cannot be drawn.
+    pub fn html(&self) -> Result<String, PictureError> {
+        let figures = self.figures(&Sheet::SCREEN)?;
+        Ok(self.page(&Sheet::SCREEN, &figures).to_html())
+    }
+
+    /// The pictures, drawn.
+    ///
+    /// # Errors
+    /// Where one cannot be drawn.
+    pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+        let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
+        figures.into_iter().collect()
+    }
+
+    fn page(&self, sheet: &Sheet, figures: &[Figure]) -> Page {
+        let pictures = self.pictures.iter().zip(figures);
+        let pictures = pictures.filter(|(picture, _)| picture.is_shown);
+        let pictures = pictures.map(|(picture, figure)| Illustration {
+            title: picture.title.clone(),
+            is_titled: sheet.is_titled(),
+            svg: figure.svg().to_owned(),
+        });
         let tables = self.tables().into_iter().filter(|table| table.is_shown());
         let mut page = Page {
             subtitle: self.answer.clone(),
             facts: self.facts().into_iter().map(Fact::shown).collect(),
             tables: tables.map(Table::shown).chain(self.settings()).collect(),
+            pictures: pictures.collect(),
             notes: [&self.remarks[..], &self.notes].concat(),
             origin: format!("tilebind {}; {}", env!("CARGO_PKG_VERSION"), self.origin),
             ..Page::titled(self.title.clone())

@@ -23,8 +23,10 @@ pub struct Head {
     pub is_data: bool,
     /// ... and in tables of numbers.
     pub is_csv: bool,
-    /// Whether people see it.
+    /// Whether people see it ...
     pub is_viewed: bool,
+    /// ... and on a terminal, too.
+    pub is_printed: bool,
 }
 
 /// What a column of figures is in tables of numbers.
@@ -68,6 +70,7 @@ impl Head {
             digits: 3,
             is_data: true,
             is_csv: true,
+            is_printed: true,
         }
     }
 
@@ -193,6 +196,12 @@ impl<'a, Row> Rows<'a, Row> {
     #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|head| (head.is_data, head.is_csv, head.is_viewed) = (false, false, true))
+    }
+
+    /// The last column is for people only, and not for the terminal.
+    #[must_use]
+    pub fn on_page(self) -> Self {
+        self.in_view().last(|head| head.is_printed = false)
     }
 
     /// The table, by what JSON calls it.

@@ -3,14 +3,43 @@
 use std::fmt::Write;
 
 use super::{Document, Table};
+use crate::markdown::{markdown_table, without_html};
 use crate::terminal::write_folded;
+
+/// Width of lines where no terminal says how wide it is.
+const WIDTH: usize = 100;
+
+/// A text in lines of this width at most, as far as its words go.
+fn wrapped(text: &str, width: usize) -> String {
+    let mut out = String::new();
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        let mut used = 0;
+        for (k, word) in line.trim_start().split(' ').enumerate() {
+            let length = word.chars().count();
+            if k > 0 && used + 1 + length > width {
+                out.push('\n');
+                used = 0;
+            }
+            match used {
+                0 => out.extend(std::iter::repeat_n(' ', indent)),
+                _ => out.push(' '),
+            }
+            used += length + if used == 0 { indent } else { 1 };
+            out.push_str(word);
+        }
+        out.push('\n');
+    }
+    out
+}
 
 impl Document<'_> {
     /// The answer, the tables and what to know of them; tables are folded at the terminal's width.
     pub fn text(&self, columns: Option<usize>) -> String {
-        let mut text = format!("{}\n", self.answer);
+        let width = columns.unwrap_or(WIDTH);
+        let mut text = wrapped(&self.answer, width);
         for remark in &self.remarks {
-            let _ = writeln!(text, "{remark}");
+            text += &wrapped(remark, width);
         }
         for table in self.tables().into_iter().filter(|table| table.is_shown()) {
             let title = match &table.title[..] {
@@ -23,14 +52,33 @@ impl Document<'_> {
                 let _ = writeln!(text, "... and {more} more");
             }
             if !table.note.is_empty() {
-                let _ = writeln!(text, "({})", table.note);
+                text += &wrapped(&format!("({})", table.note), width);
             }
         }
         if !self.notes.is_empty() {
             text.push('\n');
         }
         for note in &self.notes {
-            let _ = writeln!(text, "{note}");
+            text += &wrapped(note, width);
+        }
+        text
+    }
+
+    /// The same as Markdown.
+    pub fn markdown(&self) -> String {
+        let mut text = format!("# {}\n\n{}\n", self.title, without_html(&self.answer));
+        for table in self.tables().into_iter().filter(|table| table.is_shown()) {
+            if !table.title.is_empty() {
+                let _ = write!(text, "\n## {}\n", without_html(&table.title));
+            }
+            let _ = write!(text, "\n{}", markdown_table(&table.texts()));
+            if !table.note.is_empty() {
+                let _ = write!(text, "\n{}\n", without_html(&table.note));
+            }
+        }
+        text.push('\n');
+        for note in self.remarks.iter().chain(&self.notes) {
+            let _ = writeln!(text, "- {}", without_html(note));
         }
         text
     }
@@ -42,11 +90,27 @@ impl Table {
         self.is_viewed && !self.rows.is_empty()
     }
 
-    /// What people see, its head first.
+    /// What people see on a terminal, its head first.
     fn texts(&self) -> Vec<Vec<String>> {
-        let head = self.viewed().map(|k| self.heads[k].name.to_string());
-        let row = |row: usize| self.viewed().map(|k| self.text(row, k)).collect();
+        let printed: Vec<usize> = self
+            .viewed()
+            .filter(|k| self.heads[*k].is_printed)
+            .collect();
+        let head = printed.iter().map(|k| self.heads[*k].name.to_string());
+        let row = |row: usize| printed.iter().map(|k| self.text(row, *k)).collect();
         let rows = (0..self.rows.len().min(self.listed)).map(row);
         [head.collect()].into_iter().chain(rows).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrapped;
+
+    #[test]
+    fn lines_break_between_words_and_keep_their_indent() {
+        assert_eq!(wrapped("one two three", 8), "one two\nthree\n");
+        assert_eq!(wrapped("  one two\nthree", 7), "  one\n  two\nthree\n");
+        assert_eq!(wrapped("unbreakable", 4), "unbreakable\n");
     }
 }

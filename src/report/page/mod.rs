@@ -7,7 +7,6 @@
 
 mod assembly;
 mod charts;
-mod comparison;
 mod crosstalk;
 mod html;
 pub(super) mod landscape;

@@ -2,7 +2,8 @@
 
 use super::curve_names::{Common, LENGTHS, common, file, titled};
 use super::style::Axis;
-use super::{Figure, PictureError, Sheet, curve_map, curves};
+use super::{curve_map, curves};
+use crate::document::Drawing;
 use crate::sweep::Sweep;
 use jobs::comparison::Assessment;
 use jobs::sweep::{Point, Value};
@@ -108,22 +109,21 @@ pub enum Content<'a> {
     Map(Map),
 }
 
-/// The pictures of a sweep by the stems of their files: curves where one number is varied, maps
-/// where two are; none otherwise. Everything else that is varied tells series and pictures apart.
-///
-/// # Errors
-/// See [`PictureError`].
-pub fn pictures(sweep: &Sweep, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
-    let draw = |(name, content): (String, _)| match content {
-        Content::Curves(variable, group) => curves::draw(&name, &group, &variable, sheet),
-        Content::Map(map) => {
+/// The pictures of a sweep: curves where one number is varied, maps where two are; none otherwise.
+/// Everything else that is varied tells series and pictures apart. The page draws its own.
+pub fn drawings<'a>(sweep: &'a Sweep) -> Vec<Drawing<'a>> {
+    let draw = |(name, content): (String, Content<'a>)| match content {
+        Content::Curves(variable, group) => Drawing::new(group.title.clone(), move |sheet| {
+            curves::draw(&name, &group, &variable, sheet)
+        }),
+        Content::Map(map) => Drawing::new(map.title.clone(), move |sheet| {
             let results = map.cells.iter();
             let results = results.map(|cell| cell.map(|index| sweep.assessment(index)));
-            let results: Vec<_> = results.collect();
-            curve_map::draw(&name, &map, &results, sheet)
-        }
+            curve_map::draw(&name, &map, &results.collect::<Vec<_>>(), sheet)
+        }),
     };
-    contents(sweep).into_iter().map(draw).collect()
+    let all = contents(sweep).into_iter().map(draw);
+    all.map(Drawing::off_page).collect()
 }
 
 /// What the pictures show, by the stems of their files.

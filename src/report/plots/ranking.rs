@@ -83,7 +83,7 @@ pub fn draw(comparison: &Comparison, sheet: &Sheet) -> Result<Figure, PictureErr
         panels: panels.collect(),
         key: None,
     };
-    Figure::new(&composition, sheet, comparison.csv())
+    Figure::new(&composition, sheet, comparison.table().csv())
 }
 
 fn panels(comparison: &Comparison) -> Vec<RankingPanel> {

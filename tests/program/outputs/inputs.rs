@@ -145,11 +145,11 @@ fn manifests_are_inputs_of_merging() {
         done(here, &["sweep", "--run", plan, "--quiet"]);
         check(here, &[("R/plan.json", &spaced)]);
     }
-    fs::copy(here.join("R/plan.json"), here.join("R/sweep.json")).unwrap();
-    let merge = ["sweep", "--merge", "R/sweep.json", "--quiet", "--force"];
-    refused(here, &merge, &["R/sweep.json", "never replaced"]);
+    fs::copy(here.join("R/plan.json"), here.join("R/report.json")).unwrap();
+    let merge = ["sweep", "--merge", "R/report.json", "--quiet", "--force"];
+    refused(here, &merge, &["R/report.json", "never replaced"]);
     // The same sweep again would replace what was edited.
-    fs::remove_file(here.join("R/sweep.json")).unwrap();
+    fs::remove_file(here.join("R/report.json")).unwrap();
     refused(here, &words(SWEEP), &["R/plan.json", "was changed since"]);
 }
 

@@ -11,7 +11,7 @@ const COMMANDS: [(&str, &Command, &str); 9] = [
     (ANALYSE, &files::ANALYSE, "pathways/0-free.csv"),
     (DOCK, &files::DOCK, "pictures/chances.svg"),
     (MAKE, &files::MAKE, "sheet.md"),
-    (COMPARE, &files::COMPARE, "ranking.svg"),
+    (COMPARE, &files::COMPARE, "pictures/ranking.svg"),
     (SWEEP, &files::SWEEP, "sweep.csv"),
     (YIELD, &files::YIELD, "pictures/course.svg"),
     (WORDS, &files::WORDS, "words.toml"),

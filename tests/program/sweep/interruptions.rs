@@ -108,7 +108,7 @@ fn sigterm_ends_it_with_status_75_and_keeps_what_is_finished() {
         stderr(&output)
     );
     assert!((2..POINTS).contains(&points(&out).len()));
-    assert!(!out.join("sweep.json").exists());
+    assert!(!out.join("report.json").exists());
     let partial = |path: &PathBuf| path.display().to_string().contains("partial");
     let entries = std::fs::read_dir(&out).unwrap().flatten();
     assert!(!entries.map(|entry| entry.path()).any(|path| partial(&path)));

@@ -19,7 +19,7 @@ fn every_point_is_a_row_and_an_impossible_one_says_why() {
         "magnet.remanence=0.6,1.2",
     ];
     done(&[&what[..], &QUICK, &["--out", text(&out)]].concat());
-    let json: Value = serde_json::from_slice(&contents(&out)["sweep.json"]).unwrap();
+    let json: Value = serde_json::from_slice(&contents(&out)["report.json"]).unwrap();
     let points = json["points"].as_array().unwrap();
     let expected = [(0.01, 0.6), (0.01, 1.2), (0.4, 0.6), (0.4, 1.2)];
     assert_eq!(points.len(), expected.len());
@@ -74,7 +74,7 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
     ];
     let output = run(&[&designs[..], &vary, &few, &["--out", text(&out)]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let json: Value = serde_json::from_slice(&contents(&out)["sweep.json"]).unwrap();
+    let json: Value = serde_json::from_slice(&contents(&out)["report.json"]).unwrap();
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 8);
     assert_eq!(points[4]["design"], "alternating");
@@ -114,7 +114,7 @@ fn points_are_set_against_one_and_added_where_figures_bend() {
     let told = crate::program::stdout(&output);
     assert!(told.contains("x depth = 0 mm"), "{told}");
     let first = contents(&out);
-    let json: Value = serde_json::from_slice(&first["sweep.json"]).unwrap();
+    let json: Value = serde_json::from_slice(&first["report.json"]).unwrap();
     assert_eq!(json["baseline"], 0);
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 5, "{told}");
