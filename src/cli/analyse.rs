@@ -39,7 +39,6 @@ Examples:
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
   tilebind analyse my.toml --out my-results --dynamics
-  tilebind analyse my.toml --out my-results --arrays
   tilebind analyse my.toml --out my-results --figure-width 85mm --figure-font 8
   tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'"
 )]
@@ -105,10 +104,6 @@ pub struct Analyse {
     #[arg(long)]
     compact: bool,
 
-    /// Write maps, roadmap, states and barriers as NPY files too, for NumPy: folder arrays/
-    #[arg(long)]
-    arrays: bool,
-
     #[command(flatten)]
     figures: FigureOptions,
 
@@ -151,7 +146,6 @@ impl Analyse {
                 true => Extent::Compact,
                 false => Extent::Full,
             },
-            arrays: self.arrays,
             sheet: self.figures.sheet()?,
             command: command_line(),
         })

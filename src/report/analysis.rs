@@ -7,7 +7,7 @@ use super::json::Report;
 use super::names::{alternative_file, pathway_file};
 use super::page::Page;
 use super::plots::{self, PictureError, Scene, Sheet};
-use super::{arrays, csv, dynamics, topsearch};
+use super::{csv, dynamics, topsearch};
 use jobs::design::Design;
 use jobs::pipeline::Analysis;
 use physics::landscape::Barrier;
@@ -27,8 +27,6 @@ pub enum Extent {
 pub struct Contents {
     /// How much.
     pub extent: Extent,
-    /// Whether arrays for NumPy too.
-    pub arrays: bool,
     /// How pictures are laid out.
     pub sheet: Sheet,
     /// The command line that gives the same results, for the page.
@@ -42,19 +40,18 @@ impl Contents {
             name.split_once('/')
                 .is_some_and(|(first, _)| first == folder)
         };
-        let is_kept = match self.extent {
+        match self.extent {
             Extent::Full => true,
             Extent::Compact => {
                 let is_picture = !is_in(PICTURES) || is_vector(name);
                 is_picture && name != PAGE && !is_in(topsearch::FOLDER)
             }
-        };
-        is_kept && (self.arrays || !is_in(arrays::FOLDER))
+        }
     }
 }
 
-/// All files of an analysis begun at `start`: report, tables, pathways, pictures with their numbers,
-/// page, and arrays if they are asked for.
+/// All files of an analysis begun at `start`: report, tables, pathways, pictures with their numbers
+/// and page.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
@@ -67,9 +64,6 @@ pub fn files(
     let extent = contents.extent;
     let mut files = tables(design, analysis, extent);
     files.extend(pictures(design, analysis, contents)?);
-    if contents.arrays {
-        files.extend(arrays::files(design, analysis));
-    }
     let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
     if extent == Extent::Compact {
         report = report.without_copies();

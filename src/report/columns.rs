@@ -1,4 +1,4 @@
-//! The columns of states and of barriers, once for CSV, NPY, JSON and the page.
+//! The columns of states and of barriers, once for CSV, JSON and the page.
 //!
 //! A new column is one entry here, and appears in every output in which it is given a place.
 
@@ -17,8 +17,6 @@ use physics::order::Order;
 pub enum Output {
     /// `states.csv` and `barriers.csv`.
     Csv,
-    /// Structured arrays for NumPy.
-    Npy,
     /// `report.json`.
     Json,
     /// The page's tables.
@@ -34,7 +32,7 @@ pub struct Column<Row> {
     pub heading: &'static str,
     /// Its place in each [`Output`], 0 where it is not shown. Readers of files may count columns:
     /// what has a place keeps it, and what is new comes last.
-    places: [u8; 4],
+    places: [u8; 3],
     /// Its entry of a row.
     pub get: fn(&Row) -> Cell,
 }
@@ -120,7 +118,7 @@ impl<'a> StateRow<'a> {
 
 impl<Row> Column<Row> {
     fn new(
-        places: [u8; 4],
+        places: [u8; 3],
         name: &'static str,
         unit: &'static str,
         heading: &'static str,
@@ -161,47 +159,44 @@ fn shown<Row>(output: Output, mut columns: Vec<Column<Row>>) -> Vec<Column<Row>>
     columns
 }
 
-// One line a column: places in CSV, NPY, JSON and on the page; name, unit, heading; how to get it.
+// One line a column: places in CSV, JSON and on the page; name, unit, heading; how to get it.
 #[rustfmt::skip]
 fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
     let c = Column::<StateRow>::new;
     vec![
-        c([ 1,  1,  1,  0], "id", "", "id", |s| value(s.state.id)),
+        c([ 1,  1,  0], "id", "", "id", |s| value(s.state.id)),
         // What people call it: letters by depth.
-        c([19,  0, 13,  1], "name", "", "state", |s| value(s.name)),
-        c([ 2,  0,  2,  0], "kind", "", "kind", |s| value(kind(s.state.kind))),
-        c([ 0,  0,  0,  2], "kind", "", "kind", |s| value(if s.is_bound() { "bond" } else { "trap" })),
-        // The kind as a number.
-        c([ 0,  3,  0,  0], "bound", "", "bound", |s| value(u8::from(s.is_bound()))),
+        c([19, 13,  1], "name", "", "state", |s| value(s.name)),
+        c([ 2,  2,  0], "kind", "", "kind", |s| value(kind(s.state.kind))),
+        c([ 0,  0,  2], "kind", "", "kind", |s| value(if s.is_bound() { "bond" } else { "trap" })),
         // Lowest id among the states that symmetries of the tiles map onto this one.
-        c([ 3,  2,  6,  0], "class", "", "class", |s| value(s.state.class)),
-        c([ 4,  0,  7,  3], "copies", "", "copies", |s| value(s.copies)),
-        c([ 0,  0,  3,  0], "pose", "", "pose", |s| value(json!(pose(s.at)))),
-        c([ 5,  4,  0,  8], "x", "m", "x", |s| real(s.at.x)),
-        c([ 6,  5,  0,  9], "y", "m", "y", |s| real(s.at.y)),
-        c([ 7,  6,  0, 10], "theta", "rad", "\u{3b8}", |s| real(s.at.theta)),
-        c([ 8,  7,  4,  4], "energy", "J", "energy", |s| real(s.state.energy)),
+        c([ 3,  6,  0], "class", "", "class", |s| value(s.state.class)),
+        c([ 4,  7,  3], "copies", "", "copies", |s| value(s.copies)),
+        c([ 0,  3,  0], "pose", "", "pose", |s| value(json!(pose(s.at)))),
+        c([ 5,  0,  8], "x", "m", "x", |s| real(s.at.x)),
+        c([ 6,  0,  9], "y", "m", "y", |s| real(s.at.y)),
+        c([ 7,  0, 10], "theta", "rad", "\u{3b8}", |s| real(s.at.theta)),
+        c([ 8,  4,  4], "energy", "J", "energy", |s| real(s.state.energy)),
         // To the nearest lower state or to free.
-        c([ 9,  0,  0,  5], "escape", "J", "way out", |s| s.out(|b| real(b.forward()))),
-        c([10,  0,  0,  0], "escape_to", "", "leads to", |s| s.out(goal)),
-        c([ 0,  0,  0,  6], "escape_to", "", "leads to", |s| s.out(goal_or_why)),
+        c([ 9,  0,  5], "escape", "J", "way out", |s| s.out(|b| real(b.forward()))),
+        c([10,  0,  0], "escape_to", "", "leads to", |s| s.out(goal)),
+        c([ 0,  0,  6], "escape_to", "", "leads to", |s| s.out(goal_or_why)),
         // Proved that there is no way out at all.
-        c([20,  0,  0,  0], "caged", "", "caged", |s| value(s.is_caged())),
-        c([ 0,  9,  0,  0], "escape_saddle_energy", "J", "saddle", |s| s.out(|b| real(b.saddle_energy))),
-        c([ 0,  0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(object(&barriers(Output::Json), b)))),
-        c([11, 10,  0,  7], "capture_share", "%", "captured", |s| real(s.capture.map(|c| c.share()))),
-        c([12,  0,  0,  0], "capture_low", "%", "at least", |s| real(s.capture.map(|c| c.low))),
-        c([13,  0,  0,  0], "capture_high", "%", "at most", |s| real(s.capture.map(|c| c.high))),
-        c([ 0,  0, 11,  0], "capture", "", "captured", |s| value(s.capture.map(proportion))),
+        c([20,  0,  0], "caged", "", "caged", |s| value(s.is_caged())),
+        c([ 0, 12,  0], "escape", "", "way out", |s| s.out(|b| value(object(&barriers(Output::Json), b)))),
+        c([11,  0,  7], "capture_share", "%", "captured", |s| real(s.capture.map(|c| c.share()))),
+        c([12,  0,  0], "capture_low", "%", "at least", |s| real(s.capture.map(|c| c.low))),
+        c([13,  0,  0], "capture_high", "%", "at most", |s| real(s.capture.map(|c| c.high))),
+        c([ 0, 11,  0], "capture", "", "captured", |s| value(s.capture.map(proportion))),
         // Magnet pairs close together.
-        c([14,  0,  9, 11], "attracting", "", "attracting", |s| value(s.state.attracting)),
-        c([15,  0, 10, 12], "repelling", "", "repelling", |s| value(s.state.repelling)),
-        c([16,  0,  0, 13], "faces", "", "faces", |s| value(s.pairs())),
-        c([ 0,  0,  8,  0], "faces", "", "faces", |s| value(json!(s.faces))),
+        c([14,  9, 11], "attracting", "", "attracting", |s| value(s.state.attracting)),
+        c([15, 10, 12], "repelling", "", "repelling", |s| value(s.state.repelling)),
+        c([16,  0, 13], "faces", "", "faces", |s| value(s.pairs())),
+        c([ 0,  8,  0], "faces", "", "faces", |s| value(json!(s.faces))),
         // Of uniformly magnetised blocks, where the other energies are those of point dipoles; and
         // how much higher the dipoles' is.
-        c([17,  8,  5,  0], "block_energy", "J", "as blocks", |s| real(s.state.block_energy)),
-        c([18,  0,  0,  0], "dipole_error", "J", "error", |s| real(s.state.dipole_error())),
+        c([17,  5,  0], "block_energy", "J", "as blocks", |s| real(s.state.block_energy)),
+        c([18,  0,  0], "dipole_error", "J", "error", |s| real(s.state.dipole_error())),
     ]
 }
 
@@ -209,30 +204,30 @@ fn state_columns<'a>() -> Vec<Column<StateRow<'a>>> {
 fn barrier_columns() -> Vec<Column<Barrier>> {
     let c = Column::<Barrier>::new;
     vec![
-        c([ 1,  1,  1,  1], "from", "", "from", |b| Cell::Place(b.from)),
-        c([ 2,  2,  2,  2], "to", "", "to", |b| Cell::Place(b.to)),
-        c([ 3,  3,  3,  3], "saddle_energy", "J", "saddle", |b| real(b.saddle_energy)),
-        c([ 4,  4,  5,  4], "lower", "J", "at least", |b| real(b.bounds.lower)),
-        c([ 5,  5,  6,  5], "upper", "J", "at most", |b| real(b.bounds.upper)),
+        c([ 1,  1,  1], "from", "", "from", |b| Cell::Place(b.from)),
+        c([ 2,  2,  2], "to", "", "to", |b| Cell::Place(b.to)),
+        c([ 3,  3,  3], "saddle_energy", "J", "saddle", |b| real(b.saddle_energy)),
+        c([ 4,  5,  4], "lower", "J", "at least", |b| real(b.bounds.lower)),
+        c([ 5,  6,  5], "upper", "J", "at most", |b| real(b.bounds.upper)),
         // Proved that there is no way at all; the saddle energy is then infinite.
-        c([14,  0,  7,  0], "caged", "", "caged", |b| value(b.bounds.caged)),
-        c([ 0,  0,  0,  8], "caged", "", "no way", |b| value(why_no_way(b))),
-        c([ 6,  0,  8,  6], "forward", "J", "forward", |b| real(b.forward())),
-        c([ 7,  0,  9,  7], "reverse", "J", "reverse", |b| real(b.reverse())),
+        c([14,  7,  0], "caged", "", "caged", |b| value(b.bounds.caged)),
+        c([ 0,  0,  8], "caged", "", "no way", |b| value(why_no_way(b))),
+        c([ 6,  8,  6], "forward", "J", "forward", |b| real(b.forward())),
+        c([ 7,  9,  7], "reverse", "J", "reverse", |b| real(b.reverse())),
         // Lowest and highest saddle energy over repeated runs; null for a single run.
-        c([ 8,  0,  0,  0], "spread_low", "J", "lowest", |b| real(b.spread.map(|s| s.0))),
-        c([ 9,  0,  0,  0], "spread_high", "J", "highest", |b| real(b.spread.map(|s| s.1))),
-        c([ 0,  0, 10,  0], "spread_J", "", "spread", |b| value(json!(b.spread))),
-        c([10,  6,  0,  0], "x", "m", "x", |b| real(b.saddle.x)),
-        c([11,  7,  0,  0], "y", "m", "y", |b| real(b.saddle.y)),
-        c([12,  8,  0,  0], "theta", "rad", "\u{3b8}", |b| real(b.saddle.theta)),
+        c([ 8,  0,  0], "spread_low", "J", "lowest", |b| real(b.spread.map(|s| s.0))),
+        c([ 9,  0,  0], "spread_high", "J", "highest", |b| real(b.spread.map(|s| s.1))),
+        c([ 0, 10,  0], "spread_J", "", "spread", |b| value(json!(b.spread))),
+        c([10,  0,  0], "x", "m", "x", |b| real(b.saddle.x)),
+        c([11,  0,  0], "y", "m", "y", |b| real(b.saddle.y)),
+        c([12,  0,  0], "theta", "rad", "\u{3b8}", |b| real(b.saddle.theta)),
         // Null where no way is known, as is the file of the pathway, relative to the report.
-        c([ 0,  0,  4,  0], "saddle_pose", "", "saddle", |b| value(passable(b).map(saddle))),
-        c([13,  0, 11,  0], "pathway", "", "pathway", |b| value(passable(b).map(pathway_file))),
+        c([ 0,  4,  0], "saddle_pose", "", "saddle", |b| value(passable(b).map(saddle))),
+        c([13, 11,  0], "pathway", "", "pathway", |b| value(passable(b).map(pathway_file))),
         // Work against the energy along the pathway and back, and its length.
-        c([15,  9, 12,  9], "work", "J", "work", |b| real(b.work().map(|work| work[0]))),
-        c([16, 10, 13,  0], "reverse_work", "J", "back", |b| real(b.work().map(|work| work[1]))),
-        c([17, 11, 14, 10], "length", "m", "length", |b| real(b.length())),
+        c([15, 12,  9], "work", "J", "work", |b| real(b.work().map(|work| work[0]))),
+        c([16, 13,  0], "reverse_work", "J", "back", |b| real(b.work().map(|work| work[1]))),
+        c([17, 14, 10], "length", "m", "length", |b| real(b.length())),
     ]
 }
 
@@ -293,7 +288,7 @@ mod tests {
     #[test]
     fn every_place_of_an_output_is_taken_once() {
         fn check<Row>(columns: impl Fn(Output) -> Vec<Column<Row>>) {
-            for output in [Output::Csv, Output::Npy, Output::Json, Output::Page] {
+            for output in [Output::Csv, Output::Json, Output::Page] {
                 let columns = columns(output);
                 let places = columns
                     .iter()

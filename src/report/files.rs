@@ -24,7 +24,6 @@ pub const ANALYSE: Command = Command {
         super::dynamics::TABLE,
         "pathways/#-#.csv",
         "pathways/#-#-by-*.csv",
-        "arrays/*.npy",
         "topsearch/min.data",
         "topsearch/min.coords",
         "topsearch/ts.data",

@@ -16,13 +16,11 @@
 //! - [`workshop`] - drawings and a sheet to make the tiles by;
 //! - [`plots`] - pictures;
 //! - [`page`] - `report.html`, all of it to look at and move about in;
-//! - [`arrays`] - maps, roadmap and states for NumPy; [`topsearch`] - minima and transition states
-//!   for programs that draw disconnectivity graphs;
+//! - [`topsearch`] - minima and transition states for programs that draw disconnectivity graphs;
 //! - [`analysis`] - all of it as files of one folder; [`files`] - what the files of all commands are
 //!   called.
 
 pub mod analysis;
-pub mod arrays;
 pub mod assembly;
 mod assessments;
 pub mod bond;

@@ -64,11 +64,11 @@ def test_maps_and_graphs(analysis):
 def test_files_are_those_of_the_program(program, root, tmp_path, name):
     file = root / f"shapes/{name}.toml"
     options = [f"--{key.replace('_', '-')}={value}" for key, value in SMALL.items()]
-    run = [program, "analyse", str(file), *options, "--arrays", "--quiet"]
+    run = [program, "analyse", str(file), *options, "--quiet"]
     subprocess.run([*run, "--out", str(tmp_path / "program")], check=True)
-    told = " ".join(["tilebind analyse", file.name, *options, "--arrays"])
+    told = " ".join(["tilebind analyse", file.name, *options])
     found = tilebind.Design.load(file).analyse(progress=False, **SMALL)
-    found.write(tmp_path / "python", arrays=True, command=told)
+    found.write(tmp_path / "python", command=told)
     theirs, ours = (
         {p.relative_to(tmp_path / k): p.read_bytes() for p in (tmp_path / k).rglob("*") if p.is_file()}
         for k in ("program", "python")

@@ -186,7 +186,6 @@ class Analysis:
         self,
         folder: str | PathLike[str],
         *,
-        arrays: bool = False,
         compact: bool = False,
         command: str | None = None,
         force: bool = False,

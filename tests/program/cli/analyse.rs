@@ -42,8 +42,8 @@ fn report(out: &Path) -> Value {
 fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     let folder = tempfile::tempdir().unwrap();
     let [one, two] = ["one", "two"].map(|name| folder.path().join(name));
-    analyse(&one, &["--threads", "1", "--arrays"]);
-    let quiet = analyse(&two, &["--threads", "2", "--arrays", "--quiet"]);
+    analyse(&one, &["--threads", "1"]);
+    let quiet = analyse(&two, &["--threads", "2", "--quiet"]);
     assert!(quiet.stdout.is_empty() && quiet.stderr.is_empty());
     assert_same(&untimed(&one), &untimed(&two), "one thread");
 }

@@ -72,7 +72,7 @@ fn names_of_results_are_known() {
                 "pathways/0-3-by-work.csv",
                 "pictures/map.svg",
                 "pictures/map-a.csv",
-                "arrays/states.npy",
+                "topsearch/min.data",
             ][..],
             &[
                 "states.csv2",
@@ -85,7 +85,7 @@ fn names_of_results_are_known() {
                 "pictures/maps.svg",
                 "pictures/map.txt",
                 "pictures/map-/../../a.svg",
-                "arrays/../states.npy",
+                "topsearch/../min.data",
                 "map.svg",
                 "",
             ][..],
@@ -125,9 +125,9 @@ fn old_results_go_unless_they_were_changed_and_what_else_is_there_stays() {
         ("topsearch/mine.data", "mine"),
     ];
     place(&out, &mine);
-    done(here, &words(&format!("{ANALYSE} --arrays")));
+    done(here, &words(ANALYSE));
     let edited = [
-        ("arrays/states.npy", "edited"),
+        ("topsearch/min.data", "edited"),
         ("pictures/map.png", "edited"),
     ];
     place(&out, &edited);
@@ -136,7 +136,7 @@ fn old_results_go_unless_they_were_changed_and_what_else_is_there_stays() {
     done(here, &words(&format!("{ANALYSE} --compact")));
     let after = contents(&out);
     let gone = |name: &str| before.contains_key(name) && !after.contains_key(name);
-    assert!(gone("pictures/profiles.png") && gone("arrays/edges.npy") && gone("report.html"));
+    assert!(gone("pictures/profiles.png") && gone("topsearch/ts.data") && gone("report.html"));
     check(&out, &mine);
     check(&out, &edited);
     refused(
@@ -144,11 +144,12 @@ fn old_results_go_unless_they_were_changed_and_what_else_is_there_stays() {
         &words(ANALYSE),
         &["R/pictures/map.png", "was changed since"],
     );
-    fs::remove_file(out.join("arrays/states.npy")).unwrap();
+    fs::remove_file(out.join("topsearch/min.data")).unwrap();
     fs::remove_file(out.join("pictures/map.png")).unwrap();
-    done(here, &words(&format!("{ANALYSE} --arrays")));
     done(here, &words(ANALYSE));
-    assert!(!out.join("arrays").exists());
+    done(here, &words(&format!("{ANALYSE} --compact")));
+    assert!(out.join("topsearch/mine.data").exists());
+    assert!(!out.join("topsearch/min.data").exists());
     check(&out, &mine);
 }
 
@@ -167,14 +168,14 @@ fn forged_lists_get_nothing_of_the_users_away() {
     place(&out, &mine);
     place(
         here,
-        &[("thesis.txt", "mine"), ("arrays/states.npy", "mine")],
+        &[("thesis.txt", "mine"), ("topsearch/min.data", "mine")],
     );
     let absolute = here.join("thesis.txt");
     let names = mine.map(|(name, _)| name);
     let more = [
         "../thesis.txt",
-        "../arrays/states.npy",
-        "arrays/../../arrays/states.npy",
+        "../topsearch/min.data",
+        "arrays/../../topsearch/min.data",
         absolute.to_str().unwrap(),
     ];
     let mut record: Value = serde_json::from_slice(&fs::read(out.join(RECORD)).unwrap()).unwrap();
@@ -189,7 +190,7 @@ fn forged_lists_get_nothing_of_the_users_away() {
     check(&out, &mine);
     check(
         here,
-        &[("thesis.txt", "mine"), ("arrays/states.npy", "mine")],
+        &[("thesis.txt", "mine"), ("topsearch/min.data", "mine")],
     );
 
     let report = json!({"tilebind": "0.1.0", "files": list}).to_string();
@@ -271,7 +272,7 @@ fn what_is_in_the_way_is_refused_before_the_computation() {
     let barrier = "barrier d.toml --from 0.43,0,0 --to free --milestones 3000000";
     let lines = [
         (format!("{ANALYSE} {much}"), "R/pathways/7-free-by-work.csv"),
-        (format!("{ANALYSE} {much} --arrays"), "R/arrays/edges.npy"),
+        (format!("{ANALYSE} {much}"), "R/topsearch/ts.data"),
         (format!("{COMPARE} {much}"), "R/compare.md"),
         (format!("{SWEEP} {much}"), "R/designs/a.toml"),
         (format!("{DOCK} --runs 1000000"), "R/map.csv"),

@@ -97,8 +97,6 @@ impl Analysis {
     /// ----------
     /// folder : str or os.PathLike
     ///     Made if need be.
-    /// arrays : bool, optional
-    ///     NPY files too.
     /// compact : bool, optional
     ///     Leave out the page, PNG pictures and pathways of copies.
     /// command : str, optional
@@ -113,12 +111,11 @@ impl Analysis {
     ///     Where a file is in the way: which, and what to do.
     /// OSError
     ///     Where the file system refuses; all files are then as they were.
-    #[pyo3(signature = (folder, *, arrays = false, compact = false, command = None, force = false))]
+    #[pyo3(signature = (folder, *, compact = false, command = None, force = false))]
     fn write(
         &self,
         py: Python<'_>,
         folder: std::path::PathBuf,
-        arrays: bool,
         compact: bool,
         command: Option<String>,
         force: bool,
@@ -129,7 +126,6 @@ impl Analysis {
             } else {
                 Extent::Full
             },
-            arrays,
             sheet: Sheet::SCREEN,
             command: command.unwrap_or_else(|| self.command()),
         };
