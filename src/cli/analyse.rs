@@ -9,9 +9,9 @@ use tilebind::landscape::CompletenessSettings;
 use tilebind::observer::Observer;
 use tilebind::output::Output;
 use tilebind::pipeline;
-use tilebind::report::analysis::{self, Contents, Extent};
-use tilebind::report::files::{ANALYSE, REPORT};
-use tilebind::report::summary;
+use tilebind::report::analysis::{Extent, document, files};
+use tilebind::report::files::ANALYSE;
+use tilebind::report::plots::Scene;
 use tilebind::{Design, Settings};
 
 use super::failure::fail_if_contradicted;
@@ -116,11 +116,15 @@ impl Analyse {
         let start = Instant::now();
         interrupt::prepare()?;
         let design = self.design.load()?;
-        let contents = self.contents()?;
+        let sheet = self.figures.sheet()?;
+        let extent = match self.compact {
+            true => Extent::Compact,
+            false => Extent::Full,
+        };
         let inputs = self.design.inputs(&design);
         let output = Output::folder(&ANALYSE, &self.out).reading(inputs);
         let output = output.forced(self.force.force);
-        output.check(|name| contents.may_hold(name))?;
+        output.check(|name| extent.may_hold(name))?;
         let settings = self.settings(&design);
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.work.use_threads()?;
@@ -129,26 +133,20 @@ impl Analyse {
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &settings, &progress);
         progress.stage("pictures", 0.95);
-        let files = analysis::files(&design, &analysis, &contents, start)?;
+        let scene = Scene::new(&design, &analysis.problem, &analysis.inventory);
+        let wall = start.elapsed().as_secs_f64();
+        let document = document(&design, &analysis, &scene, extent, wall);
+        let files = files(&document, extent, &sheet, &command_line())?;
         interrupt::without(|| output.write(&files))?;
         progress.finish();
-
-        let report = String::from_utf8_lossy(&files[REPORT]);
-        let folder = self.out.display().to_string();
-        let summary = || summary::summary(&design, &analysis, &folder, style::columns());
-        self.print.results(&report, summary)?;
+        self.print.results(&document.report(), || {
+            let told = document.text(style::columns());
+            format!(
+                "{told}results in {}: report.html to look at; report.json, tables, pathways/, pictures/\n",
+                self.out.display()
+            )
+        })?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
-    }
-
-    fn contents(&self) -> Result<Contents, Failure> {
-        Ok(Contents {
-            extent: match self.compact {
-                true => Extent::Compact,
-                false => Extent::Full,
-            },
-            sheet: self.figures.sheet()?,
-            command: command_line(),
-        })
     }
 
     fn settings(&self, design: &Design) -> Settings {

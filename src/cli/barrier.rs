@@ -8,6 +8,7 @@ use tilebind::budget::Ended;
 use tilebind::landscape::certificate::End;
 use tilebind::output::Command;
 use tilebind::query::{self, Answer, Query, QueryError};
+use tilebind::report::states::barriers;
 use tilebind::report::{csv, json};
 use tilebind::{Configuration, Design, Settings};
 
@@ -125,7 +126,7 @@ impl Barrier {
 
     /// The barrier as in report.json, its ends given by their poses.
     fn entry(&self, answer: &Answer) -> Value {
-        let mut entry = json::barrier(&answer.barrier);
+        let mut entry = barriers([&answer.barrier]).json()[0].take();
         entry["from"] = json!(self.from.to_array());
         if let End::At(pose) = self.to {
             entry["to"] = json!(pose.to_array());

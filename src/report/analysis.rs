@@ -1,16 +1,26 @@
-//! The files of an analysis.
+//! The main job: an analysis as a document, with all its files.
+//!
+//! Every number carries its unit in its key (`energy_J`); poses are `[x, y, theta]` in m, m and rad. All
+//! that depends on the machine is under `timing`: everything else is the same for the same design,
+//! settings and version. What is not known, or infinite, is null.
 
-use std::time::Instant;
+use serde_json::{Value, json};
 
-use super::files::{Files, PAGE, PICTURES, REPORT};
-use super::json::Report;
-use super::names::{alternative_file, pathway_file};
-use super::page::Page;
+use super::document::{Document, Drawing, Entries, Part};
+use super::figures::percent;
+use super::files::{Files, PAGE, PICTURES};
+use super::names::{self, alternative_file, pathway_file, place};
+use super::page::{Landscape, pathways};
+use super::plots::scale::minus;
 use super::plots::{self, PictureError, Scene, Sheet};
-use super::{csv, dynamics, topsearch};
+use super::summary::{self, ended_by, left_out};
+use super::values::{pose, positive_zero, proportion};
+use super::{csv, dynamics, states, topsearch};
 use jobs::design::Design;
 use jobs::pipeline::Analysis;
-use physics::landscape::Barrier;
+use physics::budget::Ended;
+use physics::landscape::{Alternative, Barrier, PathwayCost};
+use physics::units::{si, si_range};
 
 /// How much is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,122 +32,363 @@ pub enum Extent {
     Compact,
 }
 
-/// What is written, and how.
-#[derive(Clone, Debug)]
-pub struct Contents {
-    /// How much.
-    pub extent: Extent,
-    /// How pictures are laid out.
-    pub sheet: Sheet,
-    /// The command line that gives the same results, for the page.
-    pub command: String,
-}
-
-impl Contents {
+impl Extent {
     /// Whether a file of this name may be among them.
-    pub fn may_hold(&self, name: &str) -> bool {
-        let is_in = |folder: &str| {
-            name.split_once('/')
-                .is_some_and(|(first, _)| first == folder)
-        };
-        match self.extent {
-            Extent::Full => true,
-            Extent::Compact => {
-                let is_picture = !is_in(PICTURES) || is_vector(name);
-                is_picture && name != PAGE && !is_in(topsearch::FOLDER)
-            }
+    pub fn may_hold(self, name: &str) -> bool {
+        let folder = name.split_once('/').map(|(folder, _)| folder);
+        let is_vector = name.ends_with(".svg") || name.ends_with(".pdf");
+        match (self, folder) {
+            (Self::Full, _) => true,
+            (Self::Compact, Some(PICTURES)) => is_vector,
+            (Self::Compact, folder) => name != PAGE && folder != Some(topsearch::FOLDER),
         }
     }
 }
 
-/// All files of an analysis begun at `start`: report, tables, pathways, pictures with their numbers
-/// and page.
+/// What there is to know of an analysis that took so long (s).
+pub fn document<'a>(
+    design: &'a Design,
+    analysis: &'a Analysis,
+    scene: &'a Scene<'a>,
+    extent: Extent,
+    wall: f64,
+) -> Document<'a> {
+    let is_whole = extent == Extent::Full;
+    let played = pathways::played(scene);
+    let mut shown = facts(design, analysis, scene)
+        .table(summary::listed(design, analysis))
+        .table(states::kinds(design, analysis, scene))
+        .table(states::shown_barriers(analysis, scene, |barrier| {
+            played.iter().position(|way| way.is_over(barrier))
+        }))
+        .table(pathways::table(&played));
+    if let Some(checks) = &analysis.dynamics {
+        shown = shown.table(dynamics::table(checks));
+    }
+    Document {
+        title: design.name.clone(),
+        answer: summary::answer(design, analysis),
+        remarks: summary::remarks(analysis),
+        entries: report(design, analysis, is_whole, wall).and(shown),
+        part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
+        pictures: vec![Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page()],
+        notes: summary::notes(analysis),
+        beside: beside(analysis, scene, is_whole),
+        origin: format!(
+            "seed {}, design sha256 {}",
+            analysis.settings.seed, design.sha256
+        ),
+    }
+}
+
+/// All files of an analysis that took so long (s), made by `command`.
 ///
 /// # Errors
 /// Where a picture cannot be drawn.
 pub fn files(
-    design: &Design,
-    analysis: &Analysis,
-    contents: &Contents,
-    start: Instant,
+    document: &Document,
+    extent: Extent,
+    sheet: &Sheet,
+    command: &str,
 ) -> Result<Files, PictureError> {
-    let extent = contents.extent;
-    let mut files = tables(design, analysis, extent);
-    files.extend(pictures(design, analysis, contents)?);
-    let mut report = Report::new(design, analysis, start.elapsed().as_secs_f64());
-    if extent == Extent::Compact {
-        report = report.without_copies();
-    }
-    files.insert(REPORT.to_owned(), report.to_text().into_bytes());
-    if extent == Extent::Full {
-        let linked = |name: &&String| !name.contains('/') || name.starts_with(PICTURES);
-        let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
-        let page = Page::of_analysis(design, analysis, &scene)
-            .made_by(&contents.command)
-            .beside(files.keys().filter(linked));
-        files.insert(PAGE.to_owned(), page.to_html().into_bytes());
-    }
+    let sheet = match extent {
+        Extent::Full => *sheet,
+        Extent::Compact => sheet.without_bitmaps(),
+    };
+    let mut files = document.files(&sheet, command)?;
+    files.retain(|name, _| extent.may_hold(name));
     Ok(files)
 }
 
-fn tables(design: &Design, analysis: &Analysis, extent: Extent) -> Files {
-    let mut files = Files::new();
-    let mut add = |name: String, content: String| {
-        files.insert(name, content.into_bytes());
-    };
-    add("states.csv".into(), csv::states(design, analysis));
-    add(
-        "barriers.csv".into(),
-        csv::barriers(&analysis.inventory.barriers),
-    );
-    if let Some(checks) = &analysis.dynamics {
-        add(dynamics::TABLE.into(), dynamics::csv(checks));
-    }
-    let escapes = analysis
-        .inventory
-        .states
-        .iter()
-        .filter(|state| extent == Extent::Full || state.id == state.class)
-        .filter_map(|state| analysis.escape(state.id));
-    let barriers = escapes.chain(analysis.inventory.barriers.iter().cloned());
-    for barrier in barriers.filter(Barrier::has_way) {
-        add(pathway_file(&barrier), csv::pathway(&barrier.pathway));
-    }
-    for alternative in &analysis.inventory.alternatives {
-        add(
-            alternative_file(alternative),
-            csv::pathway(&alternative.pathway),
-        );
-    }
-    files
+/// What `report.json` has; `is_whole` says whether escapes of copies name their pathways.
+// One line an entry.
+#[rustfmt::skip]
+pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -> Entries {
+    let (counts, inventory) = (&analysis.counts, &analysis.inventory);
+    let stages = analysis.stages.iter().map(|stage| json!({
+        "name": stage.name, "wall_s": stage.wall_s, "energy_evaluations": stage.energy_evaluations,
+    }));
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("design", identity(design))
+        .data("seed", analysis.settings.seed)
+        .data("settings", settings(design, analysis))
+        // The configuration in which the target faces coincide, and the state in which the tiles are
+        // bound; null if the bond does not hold.
+        .data("bound", json!({
+            "pose": pose(&analysis.bound.0),
+            "energy_J": positive_zero(analysis.bound.1),
+            "state": inventory.bound_state,
+        }))
+        .table(states::states(design, analysis, is_whole))
+        .data("inventory", missing(analysis))
+        // Share of the far starts that ended in no state, and of which rest in something too shallow to
+        // be listed or leave the table; inner and outer radius of the ring from which they are drawn.
+        .data("free", json!({
+            "capture": proportion(analysis.uncaptured.all()),
+            "ring_m": analysis.ring,
+            "at_rest": proportion(analysis.uncaptured.at_rest),
+            "gone": proportion(analysis.uncaptured.gone),
+        }))
+        .table(states::barriers(&inventory.barriers))
+        // Why the bounds of all barriers are null; itself null where they are certified.
+        .data("uncertified", analysis.uncertified.map(|why| why.to_string()))
+        // What ended the certificate before all bounds were as narrow as was asked for: "work" or
+        // "clock", of which only the latter makes another run differ; null where nothing did.
+        .data("certificate_ended_by", analysis.certificate_ended.map(Ended::name))
+        .data("dynamics", dynamics::json(analysis))
+        .data("alternatives", inventory.alternatives.iter().map(alternative).collect::<Value>())
+        .data("counts", json!({
+            "milestones": counts.milestones,
+            "edges": counts.edges,
+            "transition_states": counts.transition_states,
+            // Minima left out because next to nothing keeps them.
+            "shallow_minima": inventory.shallow,
+            "energy_evaluations": counts.energy_evaluations,
+            // Of the certificate.
+            "cells": counts.cells,
+        }))
+        .data("timing", json!({"total_wall_s": wall, "stages": stages.collect::<Value>()}))
 }
 
-/// The pictures, and the graph for TopSearch.
-fn pictures(
-    design: &Design,
-    analysis: &Analysis,
-    contents: &Contents,
-) -> Result<Files, PictureError> {
-    let mut files = Files::new();
-    let scene = Scene::new(design, &analysis.problem, &analysis.inventory);
-    let is_full = contents.extent == Extent::Full;
-    let sheet = match contents.extent {
-        Extent::Full => contents.sheet,
-        Extent::Compact => contents.sheet.without_bitmaps(),
-    };
-    for figure in plots::draw_all(&scene, &sheet)? {
-        let kept = figure
-            .files()
-            .filter(|(name, _)| is_full || is_vector(name));
-        files.extend(kept.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
+/// Which design was analysed; the checksum is of the design file's bytes.
+fn identity(design: &Design) -> Value {
+    let mut identity = json!({
+        "name": design.name,
+        "description": design.description,
+        "sha256": design.sha256,
+    });
+    if !design.drawings.is_empty() {
+        identity["drawings"] = json!(design.drawings);
     }
-    if is_full {
-        files.extend(topsearch::files(&scene, analysis.ring[1]));
-    }
-    Ok(files)
+    identity
 }
 
-/// Whether a picture can be enlarged.
-fn is_vector(name: &str) -> bool {
-    name.ends_with(".svg") || name.ends_with(".pdf")
+/// All that decides the result, besides the design and the seed.
+fn settings(design: &Design, analysis: &Analysis) -> Value {
+    let settings = &analysis.settings;
+    let shields = &design.interaction.shields;
+    json!({
+        "model": design.interaction.model.name(),
+        // The rule by which shields act; null for bare magnets.
+        "shields": (!shields.is_none()).then(|| shields.rule.name()),
+        "milestones": settings.milestones,
+        "neighbours": analysis.roadmap.neighbours,
+        // Energy of Boltzmann's acceptance rule; null for the linear rule.
+        "boltzmann_J": settings.boltzmann,
+        "thermal_energy_J": analysis.roadmap.edges.thermal_energy,
+        "settled": settings.settled,
+        "least_depth": settings.least_depth,
+        // The deepest kinds of states that are looked at; null for all.
+        "kinds": settings.most_kinds,
+        "far_starts": settings.far_starts,
+        "repeats": settings.repeats,
+        // Width to which certified bounds are narrowed; null for a hundredth of the bond or a
+        // twentieth of the barrier, whichever is less.
+        "tolerance_J": settings.tolerance,
+        // Work, counted as what takes about so many seconds of a core, and seconds by the clock, at
+        // which the certificate ends; null for no limit. Cells of one barrier at most.
+        "certify_work": settings.certify.work,
+        "certify_s": settings.certify.seconds,
+        "certify_cells": settings.certify_cells,
+        // Which barriers are certified, and checked by moving tiles.
+        "claims": names::claims(settings.claims),
+        // The proof that no state is missing: shares of the depth, and its limits.
+        "complete_below": settings.completeness.below,
+        "complete_escape": settings.completeness.escape,
+        "complete_cells": settings.completeness.cells,
+        "complete_work": settings.completeness.allowed.work,
+        "complete_s": settings.completeness.allowed.seconds,
+    })
+}
+
+/// What is proved of the states that may be missing: besides the listed ones no configuration lies
+/// below `below_J` from which every way out rises by more than `escape_J`, except in the `open`
+/// regions (their `share` is that of the space). `unproved` says why nothing is, and is null
+/// otherwise.
+fn missing(analysis: &Analysis) -> Value {
+    let mut entry = match &analysis.completeness {
+        Ok(known) => json!({
+            "below_J": known.below,
+            "escape_J": known.escape,
+            "complete": known.is_complete(),
+            "open": known.open.iter().map(|region| json!({
+                "pose": pose(&region.pose),
+                "volume": region.volume,
+                "lowest_J": region.lowest,
+            })).collect::<Value>(),
+            "share": known.share,
+            "cells": known.cells,
+            // What ended the proof before it was done; null where nothing did.
+            "ended_by": known.ended.map(Ended::name),
+            "unproved": null,
+        }),
+        Err(why) => json!({
+            "below_J": null,
+            "escape_J": null,
+            "complete": false,
+            "open": [],
+            "share": 1.0,
+            "cells": 0,
+            "ended_by": null,
+            "unproved": why.to_string(),
+        }),
+    };
+    // Kinds of states that were found and are not listed, as fewer were asked for, and the energy of
+    // the deepest; null where all that were found are listed.
+    entry["left_out"] = json!(analysis.counts.left_out.map(|left| json!({
+        "kinds": left.kinds,
+        "lowest_J": left.lowest,
+    })));
+    // Estimated share of far starts that would end in a kind of state that none has ended in yet.
+    entry["unseen"] = proportion(analysis.inventory.unseen());
+    entry
+}
+
+/// A pathway by another cost than the highest energy: the work against the energy on the way, or
+/// -ln of the product of the transition probabilities.
+fn alternative(alternative: &Alternative) -> Value {
+    let cost = |by: PathwayCost| (alternative.by == by).then_some(alternative.cost);
+    json!({
+        "from": place(alternative.from),
+        "to": place(alternative.to),
+        "by": names::cost(alternative.by),
+        "work_J": cost(PathwayCost::Work),
+        "minus_ln_probability": cost(PathwayCost::Probability),
+        "pathway": alternative_file(alternative),
+    })
+}
+
+/// Pathways, and the graph for TopSearch.
+fn beside(analysis: &Analysis, scene: &Scene, is_whole: bool) -> Files {
+    let inventory = &analysis.inventory;
+    let states = inventory.states.iter();
+    let states = states.filter(|state| is_whole || state.id == state.class);
+    let escapes = states.filter_map(|state| analysis.escape(state.id));
+    let barriers = escapes.chain(inventory.barriers.iter().cloned());
+    let barriers = barriers.filter(Barrier::has_way);
+    let barriers = barriers.map(|barrier| (pathway_file(&barrier), csv::pathway(&barrier.pathway)));
+    let others = inventory.alternatives.iter();
+    let others = others.map(|way| (alternative_file(way), csv::pathway(&way.pathway)));
+    let pathways = barriers.chain(others);
+    let pathways = pathways.map(|(name, text)| (name, text.into_bytes()));
+    pathways
+        .chain(topsearch::files(scene, analysis.ring[1]))
+        .collect()
+}
+
+/// What to know first: the bond, how often it is found, how it is left, the deepest trap.
+fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
+    let (kinds, names) = (scene.kinds(), scene.inventory.names());
+    let first = |is_bond| {
+        let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
+        Some(states::Row::of_kind(design, analysis, &names, kind))
+    };
+    let facts = Entries::default();
+    let told = |facts: Entries, name, value: String, note: String| {
+        facts.fact("", name, value).in_view().noted(note)
+    };
+    let Some(bond) = first(true) else {
+        let note = "the tiles do not stay where the target faces coincide".to_owned();
+        return told(facts, "no bond", energy(analysis.bound.1), note);
+    };
+    let (value, note) = match bond.state.block_energy {
+        Some(blocks) => {
+            let both = [bond.state.energy, blocks].map(|u| energy(u).replace(' ', "\u{a0}"));
+            (both.join(" / "), "as point dipoles / as blocks".to_owned())
+        }
+        None => {
+            let magnets = format!("magnets as {}s", design.interaction.model.name());
+            (energy(bond.state.energy), magnets)
+        }
+    };
+    let mut facts = told(facts, "bond", value, note);
+    if let Some(share) = bond.capture.filter(|share| share.of > 0) {
+        let note = format!("{} of {}", share.count, share.of);
+        facts = told(facts, "far starts that bind", percent(&share), note);
+    }
+    let way_out = |row: &states::Row| match &row.escape {
+        Some(barrier) if barrier.has_way() => {
+            let certified = barrier.bounds.above(barrier.from_energy).both();
+            let certified = certified.map_or_else(String::new, |(lower, upper)| {
+                format!("; certified {}", minus(&si_range(lower, upper, "J", 4)))
+            });
+            let to = scene.name_of(barrier.to);
+            (energy(barrier.forward()), format!("to {to}{certified}"))
+        }
+        other => {
+            let why = other.as_ref().and_then(states::why_no_way);
+            (
+                why.unwrap_or("none found").to_owned(),
+                "no way out".to_owned(),
+            )
+        }
+    };
+    let (height, note) = way_out(&bond);
+    facts = told(facts, "barrier out of the bond", height, note);
+    facts = match first(false) {
+        None => told(facts, "traps", "none".to_owned(), String::new()),
+        Some(trap) => {
+            let share = trap.state.energy / bond.state.energy;
+            let note = format!("{}; {share:.2} of the bond", trap.name);
+            facts = told(facts, "deepest trap", energy(trap.state.energy), note);
+            let (height, note) = way_out(&trap);
+            told(facts, "barrier out of that trap", height, note)
+        }
+    };
+    let (value, note) = list(analysis);
+    facts = told(facts, "list of states", value.to_owned(), note);
+    match analysis.certificate_ended {
+        Some(ended) => {
+            let note = ended_by(ended, "certify", analysis.settings.certify);
+            told(
+                facts,
+                "certified bounds",
+                "wider than asked for".to_owned(),
+                note,
+            )
+        }
+        None => facts,
+    }
+}
+
+fn energy(value: f64) -> String {
+    minus(&si(value, "J", 4))
+}
+
+/// Whether states may be missing from the list.
+fn list(analysis: &Analysis) -> (&'static str, String) {
+    let (value, note) = match &analysis.completeness {
+        Err(why) => (
+            "sampled",
+            format!(
+                "it may lack some: {why}; of more far starts {} would end in kinds not seen yet",
+                percent(&analysis.inventory.unseen())
+            ),
+        ),
+        Ok(known) => {
+            let [below, escape, lowest] =
+                [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
+            let claim = format!("no other below {below} takes more than {escape} to leave");
+            let ended = known.ended.map_or(String::new(), |ended| {
+                let allowed = analysis.settings.completeness.allowed;
+                format!("; {}", ended_by(ended, "complete", allowed))
+            });
+            match known.open.len() {
+                0 => ("complete, proved", claim),
+                count => (
+                    "proved in part",
+                    format!(
+                        "{claim}, but for {count} {} down to {lowest}{ended}",
+                        if count == 1 { "region" } else { "regions" }
+                    ),
+                ),
+            }
+        }
+    };
+    let left = analysis.counts.left_out.map_or(String::new(), |left| {
+        let lowest = minus(&si(left.lowest, "J", 4));
+        format!("; {}", left_out(left, &lowest))
+    });
+    (value, note + &left)
 }

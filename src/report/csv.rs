@@ -1,13 +1,8 @@
 //! Tables as comma-separated values, units in the headers.
 
 use ordered_float::OrderedFloat;
-use std::borrow::Borrow;
 
-use super::columns::{self, Cell, Column, Output, StateRow};
-use super::names::place_name;
-use jobs::design::Design;
-use jobs::pipeline::Analysis;
-use physics::landscape::{Barrier, Pathway, PathwayPoint};
+use physics::landscape::{Pathway, PathwayPoint};
 
 /// Lengths are in m, theta is in rad.
 const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
@@ -22,42 +17,6 @@ pub(super) const SEEN: [f64; 2] = [1e-5, 1e-3];
 const CLEARANCE_TOLERANCE: f64 = 1e-5;
 /// How far it may be off beyond that, as a fraction of itself.
 const RELATIVE_CLEARANCE: f64 = 1e-3;
-/// The table of states. Where magnets are point dipoles its last two columns hold the energy of the
-/// blocks they stand for, and how much higher the dipoles' is.
-pub fn states(design: &Design, analysis: &Analysis) -> String {
-    of_columns(
-        &columns::states(Output::Csv),
-        StateRow::all(design, analysis, &analysis.inventory.names()),
-    )
-}
-
-/// The table of barriers.
-pub fn barriers(barriers: &[Barrier]) -> String {
-    of_columns(&columns::barriers(Output::Csv), barriers)
-}
-
-fn of_columns<Row>(
-    columns: &[Column<Row>],
-    rows: impl IntoIterator<Item = impl Borrow<Row>>,
-) -> String {
-    let cells = |row: &Row| columns.iter().map(|c| cell((c.get)(row))).collect();
-    let rows = rows
-        .into_iter()
-        .map(|row| -> Vec<_> { cells(row.borrow()) });
-    table(columns.iter().map(Column::key), rows)
-}
-
-/// What is not known, or infinite, is an empty cell.
-fn cell(cell: Cell) -> String {
-    match cell {
-        Cell::Value(serde_json::Value::Null) => String::new(),
-        Cell::Value(serde_json::Value::String(text)) => text,
-        Cell::Value(value) => value.to_string(),
-        Cell::Real(value) => finite(value),
-        Cell::Place(place) => place_name(place),
-    }
-}
-
 /// A pathway, point by point: between two of them it is straight in x, y and theta (the shorter way
 /// round). Points are left out where the motion between their neighbours is straight and the energy
 /// along it linear; the highest point always stays.
@@ -146,15 +105,6 @@ fn is_between(
         && straight.step_to(&p.configuration).amax() <= pose
         && linear(|p| p.clearance).abs() <= CLEARANCE_TOLERANCE + RELATIVE_CLEARANCE * p.clearance
         && linear(|p| p.energy).abs() <= energy
-}
-
-/// A number; empty if it is none, or infinite.
-fn finite(value: f64) -> String {
-    if value.is_finite() {
-        number(value)
-    } else {
-        String::new()
-    }
 }
 
 /// Significant digits of a number, at most.

@@ -1,16 +1,11 @@
 //! What moving tiles say of the barriers, as JSON, CSV and a few lines.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
-use super::csv;
-use super::names::{place, place_name};
+use super::document::{Table, rows};
+use super::names::place;
 use jobs::pipeline::Analysis;
 use physics::dynamics::check::{BarrierCheck, Side, SideVerdict};
-
-/// The file with a line for each barrier.
-pub const TABLE: &str = "dynamics.csv";
 
 /// The check in `report.json`; null where the barriers were not checked.
 pub fn json(analysis: &Analysis) -> Value {
@@ -71,77 +66,57 @@ fn verdict(side: &Side) -> &'static str {
     }
 }
 
-/// A column of the table: its name, and its cell of a check.
-type Column = (&'static str, fn(&BarrierCheck) -> String);
-
-const COLUMNS: [Column; 17] = [
-    ("from", |check| place_name(check.from)),
-    ("to", |check| place_name(check.to)),
-    ("contradicted", |check| check.is_contradicted().to_string()),
-    ("overestimated", |check| {
-        check.is_overestimated().to_string()
-    }),
-    ("certified", |check| check.certified.to_string()),
-    ("ceiling_J", |check| energy(Some(check.ceiling))),
-    ("below_runs", |check| check.below.runs.to_string()),
-    ("below_crossed", |check| check.below.crossed.to_string()),
-    ("below_spoilt", |check| check.below.spoilt.to_string()),
-    ("above_runs", |check| check.above.1.to_string()),
-    ("above_crossed", |check| check.above.0.to_string()),
-    ("before_saddle_ended", |check| ended(check.sides[0])),
-    ("before_saddle_verdict", |check| judged(check.sides[0])),
-    ("behind_saddle_ended", |check| ended(check.sides[1])),
-    ("behind_saddle_verdict", |check| judged(check.sides[1])),
-    ("kick_J", |check| energy(check.kick)),
-    ("climb_J", |check| energy(Some(check.climb))),
-];
-
-fn energy(value: Option<f64>) -> String {
-    let value = value.filter(|value| value.is_finite());
-    value.map_or_else(String::new, |value| format!("{value:.9e}"))
-}
-
-fn ended(side: Option<Side>) -> String {
-    let ended = side.and_then(|side| side.ended);
-    ended.map_or_else(String::new, place_name)
-}
-
-fn judged(side: Option<Side>) -> String {
-    side.map_or_else(String::new, |side| verdict(&side).to_owned())
-}
-
-/// The table of the checks, a barrier a line.
-pub fn csv(checks: &[BarrierCheck]) -> String {
-    let rows = checks.iter().map(|check| COLUMNS.map(|(_, of)| of(check)));
-    csv::table(COLUMNS.map(|(name, _)| name), rows)
+/// The checks, a barrier a line.
+// One line a column.
+#[rustfmt::skip]
+pub fn table(checks: &[BarrierCheck]) -> Table {
+    let side = |k: usize| move |it: &&BarrierCheck| it.sides[k];
+    let ended = move |k: usize| move |it: &&BarrierCheck| side(k)(it)?.ended;
+    let judged = move |k: usize| move |it: &&BarrierCheck| side(k)(it).map(|side| verdict(&side));
+    rows(checks)
+        .column("from", "", "", |it| it.from)
+        .column("to", "", "", |it| it.to)
+        .column("contradicted", "", "", |it| it.is_contradicted())
+        .column("overestimated", "", "", |it| it.is_overestimated())
+        .column("certified", "", "", |it| it.certified)
+        .column("ceiling_J", "", "", |it| it.ceiling)
+        .column("below_runs", "", "", |it| it.below.runs)
+        .column("below_crossed", "", "", |it| it.below.crossed)
+        .column("below_spoilt", "", "", |it| it.below.spoilt)
+        .column("above_runs", "", "", |it| it.above.1)
+        .column("above_crossed", "", "", |it| it.above.0)
+        .column("before_saddle_ended", "", "", ended(0))
+        .column("before_saddle_verdict", "", "", judged(0))
+        .column("behind_saddle_ended", "", "", ended(1))
+        .column("behind_saddle_verdict", "", "", judged(1))
+        .column("kick_J", "", "", |it| it.kick)
+        .column("climb_J", "", "", |it| it.climb)
+        .table("dynamics")
+        .in_csv("dynamics")
 }
 
 /// What the check found in a line, and another line for each barrier that is refuted.
-pub fn summary(analysis: &Analysis) -> String {
+pub fn notes(analysis: &Analysis) -> Vec<String> {
     let Some(checks) = &analysis.dynamics else {
-        return String::new();
+        return Vec::new();
     };
     let sum = |count: fn(&BarrierCheck) -> usize| checks.iter().map(count).sum::<usize>();
-    let sides: Vec<&Side> = checks
-        .iter()
-        .flat_map(|check| check.sides.iter().flatten())
-        .collect();
-    let on_the_pathway = sides
-        .iter()
-        .filter(|side| side.verdict == SideVerdict::OnThePathway);
-    let mut text = format!(
+    let sides = checks.iter().flat_map(|check| check.sides.iter().flatten());
+    let on_the_pathway = |side: &&Side| side.verdict == SideVerdict::OnThePathway;
+    let told = format!(
         "moving tiles: {} of {} trajectories below {} barriers crossed them ({} of {} above); from \
-         beside the saddle {} of {} ended on the pathway\n",
+         beside the saddle {} of {} ended on the pathway",
         sum(|check| check.below.crossed),
         sum(|check| check.below.runs),
         checks.len(),
         sum(|check| check.above.0),
         sum(|check| check.above.1),
-        on_the_pathway.count(),
-        sides.len(),
+        sides.clone().filter(on_the_pathway).count(),
+        sides.count(),
     );
-    for check in analysis.contradicted().chain(analysis.overestimated()) {
-        let _ = writeln!(text, "{}", check.describe());
-    }
-    text
+    let refuted = analysis.contradicted().chain(analysis.overestimated());
+    [told]
+        .into_iter()
+        .chain(refuted.map(BarrierCheck::describe))
+        .collect()
 }

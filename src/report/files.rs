@@ -21,7 +21,7 @@ pub const ANALYSE: Command = Command {
         PAGE,
         "states.csv",
         "barriers.csv",
-        super::dynamics::TABLE,
+        "dynamics.csv",
         "pathways/#-#.csv",
         "pathways/#-#-by-*.csv",
         "topsearch/min.data",

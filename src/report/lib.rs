@@ -2,7 +2,7 @@
 //!
 //! - [`document`] - a result as one document that terminal, JSON, CSV, page and pictures are made from;
 //! - [`json`] - `report.json`, everything that is known;
-//! - [`columns`] - what is told of states and of barriers, once for all outputs;
+//! - [`states`] - tables of states and of barriers;
 //! - [`names`] - what states, places, faces and files are called;
 //! - [`csv`] - tables of states and barriers, and pathways;
 //! - [`calibration`] - fitted shields;
@@ -26,7 +26,6 @@ mod assessments;
 pub mod bond;
 mod braille;
 pub mod calibration;
-pub mod columns;
 pub mod comparison;
 pub mod crosstalk;
 pub mod csv;
@@ -44,6 +43,7 @@ pub mod page;
 pub mod plots;
 pub mod rates;
 pub mod release;
+pub mod states;
 pub mod summary;
 pub mod sweep;
 mod sweep_answer;

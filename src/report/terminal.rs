@@ -19,23 +19,31 @@ pub fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
     }
 }
 
-/// Rows whose last cells go on lines of their own, indented below the second cells, where they are
-/// too long for a terminal.
-pub fn write_rows(text: &mut String, rows: &[[String; 6]], columns: Option<usize>) {
+/// A table that fits a terminal's width: where it does not, its last cells go on lines of their own,
+/// indented below the second cells; where that is not enough, see [`write_folded`].
+pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usize>) {
+    let fits = |table: &str| {
+        let width = columns.unwrap_or(usize::MAX);
+        table.lines().all(|line| line.chars().count() <= width)
+    };
     let mut table = String::new();
     write_table(&mut table, rows);
-    let fits = |width: usize| table.lines().all(|line| line.chars().count() <= width);
-    if columns.is_none_or(fits) {
+    if fits(&table) {
         text.push_str(&table);
         return;
     }
-    let short: Vec<&[String]> = rows.iter().map(|row| &row[..row.len() - 1]).collect();
+    let count = rows.first().map_or(0, Vec::len);
+    let short: Vec<&[String]> = rows.iter().map(|row| &row[..count - 1]).collect();
     let mut table = String::new();
     write_table(&mut table, &short);
     let names = rows.iter().map(|row| row[0].chars().count());
     let indent = " ".repeat(names.max().unwrap_or(0) + 2);
-    for (line, row) in table.lines().zip(rows) {
-        let _ = writeln!(text, "{line}\n{indent}{}", row[row.len() - 1]);
+    let last = rows.iter().map(|row| format!("{indent}{}", row[count - 1]));
+    let lines = table.lines().map(str::to_owned).zip(last);
+    let table: String = lines.map(|(a, b)| format!("{a}\n{b}\n")).collect();
+    match count > 2 && fits(&table) {
+        true => text.push_str(&table),
+        false => write_folded(text, rows, columns),
     }
 }
 

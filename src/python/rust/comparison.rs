@@ -123,7 +123,7 @@ impl Comparison {
     /// figure with its bounds, units in the names.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&self.0.table().csv()))
+        table::structured(py, table::of_table(&self.0.table()))
     }
 
     /// dict : Everything, with what reproduces it, as ``report.json`` has it.
@@ -166,7 +166,7 @@ impl Comparison {
     /// -------
     /// str
     fn report_html(&self) -> PyResult<String> {
-        self.0.document().html().map_err(fault::run)
+        self.0.document().html("").map_err(fault::run)
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -219,7 +219,7 @@ impl Docking {
     /// number of the trap, time to bind.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&report::runs(&self.found).csv()))
+        table::structured(py, table::of_table(&report::runs(&self.found)))
     }
 
     /// numpy.ndarray : The traps, structured, the one with most trajectories first: pose,
@@ -248,7 +248,7 @@ impl Docking {
     /// numpy.ndarray : The chance of a match over orientation and speed at the start, structured.
     #[getter]
     fn chances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&report::chances(&self.map()).csv()))
+        table::structured(py, table::of_table(&report::chances(&self.map())))
     }
 
     /// One trajectory, point by point.
@@ -283,7 +283,7 @@ impl Docking {
             docking::trajectory(problem, &self.found.settings, index, interval)
         })?;
         let snapshots = snapshots.map_err(fault::value)?;
-        table::structured(py, table::of_csv(&report::trajectory(&snapshots).csv()))
+        table::structured(py, table::of_table(&report::trajectory(&snapshots)))
     }
 
     /// dict : Everything, as ``report.json`` has it.

@@ -121,7 +121,7 @@ impl Sweep {
     /// `status` ("done", "impossible" or "failed"), `reason`, every figure with its bounds.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_csv(&self.swept().numbers().csv()))
+        table::structured(py, table::of_table(&self.swept().numbers()))
     }
 
     /// dict : Everything, with what reproduces it, as ``report.json`` has it.
@@ -171,7 +171,11 @@ impl Sweep {
         let swept = self.swept();
         let drawn = job::quietly(py, || swept.document().figures(&Sheet::SCREEN))?;
         let drawn = drawn.map_err(fault::run)?;
-        Ok(drawn.iter().map(|figure| figure.svg().to_owned()).collect())
+        Ok(drawn
+            .iter()
+            .flatten()
+            .map(|figure| figure.svg().to_owned())
+            .collect())
     }
 
     /// The page of the sweep.
@@ -181,7 +185,7 @@ impl Sweep {
     /// str
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
         let swept = self.swept();
-        let html = job::quietly(py, || swept.document().html())?;
+        let html = job::quietly(py, || swept.document().html(""))?;
         html.map_err(fault::run)
     }
 

@@ -1,13 +1,10 @@
 //! Structured arrays of NumPy, of which `pandas.DataFrame` makes tables. They cannot be written to.
 
-use std::borrow::Borrow;
-
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::Value;
 use tilebind::landscape::{Pathway, Place};
-use tilebind::report::columns::{Cell, Column};
+use tilebind::report::document::{Cell, Table};
 
 /// A column by its name.
 pub type Named = (String, Values);
@@ -90,50 +87,46 @@ pub fn grid<'py>(
     fixed(PyArray1::from_vec(py, values).reshape(shape)?.into_any())
 }
 
-/// The columns of a table of states or barriers.
-pub fn of_columns<Row>(columns: &[Column<Row>], rows: &[impl Borrow<Row>]) -> Vec<Named> {
-    let named = columns.iter().map(|column| {
-        let cells = rows.iter().map(|row| (column.get)(row.borrow())).collect();
-        (column.key(), values(column.unit, cells))
-    });
-    named.collect()
+/// The columns of a document's table: a column is of places, of whole numbers, of numbers (NaN where
+/// nothing is known), true or false, or else of texts.
+pub fn of_table(table: &Table) -> Vec<Named> {
+    let named = table.columns().into_iter();
+    named.map(|(key, cells)| (key, values(&cells))).collect()
 }
 
-fn values(unit: &str, cells: Vec<Cell>) -> Values {
-    if !unit.is_empty() {
-        let real = |cell| match cell {
-            Cell::Real(value) => value,
-            Cell::Value(_) | Cell::Place(_) => f64::NAN,
+fn values(cells: &[Cell]) -> Values {
+    let any = |is: fn(&Cell) -> bool| cells.iter().any(is);
+    if any(|cell| matches!(cell, Cell::Place(_))) {
+        return Values::Whole(cells.iter().map(whole).collect());
+    }
+    if any(|cell| matches!(cell, Cell::Text(_))) {
+        let text = |cell: &Cell| match cell {
+            Cell::Text(text) => text.clone(),
+            _ => String::new(),
         };
-        return Values::Real(cells.into_iter().map(real).collect());
+        return Values::Text(cells.iter().map(text).collect());
     }
-    let is_null = |cell: &Cell| matches!(cell, Cell::Value(Value::Null));
-    let all = |is: fn(&Cell) -> bool| cells.iter().all(is) && !cells.is_empty();
-    if cells.iter().any(|cell| matches!(cell, Cell::Place(_))) || all(is_null) {
-        return Values::Whole(cells.iter().map(place).collect());
-    }
-    if all(|cell| matches!(cell, Cell::Value(Value::Bool(_)))) {
-        let truth = |cell: &Cell| matches!(cell, Cell::Value(Value::Bool(true)));
+    if any(|cell| matches!(cell, Cell::Truth(_))) {
+        let truth = |cell: &Cell| matches!(cell, Cell::Truth(true));
         return Values::Truth(cells.iter().map(truth).collect());
     }
-    if all(|cell| matches!(cell, Cell::Value(Value::Number(_)))) {
-        return Values::Whole(cells.iter().map(place).collect());
+    if !cells.is_empty() && cells.iter().all(|cell| matches!(cell, Cell::Whole(_))) {
+        return Values::Whole(cells.iter().map(whole).collect());
     }
-    let text = |cell: &Cell| match cell {
-        Cell::Value(Value::String(text)) => text.clone(),
-        Cell::Value(Value::Null) => String::new(),
-        Cell::Value(value) => value.to_string(),
-        Cell::Real(_) | Cell::Place(_) => String::new(),
+    let real = |cell: &Cell| match cell {
+        Cell::Number(value) if value.is_finite() => *value,
+        Cell::Whole(value) => *value as f64,
+        _ => f64::NAN,
     };
-    Values::Text(cells.iter().map(text).collect())
+    Values::Real(cells.iter().map(real).collect())
 }
 
-fn place(cell: &Cell) -> i64 {
+fn whole(cell: &Cell) -> i64 {
     match cell {
         Cell::Place(Place::State(id)) => *id as i64,
         Cell::Place(Place::Free) => FREE,
-        Cell::Value(value) => value.as_i64().unwrap_or(NOWHERE),
-        Cell::Real(_) => NOWHERE,
+        Cell::Whole(value) => *value as i64,
+        _ => NOWHERE,
     }
 }
 

@@ -3,9 +3,10 @@
 use serde_json::{Value, json};
 
 use super::Table;
+use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero};
 use physics::configuration::Configuration;
-use physics::landscape::Proportion;
+use physics::landscape::{Place, Proportion};
 use physics::units::{duration, plain, si, si_range};
 
 /// A value of a table or a fact.
@@ -26,6 +27,8 @@ pub enum Cell {
     Interval([Option<f64>; 2]),
     /// A configuration (m, m, rad); in tables of numbers three columns.
     Pose(Configuration),
+    /// A state or `free`.
+    Place(Place),
     /// A sampled share with its 95 % interval.
     Sampled(Proportion),
     /// Rows of their own; a table of numbers repeats the first column of the row that they belong to.
@@ -135,6 +138,7 @@ impl Cell {
                 let [x, y, theta] = parts.map(|part| (10.0 * part).round() / 10.0 + 0.0);
                 format!("{x:.1}, {y:.1}, {theta:.1}\u{b0}")
             }
+            Self::Place(place) => place_name(*place),
             Self::Sampled(sampled) => crate::figures::percent(sampled),
             Self::Rows(_) | Self::Data(_) => String::new(),
         }
@@ -164,6 +168,7 @@ impl Cell {
             Self::Interval([None, None]) => Value::Null,
             Self::Interval(ends) => json!(ends.map(|end| end.map(positive_zero))),
             Self::Pose(q) => json!(pose(q)),
+            Self::Place(at) => place(*at),
             Self::Sampled(sampled) => crate::values::proportion(*sampled),
             Self::Rows(table) => table.json(),
             Self::Data(value) => value.clone(),
@@ -191,6 +196,7 @@ cell_from! {
     [f64; 2] => |value| Self::Interval(value.map(|end| end.is_finite().then_some(end)));
     [Option<f64>; 2] => |value| Self::Interval(value);
     Configuration => |value| Self::Pose(value);
+    Place => |value| Self::Place(value);
     Proportion => |value| Self::Sampled(value);
     Table => |value| Self::Rows(value);
     Value => |value| Self::Data(value);

@@ -3,20 +3,23 @@
 use serde_json::{Map, Value};
 
 use super::table::Parts;
-use super::{Cell, Document, Entry, Head, Table};
+use super::{Cell, Document, Entries, Entry, Head, Table};
 use crate::csv::{self, number};
 use crate::files::Files;
 use crate::json;
+use crate::names::place_name;
 
-impl Document<'_> {
-    /// The report.
-    pub fn json(&self) -> Value {
-        object(&self.entries.0)
-    }
-
+impl Entries {
     /// The report's text.
     pub fn report(&self) -> String {
-        json::text(&self.json())
+        json::text(&object(&self.0))
+    }
+}
+
+impl Document<'_> {
+    /// The report's text.
+    pub fn report(&self) -> String {
+        self.entries.report()
     }
 
     /// Tables of numbers by their files' names: those of the document, and those within their rows.
@@ -74,6 +77,27 @@ impl Table {
         collect(&self.clone().in_file(self.key), None, &mut sheets);
         let sheet = sheets.swap_remove(0);
         csv::table(sheet.columns, sheet.rows)
+    }
+}
+
+impl Table {
+    /// The columns of its file of numbers, each with its cells.
+    pub fn columns(&self) -> Vec<(String, Vec<Cell>)> {
+        let shown = (0..self.heads.len()).filter(|k| self.heads[*k].is_csv);
+        let columns = shown.flat_map(|k| {
+            let cells: Vec<Vec<Cell>> = self
+                .rows
+                .iter()
+                .map(|row| parts(&self.heads[k], &row[k].0))
+                .collect();
+            let keys = keys(&self.heads[k]).into_iter().enumerate();
+            keys.map(move |(part, key)| {
+                let cells = cells.iter().map(|cells| cells[part].clone());
+                (key, cells.collect())
+            })
+            .collect::<Vec<_>>()
+        });
+        columns.collect()
     }
 }
 
@@ -137,22 +161,28 @@ fn keys(head: &Head) -> Vec<String> {
     }
 }
 
-/// A cell in those columns; empty where nothing is known.
-fn texts(head: &Head, cell: &Cell) -> Vec<String> {
-    let known = |value: Option<f64>| {
-        let value = value.filter(|value| value.is_finite());
-        value.map_or(String::new(), number)
-    };
+/// A cell in those columns.
+fn parts(head: &Head, cell: &Cell) -> Vec<Cell> {
     match cell {
-        Cell::Number(value) => vec![known(Some(*value))],
-        Cell::Whole(value) => vec![value.to_string()],
-        Cell::Truth(value) => vec![value.to_string()],
-        Cell::Text(text) => vec![text.clone()],
-        Cell::Interval(ends) => ends.map(known).to_vec(),
-        Cell::Pose(q) => q.to_array().map(|value| known(Some(value))).to_vec(),
+        Cell::Interval(ends) => ends.map(Cell::from).to_vec(),
+        Cell::Pose(q) => q.to_array().map(Cell::from).to_vec(),
         Cell::Sampled(sampled) => [sampled.share(), sampled.low, sampled.high]
-            .map(|value| known(Some(value)))
+            .map(Cell::from)
             .to_vec(),
-        Cell::Missing | Cell::Rows(_) | Cell::Data(_) => vec![String::new(); keys(head).len()],
+        Cell::Missing | Cell::Rows(_) | Cell::Data(_) => vec![Cell::Missing; keys(head).len()],
+        cell => vec![cell.clone()],
     }
+}
+
+/// A cell's text in those columns; empty where nothing is known.
+fn texts(head: &Head, cell: &Cell) -> Vec<String> {
+    let text = |cell: Cell| match cell {
+        Cell::Number(value) if value.is_finite() => number(value),
+        Cell::Whole(value) => value.to_string(),
+        Cell::Truth(value) => value.to_string(),
+        Cell::Text(text) => text,
+        Cell::Place(place) => place_name(place),
+        _ => String::new(),
+    };
+    parts(head, cell).into_iter().map(text).collect()
 }

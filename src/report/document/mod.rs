@@ -12,7 +12,7 @@ mod table;
 mod text;
 
 pub use cell::{Cell, Unit, told};
-pub use table::{Head, Rows, Table, rows};
+pub use table::{Head, Link, Rows, Table, rows};
 
 use std::borrow::Cow;
 
@@ -81,7 +81,8 @@ pub enum Part {
     Meetings(Meetings),
 }
 
-type Draw<'a> = dyn Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a;
+/// What draws pictures.
+type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a;
 
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
@@ -111,6 +112,14 @@ impl<'a> Drawing<'a> {
     pub fn new(
         title: impl Into<String>,
         draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
+    ) -> Self {
+        Self::several(title, move |sheet| Ok(vec![draw(sheet)?]))
+    }
+
+    /// Pictures that are drawn together.
+    pub fn several(
+        title: impl Into<String>,
+        draw: impl Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a,
     ) -> Self {
         Self {
             title: title.into(),
@@ -183,6 +192,13 @@ impl Entries {
     #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|fact| (fact.head.is_data, fact.head.is_viewed) = (false, true))
+    }
+
+    /// With others behind them.
+    #[must_use]
+    pub fn and(mut self, others: Self) -> Self {
+        self.0.extend(others.0);
+        self
     }
 
     /// A table.

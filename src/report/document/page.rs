@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Document, Entry, Fact, Part, Table};
+use super::{Document, Entry, Fact, Link, Part, Table};
 use crate::files::{Files, PAGE, PICTURES, REPORT};
 use crate::page::{self, Illustration, Page};
 use crate::plots::{Figure, PictureError, Sheet};
@@ -20,40 +20,46 @@ impl Document<'_> {
         let mut files = self.numbers();
         files.extend(self.beside.clone());
         files.insert(REPORT.to_owned(), self.report().into_bytes());
-        let named = figures.into_iter().flat_map(Figure::files);
+        let named = figures.into_iter().flatten().flat_map(Figure::files);
         files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
-        let page = page.made_by(command).beside(files.keys()).to_html();
+        // Of pathways there are many, and tables and the page name them.
+        let linked = files.keys().filter(|name| !name.starts_with("pathways/"));
+        let page = page.made_by(command).beside(linked).to_html();
         files.insert(PAGE.to_owned(), page.into_bytes());
         Ok(files)
     }
 
-    /// The page by itself.
+    /// The page by itself, made by `command`.
     ///
     /// # Errors
     /// Where a picture cannot be drawn.
-    pub fn html(&self) -> Result<String, PictureError> {
+    pub fn html(&self, command: &str) -> Result<String, PictureError> {
         let figures = self.figures(&Sheet::SCREEN)?;
-        Ok(self.page(&Sheet::SCREEN, &figures).to_html())
+        let page = self.page(&Sheet::SCREEN, &figures);
+        Ok(page.made_by(command).to_html())
     }
 
-    /// The pictures, drawn.
+    /// The pictures, drawn: those of each drawing.
     ///
     /// # Errors
     /// Where one cannot be drawn.
-    pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+    pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Vec<Figure>>, PictureError> {
         let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
         figures.into_iter().collect()
     }
 
-    fn page(&self, sheet: &Sheet, figures: &[Figure]) -> Page {
+    fn page(&self, sheet: &Sheet, figures: &[Vec<Figure>]) -> Page {
         let pictures = self.pictures.iter().zip(figures);
         let pictures = pictures.filter(|(picture, _)| picture.is_shown);
+        let pictures = pictures
+            .flat_map(|(picture, figures)| figures.iter().map(move |figure| (picture, figure)));
         let pictures = pictures.map(|(picture, figure)| Illustration {
             title: picture.title.clone(),
             is_titled: sheet.is_titled(),
             svg: figure.svg().to_owned(),
         });
-        let tables = self.tables().into_iter().filter(|table| table.is_shown());
+        let paged = |table: &&Table| table.is_shown() && table.is_paged;
+        let tables = self.tables().into_iter().filter(paged);
         let mut page = Page {
             subtitle: self.answer.clone(),
             facts: self.facts().into_iter().map(Fact::shown).collect(),
@@ -125,6 +131,14 @@ impl Table {
                 (key, text) => json!([key, text]),
             }
         };
+        let state = |link: &Option<Link>| match link {
+            Some(Link::State(id)) => Some(*id),
+            _ => None,
+        };
+        let way = |link: &Option<Link>| match link {
+            Some(Link::Way(number)) => Some(*number),
+            _ => None,
+        };
         let rows = 0..self.rows.len();
         page::Table {
             title: self.title.clone(),
@@ -133,8 +147,8 @@ impl Table {
             rows: rows
                 .map(|row| self.viewed().map(|k| cell(row, k)).collect())
                 .collect(),
-            states: Vec::new(),
-            paths: Vec::new(),
+            states: self.links.iter().filter_map(state).collect(),
+            paths: self.links.iter().map(way).collect(),
         }
     }
 }

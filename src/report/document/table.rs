@@ -220,11 +220,23 @@ impl<'a, Row> Rows<'a, Row> {
             note: String::new(),
             is_data: true,
             is_viewed: true,
+            is_printed: true,
+            is_paged: true,
+            links: Vec::new(),
             listed: usize::MAX,
             rows: self.rows.iter().map(cells).collect(),
             heads: self.columns.into_iter().map(|it| it.head).collect(),
         }
     }
+}
+
+/// What a page shows when a row of a table is clicked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// A state, by its id.
+    State(usize),
+    /// A way, by its number among those that are played.
+    Way(usize),
 }
 
 /// Rows of figures.
@@ -240,8 +252,14 @@ pub struct Table {
     pub note: String,
     /// Whether JSON has it.
     pub is_data: bool,
-    /// Whether people see it.
+    /// Whether people see it ...
     pub is_viewed: bool,
+    /// ... on a terminal, ...
+    pub is_printed: bool,
+    /// ... and on the page.
+    pub is_paged: bool,
+    /// What the page shows when a row is clicked; nothing where it is empty.
+    pub links: Vec<Option<Link>>,
     /// Rows that a terminal has at most, the first ones.
     pub listed: usize,
     /// What its columns are.
@@ -278,6 +296,27 @@ impl Table {
     pub fn in_csv(mut self, stem: &'static str) -> Self {
         (self.is_data, self.is_viewed) = (false, false);
         self.in_file(stem)
+    }
+
+    /// Not on the terminal.
+    #[must_use]
+    pub fn on_page(mut self) -> Self {
+        self.is_printed = false;
+        self
+    }
+
+    /// Not on the page.
+    #[must_use]
+    pub fn on_terminal(mut self) -> Self {
+        self.is_paged = false;
+        self
+    }
+
+    /// With what the page shows when a row is clicked.
+    #[must_use]
+    pub fn linked(mut self, links: impl IntoIterator<Item = Option<Link>>) -> Self {
+        self.links = links.into_iter().collect();
+        self
     }
 
     /// With so many rows on a terminal at most.

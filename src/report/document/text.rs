@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Document, Table};
 use crate::markdown::{markdown_table, without_html};
-use crate::terminal::write_folded;
+use crate::terminal::write_fitted;
 
 /// Width of lines where no terminal says how wide it is.
 const WIDTH: usize = 100;
@@ -41,13 +41,14 @@ impl Document<'_> {
         for remark in &self.remarks {
             text += &wrapped(remark, width);
         }
-        for table in self.tables().into_iter().filter(|table| table.is_shown()) {
+        let printed = |table: &&Table| table.is_shown() && table.is_printed;
+        for table in self.tables().into_iter().filter(printed) {
             let title = match &table.title[..] {
                 "" => String::new(),
                 title => format!("{title}:\n"),
             };
             let _ = write!(text, "\n{title}");
-            write_folded(&mut text, &table.texts(), columns);
+            write_fitted(&mut text, &table.texts(), columns);
             if let more @ 1.. = table.rows.len().saturating_sub(table.listed) {
                 let _ = writeln!(text, "... and {more} more");
             }

@@ -12,10 +12,9 @@ mod html;
 pub(super) mod landscape;
 pub(super) mod meetings;
 mod packed;
-mod pathways;
+pub(crate) mod pathways;
 pub(crate) mod rate_charts;
 mod rates;
-mod tables;
 mod thumbnail;
 mod tree;
 mod word_charts;
@@ -30,11 +29,6 @@ pub use charts::Charts;
 pub use landscape::Landscape;
 pub use meetings::Meetings;
 pub use pathways::Played;
-
-use super::plots::Scene;
-use jobs::design::Design;
-use jobs::pipeline::Analysis;
-use physics::landscape::Proportion;
 
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
@@ -94,21 +88,6 @@ pub struct Fact {
     pub value: String,
     /// What to know of it, in small letters; may be empty.
     pub note: String,
-}
-
-impl Fact {
-    /// A sampled share with its 95 % interval.
-    fn of_share(name: &str, share: &Proportion) -> Self {
-        let [low, high] = [share.low, share.high].map(|end| 100.0 * end);
-        Self {
-            name: name.to_owned(),
-            value: format!("{:.1} %", 100.0 * share.share()),
-            note: format!(
-                "{} of {}; 95 %: {low:.1} to {high:.1} %",
-                share.count, share.of
-            ),
-        }
-    }
 }
 
 /// A picture, as an SVG document.
@@ -193,29 +172,6 @@ impl Column {
 }
 
 impl Page {
-    /// The page of an analysis.
-    pub fn of_analysis(design: &Design, analysis: &Analysis, scene: &Scene) -> Self {
-        let played = pathways::played(scene);
-        Self {
-            subtitle: design.description.clone(),
-            facts: tables::facts(design, analysis, scene),
-            tables: vec![
-                tables::states(design, analysis, scene),
-                tables::barriers(analysis, scene, &played),
-                pathways::table(&played),
-                tables::settings(design, analysis),
-            ],
-            landscape: Some(Landscape::new(design, scene, played)),
-            origin: format!(
-                "tilebind {}, seed {}, design sha256 {}",
-                env!("CARGO_PKG_VERSION"),
-                analysis.settings.seed,
-                design.sha256
-            ),
-            ..Self::titled(design.name.clone())
-        }
-    }
-
     /// A page with nothing on it but its title.
     pub(super) fn titled(title: String) -> Self {
         Self {

@@ -1,10 +1,10 @@
 //! The pathways and trajectories that a page plays.
 
 use serde::Serialize;
-use serde_json::json;
 
-use super::{Column, Table, finite, fixed, rounded};
+use super::{finite, fixed, rounded};
 use crate::csv;
+use crate::document::{Link, Table, rows};
 use crate::plots::Scene;
 use physics::dynamics::Snapshot;
 use physics::landscape::{Barrier, Pathway, PathwayCost, Place};
@@ -116,34 +116,26 @@ pub fn table(played: &[Played]) -> Table {
             .is_some_and(|at| at.iter().all(|p| ends.contains(p)))
     };
     let shown: Vec<usize> = (0..played.len()).filter(|&k| between(&played[k])).collect();
-    let number = |value: f64| json!(finite(value, 7));
-    let row = |way: &Played| {
-        vec![
-            json!(way.name.split(',').next()),
-            json!(way.by),
-            number(way.climb()),
-            number(way.work),
-            number(way.length),
-        ]
-    };
-    Table {
-        title: "Ways".to_owned(),
-        note: "Between the bond, the deepest trap and free. Barrier: the highest energy above the start. Work: what \
-               all climbs add up to. One with a low barrier may be long or climb often; the others \
-               take the least work, or are the most probable at the thermal energy. A click plays \
-               a way."
-            .to_owned(),
-        columns: vec![
-            Column::new("way", ""),
-            Column::new("chosen by", ""),
-            Column::new("barrier", "J"),
-            Column::new("work", "J"),
-            Column::new("length", "m"),
-        ],
-        rows: shown.iter().map(|&k| row(&played[k])).collect(),
-        states: Vec::new(),
-        paths: shown.into_iter().map(Some).collect(),
-    }
+    rows(shown.iter().map(|&k| &played[k]))
+        .column("", "way", "from where to where", |way| {
+            way.name.split(',').next().unwrap_or_default().to_owned()
+        })
+        .column("", "chosen by", "", |way| way.by)
+        .column("_J", "barrier", "the highest energy above the start", |way| way.climb())
+        .digits(4)
+        .column("_J", "work", "what all climbs add up to", |way| way.work)
+        .digits(4)
+        .column("_m", "length", "of the way", |way| way.length)
+        .table("")
+        .in_view()
+        .on_page()
+        .titled(
+            "Ways",
+            "Between the bond, the deepest trap and free. One with a low barrier may be long or climb \
+             often; the others take the least work, or are the most probable at the thermal energy. A \
+             click plays a way.",
+        )
+        .linked(shown.iter().map(|&k| Some(Link::Way(k))))
 }
 
 /// The way into the bond, the lowest way out of each class of states, and other barriers, as many

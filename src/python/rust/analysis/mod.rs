@@ -12,6 +12,8 @@ use pyo3::types::{PyDict, PyString};
 use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, CompletenessSettings, Place, pathway};
 use tilebind::pipeline;
+use tilebind::report::analysis::{Extent, document};
+use tilebind::report::document::Document;
 use tilebind::report::plots::{self, Scene, Sheet};
 use tilebind::{Analysis as Found, Settings};
 
@@ -110,6 +112,16 @@ impl Analysis {
     fn scene(&self) -> Scene<'_> {
         let design = &self.content.design;
         Scene::new(design, &self.found.problem, &self.found.inventory)
+    }
+
+    fn document<'a>(&'a self, extent: Extent, scene: &'a Scene<'a>) -> Document<'a> {
+        document(
+            &self.content.design,
+            &self.found,
+            scene,
+            extent,
+            self.wall_s,
+        )
     }
 
     /// The id of a state, or `free`.

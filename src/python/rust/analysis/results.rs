@@ -5,8 +5,8 @@ use pyo3::types::PyDict;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::landscape::Place;
 use tilebind::landscape::map::{EnergyMap, Window};
-use tilebind::report::columns::{self, Output, StateRow};
 use tilebind::report::plots;
+use tilebind::report::states::{barriers, states};
 
 use super::Analysis;
 use crate::design::Design;
@@ -28,10 +28,8 @@ impl Analysis {
     /// in contact, energy as blocks.
     #[getter]
     fn states<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let names = self.found.inventory.names();
-        let rows = StateRow::all(&self.content.design, &self.found, &names);
-        let columns = columns::states(Output::Csv);
-        table::structured(py, table::of_columns(&columns, &rows))
+        let states = states(&self.content.design, &self.found, true);
+        table::structured(py, table::of_table(&states))
     }
 
     /// numpy.ndarray : The barriers, structured: `from`, `to` (ids of states, -1 for free),
@@ -40,8 +38,7 @@ impl Analysis {
     /// length.
     #[getter]
     fn barriers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let columns = columns::barriers(Output::Csv);
-        let mut columns = table::of_columns(&columns, &self.found.inventory.barriers);
+        let mut columns = table::of_table(&barriers(&self.found.inventory.barriers));
         // The files of the pathways.
         columns.retain(|(name, _)| name != "pathway");
         table::structured(py, columns)

@@ -1,16 +1,11 @@
 //! Texts, pages and pictures.
 
-use std::time::Instant;
-
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tilebind::output::{Output, OutputError};
-use tilebind::report::analysis::{self, Contents, Extent};
+use tilebind::report::analysis::{self, Extent};
 use tilebind::report::files::ANALYSE;
-use tilebind::report::json::Report;
-use tilebind::report::page::Page;
 use tilebind::report::plots::Sheet;
-use tilebind::report::summary;
 
 use super::Analysis;
 use crate::{fault, job};
@@ -58,13 +53,8 @@ impl Analysis {
     /// str
     fn summary(&self) -> String {
         const COLUMNS: usize = 100;
-        let (design, found) = (&self.content.design, &self.found);
-        let text = summary::summary(design, found, "", Some(COLUMNS));
-        let told = |line: &&str| !line.starts_with("results in ");
-        text.lines()
-            .filter(told)
-            .map(|line| format!("{line}\n"))
-            .collect()
+        self.document(Extent::Compact, &self.scene())
+            .text(Some(COLUMNS))
     }
 
     /// The page with the landscape to move about in, pathways that play and tables that sort.
@@ -74,10 +64,11 @@ impl Analysis {
     /// str
     ///     HTML that needs nothing but a browser.
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
-        job::quietly(py, || {
-            let page = Page::of_analysis(&self.content.design, &self.found, &self.scene());
-            page.made_by(&self.command()).to_html()
-        })
+        let scene = self.scene();
+        let html = job::quietly(py, || {
+            self.document(Extent::Full, &scene).html(&self.command())
+        })?;
+        html.map_err(fault::run)
     }
 
     /// The text of ``report.json``: every byte as ``tilebind analyse`` writes it, but for what
@@ -87,7 +78,7 @@ impl Analysis {
     /// -------
     /// str
     pub(super) fn report_json(&self) -> String {
-        Report::new(&self.content.design, &self.found, self.wall_s).to_text()
+        analysis::report(&self.content.design, &self.found, true, self.wall_s).report()
     }
 
     /// Write all files of ``tilebind analyse``, or none of them. They replace those of an earlier
@@ -120,25 +111,22 @@ impl Analysis {
         command: Option<String>,
         force: bool,
     ) -> PyResult<()> {
-        let contents = Contents {
-            extent: if compact {
-                Extent::Compact
-            } else {
-                Extent::Full
-            },
-            sheet: Sheet::SCREEN,
-            command: command.unwrap_or_else(|| self.command()),
+        let extent = match compact {
+            true => Extent::Compact,
+            false => Extent::Full,
         };
+        let command = command.unwrap_or_else(|| self.command());
         let inputs = self.content.source.files();
         let output = Output::folder(&ANALYSE, &folder)
             .reading(inputs)
             .forced(force);
         output
-            .check(|name| contents.may_hold(name))
+            .check(|name| extent.may_hold(name))
             .map_err(not_written)?;
-        let start = Instant::now();
+        let scene = self.scene();
         let files = job::quietly(py, || {
-            analysis::files(&self.content.design, &self.found, &contents, start)
+            let document = self.document(extent, &scene);
+            analysis::files(&document, extent, &Sheet::SCREEN, &command)
         })?;
         let files = files.map_err(fault::run)?;
         output.write(&files).map_err(not_written)

@@ -5,6 +5,8 @@ use std::io;
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 
+pub use super::values::positive_zero;
+
 /// A value as JSON, objects indented and arrays of numbers on one line, with a line feed at its
 /// end. Numbers that JSON cannot write (infinity) become null.
 ///

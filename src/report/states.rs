@@ -1,0 +1,212 @@
+//! States and barriers as tables. Readers of their files may count columns: what has a place keeps it,
+//! and what is new comes last.
+
+use serde_json::{Value, json};
+
+use crate::document::{Cell, Link, Table, rows};
+use crate::names::{face_names, kind, pathway_file};
+use crate::plots::Scene;
+use jobs::design::Design;
+use jobs::pipeline::Analysis;
+use physics::landscape::{Barrier, Kind, Place, Proportion, State, StateKind};
+
+/// A state, and what is said of it elsewhere.
+pub struct Row<'a> {
+    /// The state itself.
+    pub state: &'a State,
+    /// What people call it.
+    pub name: &'a str,
+    /// How many states there are in its class.
+    copies: usize,
+    /// Names of the faces in contact: of the fixed tile, of the moving tile.
+    faces: Vec<[String; 2]>,
+    /// Share of the far starts that end here.
+    pub capture: Option<Proportion>,
+    /// The lowest way out.
+    pub escape: Option<Barrier>,
+}
+
+impl<'a> Row<'a> {
+    fn new(design: &Design, analysis: &'a Analysis, names: &'a [String], state: &'a State) -> Self {
+        let same = |other: &&State| other.class == state.class;
+        Self {
+            state,
+            name: &names[state.id],
+            copies: analysis.inventory.states.iter().filter(same).count(),
+            faces: face_names(design, state),
+            capture: state.capture,
+            escape: analysis.escape(state.id),
+        }
+    }
+
+    /// A kind of states through the first of them, with the share of the far starts that end in any.
+    pub fn of_kind(
+        design: &Design,
+        analysis: &'a Analysis,
+        names: &'a [String],
+        kind: &Kind<'a>,
+    ) -> Self {
+        Self {
+            capture: Some(kind.captured()),
+            ..Self::new(design, analysis, names, kind.first())
+        }
+    }
+
+    /// The lowest way out, if one is known.
+    fn way_out(&self) -> Option<&Barrier> {
+        self.escape.as_ref().filter(|escape| escape.has_way())
+    }
+
+    fn is_caged(&self) -> bool {
+        let escape = self.escape.as_ref();
+        escape.is_some_and(|escape| escape.bounds.caged)
+    }
+
+    /// The faces in contact as a text.
+    fn pairs(&self) -> String {
+        let pairs: Vec<_> = self.faces.iter().map(|pair| pair.join("-")).collect();
+        pairs.join(" ")
+    }
+}
+
+/// All states; where magnets are point dipoles with the energy of the blocks they stand for, and how
+/// much higher the dipoles' is. `is_whole` says whether escapes of copies name their pathways.
+// One line a column.
+#[rustfmt::skip]
+pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
+    let names = analysis.inventory.names();
+    let escape = move |row: &Row| -> Option<Value> {
+        let mut entry = barriers([row.escape.as_ref()?]).json()[0].take();
+        if !is_whole && row.state.id != row.state.class {
+            entry["pathway"] = Value::Null;
+        }
+        Some(entry)
+    };
+    rows(analysis.inventory.states.iter().map(|state| Row::new(design, analysis, &names, state)))
+        .column("id", "", "", |it| it.state.id)
+        .column("kind", "", "", |it| kind(it.state.kind))
+        .column("class", "", "lowest id among the states that symmetries map onto this one", |it| it.state.class)
+        .column("copies", "", "", |it| it.copies)
+        .column("pose", "", "", |it| it.state.configuration)
+        .column("energy_J", "", "", |it| it.state.energy)
+        // To the nearest lower state or to free.
+        .column("escape_J", "", "", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
+        .column("escape_to", "", "", |it| it.way_out().map(|way| way.to)).in_csv()
+        .column("capture", "", "share of the far starts", |it| it.capture).sampled()
+        // Magnet pairs close together.
+        .column("attracting", "", "", |it| it.state.attracting)
+        .column("repelling", "", "", |it| it.state.repelling)
+        .column("faces", "", "", Row::pairs).in_csv()
+        .column("faces", "", "", |it| json!(it.faces)).in_json()
+        .column("block_energy_J", "", "", |it| it.state.block_energy)
+        .column("dipole_error_J", "", "", |it| it.state.dipole_error()).in_csv()
+        .column("name", "", "", |it| it.name)
+        // Proved that there is no way out at all.
+        .column("caged", "", "", Row::is_caged).in_csv()
+        .column("escape", "", "", escape).in_json()
+        .table("states")
+        .in_file("states")
+        .in_data()
+}
+
+/// The kinds of states, for people: one row for those that symmetry maps onto each other.
+// One line a column.
+#[rustfmt::skip]
+pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
+    let names = scene.inventory.names();
+    let kinds = scene.kinds();
+    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
+        Some((Some(why), _)) => why.to_owned(),
+        Some((None, to)) => scene.name_of(to),
+        None => "-".to_owned(),
+    };
+    rows(kinds.iter().map(|kind| Row::of_kind(design, analysis, &names, kind)))
+        .column("", "state", "letters by depth", |it| it.name)
+        .column("", "kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
+        .column("", "copies", "that symmetry makes of it", |it| it.copies)
+        .column("_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy).digits(4)
+        .column("_J", "way out", "height of the lowest barrier", |it| it.escape.as_ref().map(Barrier::forward)).digits(4)
+        .column("", "leads to", "where the lowest way out leads", leads_to)
+        .column("", "captured", "share of the far starts that end in any of them", |it| it.capture)
+        .column("pose", "x, y (mm), \u{3b8}", "of the one nearest to the bond", |it| it.state.configuration)
+        .column("", "attracting", "magnet pairs close together", |it| it.state.attracting)
+        .column("", "repelling", "magnet pairs close together", |it| it.state.repelling)
+        .column("", "faces", "in contact", Row::pairs)
+        .table("")
+        .in_view()
+        .on_page()
+        .titled(
+            "States",
+            "One row for the states that symmetry maps onto each other: the one nearest to the bound \
+             configuration. Captured: share of far starts that end in any of them. Attracting, \
+             repelling: magnet pairs close together. A click shows the pose.",
+        )
+        .linked(kinds.iter().map(|kind| Some(Link::State(kind.first().id))))
+}
+
+/// Barriers with their bounds and pathways.
+// One line a column.
+#[rustfmt::skip]
+pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
+    let file = |it: &&Barrier| it.has_way().then(|| pathway_file(it));
+    rows(barriers)
+        .column("from", "", "", |it| it.from)
+        .column("to", "", "", |it| it.to)
+        .column("saddle_energy_J", "", "", |it| it.saddle_energy)
+        // Null where no way is known, as is the file of the pathway, relative to the report.
+        .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
+        .column("lower_J", "", "", |it| it.bounds.lower)
+        .column("upper_J", "", "", |it| it.bounds.upper)
+        .column("forward_J", "", "", |it| it.forward())
+        .column("reverse_J", "", "", |it| it.reverse())
+        // Lowest and highest saddle energy over repeated runs; null for a single run.
+        .column("spread_bounds_J", "", "", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
+        .column("spread_J", "", "", |it| json!(it.spread)).in_json()
+        .column("pose", "", "of the saddle", |it| it.saddle).in_csv()
+        .column("pathway", "", "", file)
+        // Proved that there is no way at all; the saddle energy is then infinite.
+        .column("caged", "", "", |it| it.bounds.caged)
+        // Work against the energy along the pathway and back, and its length.
+        .column("work_J", "", "", |it| it.work().map(|work| work[0]))
+        .column("reverse_work_J", "", "", |it| it.work().map(|work| work[1]))
+        .column("length_m", "", "", |it| it.length())
+        .table("barriers")
+        .in_file("barriers")
+        .in_data()
+}
+
+/// The barriers for people; `way` tells which of the ways that the page plays leads over one.
+// One line a column.
+#[rustfmt::skip]
+pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier) -> Option<usize>) -> Table {
+    let barriers = &analysis.inventory.barriers;
+    let name = |place: Place| scene.name_of(place);
+    rows(barriers)
+        .column("", "from", "", |it| name(it.from))
+        .column("", "to", "", |it| name(it.to))
+        .column("_J", "saddle", "highest energy on the best way found", |it| it.saddle_energy).digits(4)
+        .column("bounds_J", "certified", "bounds of the saddle's energy", |it| Cell::from([it.bounds.lower, it.bounds.upper])).digits(4)
+        .column("_J", "forward", "height seen from where it leads from", |it| it.forward()).digits(4)
+        .column("_J", "reverse", "height seen from where it leads to", |it| it.reverse()).digits(4)
+        .column("", "no way", "", |it| why_no_way(it))
+        .column("_J", "work", "what all climbs add up to", |it| it.work().map(|work| work[0])).digits(4)
+        .column("_m", "length", "of the way", |it| it.length())
+        .table("")
+        .in_view()
+        .on_page()
+        .titled(
+            "Barriers",
+            "The highest energy on the best way found, its certified bounds, and its height seen from \
+             either end. A click plays the way.",
+        )
+        .linked(barriers.iter().map(|barrier| way(barrier).map(Link::Way)))
+}
+
+/// Why a barrier has no way over it, if it has none.
+pub fn why_no_way(barrier: &Barrier) -> Option<&'static str> {
+    match barrier.has_way() {
+        _ if barrier.bounds.caged => Some("caged, proved"),
+        true => None,
+        false => Some("none found"),
+    }
+}
