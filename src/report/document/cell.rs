@@ -79,6 +79,12 @@ impl Unit {
         found.map_or(Self::None, |(_, symbol)| Self::Of(symbol))
     }
 
+    /// A key without its unit.
+    pub(super) fn stripped(key: &str) -> &str {
+        let mut found = UNITS.iter().filter_map(|(end, _)| key.strip_suffix(end));
+        found.next().unwrap_or(key)
+    }
+
     /// Its symbol; empty where there is none.
     pub fn symbol(self) -> &'static str {
         match self {

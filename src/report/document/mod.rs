@@ -208,6 +208,13 @@ impl Entries {
         self
     }
 
+    /// Entries that there may be.
+    #[must_use]
+    pub fn more(mut self, entries: impl IntoIterator<Item = Entry>) -> Self {
+        self.0.extend(entries);
+        self
+    }
+
     /// Entries under one key.
     #[must_use]
     pub fn group(mut self, key: &'static str, entries: Self) -> Self {

@@ -127,7 +127,7 @@ impl Table {
         });
         let cell = |row: usize, k: usize| -> Value {
             match (self.rows[row][k].0.key(), self.text(row, k)) {
-                (Value::Null, text) if text == "-" => Value::Null,
+                (_, text) if text == "-" => Value::Null,
                 (key, text) => json!([key, text]),
             }
         };

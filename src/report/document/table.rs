@@ -44,9 +44,10 @@ pub(super) enum Parts {
 
 impl Parts {
     fn of_key(key: &str) -> Self {
+        let of = Unit::stripped(key);
         match key {
             _ if key.ends_with("pose") => Self::Pose,
-            _ if key.contains("interval") || key.contains("bounds") => Self::Ends,
+            _ if ["interval", "bounds"].iter().any(|end| of.ends_with(end)) => Self::Ends,
             _ => Self::One,
         }
     }

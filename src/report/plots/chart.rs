@@ -265,6 +265,15 @@ impl Chart {
         self
     }
 
+    /// The last series in a colour by its number, such as that of another.
+    #[must_use]
+    pub fn in_colour(mut self, number: usize) -> Self {
+        if let Some(series) = self.series.last_mut() {
+            series.colour = number % COLOURS.len();
+        }
+        self
+    }
+
     /// Draws it.
     ///
     /// # Errors
