@@ -101,7 +101,7 @@
 
 pub use jobs::{
     Analysis, Design, Settings, assembly, calibration, comparison, design, docking, inspection,
-    output, pipeline, query, sweep, workshop, yields,
+    output, pipeline, query, rates, sweep, workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -11,8 +11,8 @@ use tilebind::dynamics::docking::{self, DockingError, DockingSettings};
 use tilebind::dynamics::{Fan, MotionSettings};
 use tilebind::kinetics::rates::Loosening;
 use tilebind::observer::Observer;
+use tilebind::rates::diffusion;
 use tilebind::report::files::DOCK;
-use tilebind::report::rates::Motion;
 use tilebind::report::{docking as report, release};
 
 use super::docking_starts::StartOptions;
@@ -160,7 +160,7 @@ impl Dock {
             return Ok(None);
         };
         progress.stage("rates", 0.0);
-        let diffusion = Motion::new(design, kt, self.drag).diffusion;
+        let diffusion = diffusion(design, kt, self.drag);
         let found = Loosening::new(problem, &design.pair.bound, kt);
         let found = found.map_err(|error| match Failure::from(error) {
             // What sets kT here.

@@ -1,28 +1,18 @@
 //! `tilebind rates`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use tilebind::design::Design;
-use tilebind::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
-use tilebind::dynamics::{Body, MotionSettings};
-use tilebind::kinetics::exit::{ExitSettings, exit, half_bond};
-use tilebind::kinetics::rates::{RateSettings, rates};
-use tilebind::kinetics::{Certify, OVERDAMPED, why_unprovable};
+use tilebind::kinetics::OVERDAMPED;
 use tilebind::observer::Observer;
-use tilebind::report::files::{RATES, with_report};
-use tilebind::report::page::Page;
-use tilebind::report::{json, rates as report};
+use tilebind::output::Output;
+use tilebind::rates::Question;
+use tilebind::report::files::RATES;
+use tilebind::report::rates::{document, exit_document};
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
-use super::figures::command_line;
-use super::options::{DesignOptions, ForceOption, PrintOptions, WorkOptions};
-use super::{Failure, input, interrupt, memory, print};
-
-/// Mean exit times after which a moving tile is given up.
-const PATIENCE: f64 = 30.0;
-/// Squares along x and y of the committor's map.
-const SQUARES: usize = 120;
+use super::options::{DesignOptions, WorkOptions};
+use super::results::ResultOptions;
+use super::{Failure, input, interrupt, memory};
 
 /// Print how fast shaken tiles bind, come off and change between states
 #[derive(Args)]
@@ -36,7 +26,7 @@ estimated): they are \"bracketed on the mesh\". --prove encloses integrals and s
 how often tiles set out from the well about the start for an end, or from each basin for another, and
 bounds of the mean time until they are there: near each other only where the well holds next to all
 that the ends do not, far below the passes; of dipoles, with shields (but by the nearest-face rule) or without. Without --start: rates between the
-bond, the deepest traps and free tiles; between places without a known way nothing is claimed (? and
+bond, the deepest traps and free tiles; between places without a known way nothing is claimed (- and
 null), and 0 only where contact proves that there is none. The ends are sets; without them no rate means anything, so they are printed beside
 every number.
 
@@ -93,14 +83,6 @@ pub struct Rates {
           conflicts_with = "start")]
     traps: usize,
 
-    /// Folder for report.html, report.json, rates.csv, occupation.csv, over-kt.csv, committor.csv,
-    /// pictures/ and, with --prove, proved.csv
-    #[arg(long, value_name = "DIR", conflicts_with = "start")]
-    out: Option<PathBuf>,
-
-    #[command(flatten)]
-    force: ForceOption,
-
     /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
     /// that of overdamped motion
     #[arg(long, value_name = "N", requires = "start", value_parser = input::runs_of_a_mean)]
@@ -115,161 +97,69 @@ pub struct Rates {
     work: WorkOptions,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
-        let model = design.interaction.model;
+        let output = self.results.output(&RATES, self.design.inputs(&design))?;
         let problem = design.problem();
-        if self.prove
-            && let Some(why) = why_unprovable(&problem, model)
-        {
+        let question = Question {
+            kt: self.kt,
+            drag: self.drag,
+            basin_energy: self.basin_energy,
+            free_at: self.free_at,
+            certify: self.certify,
+            prove: self.prove,
+        };
+        if let Some(why) = question.refused(&design, &problem) {
             return Err(Failure::Usage(why));
         }
         self.work.use_threads()?;
         match self.start {
-            Some(start) => self.exit(&design, &problem, start),
-            None => self.table(&design, problem),
+            Some(start) => self.exit(&question, (&design, &problem), start, output),
+            None => self.table(&question, &design, problem, output),
         }
     }
 
     fn exit(
         &self,
-        design: &Design,
-        problem: &Problem,
+        question: &Question,
+        (design, problem): (&Design, &Problem),
         start: Configuration,
+        output: Option<Output>,
     ) -> Result<(), Failure> {
         input::doubt_pose(design, &start);
-        let half = || half_bond(problem, &design.pair.bound);
-        let basin = self.basin_energy.unwrap_or_else(half);
-        let asked = ExitSettings {
-            certify: Some(self.certified(Certify::of_exit)),
-            ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
-        };
-        let found = exit(problem, &design.pair.bound, &asked)?;
-        let motion = report::Motion::new(design, self.kt, self.drag);
-        let mean = found.time() / motion.diffusion;
-        let checked = self.check.map(|runs| {
-            let runs = self.runs(&asked, runs, mean);
-            self.let_go(problem, &Body::of_tile(&design.pair.moving), &runs)
-        });
-        let checked = checked.transpose()?;
-        print(&if self.print.json {
-            let mut entry = report::exit_entry(&asked, &motion, &found);
-            if let Some(runs) = &checked {
-                entry["check"] = report::check_entry(&motion, &found, runs);
-            }
-            json::text(&entry)
-        } else {
-            let text = report::exit_summary(design, &asked, &motion, &found);
-            let check = checked.map(|runs| report::check_summary(&motion, &found, &runs));
-            text + &check.unwrap_or_default()
-        })
+        let found = question.exit((design, problem), start)?;
+        let checked =
+            |runs| found.checked((design, problem), runs, self.restitution, self.work.seed);
+        let check = self.check.map(checked).transpose();
+        let check = check.map_err(|error| Failure::Usage(error.to_string()))?;
+        let document = exit_document(design, &found, check.as_ref());
+        let progress = self.results.progress();
+        self.results.deliver(&document, output, &progress)
     }
 
-    /// How closely things are bounded, and whether that is proved.
-    fn certified(&self, usual: fn() -> Certify) -> Certify {
-        let certify = self.certify.map_or_else(usual, Certify::to);
-        match self.prove {
-            true => certify.proved(),
-            false => certify,
-        }
-    }
-
-    fn runs(&self, asked: &ExitSettings, runs: usize, mean: f64) -> ExitRunSettings {
-        ExitRunSettings {
-            start: asked.start,
-            basin_energy: asked.basin_energy,
-            free_at: asked.free_at,
-            runs,
-            seed: self.work.seed,
-            longest: PATIENCE * mean,
-        }
-    }
-
-    /// Tiles that really move.
-    fn let_go(
+    fn table(
         &self,
-        problem: &Problem,
-        body: &Body,
-        asked: &ExitRunSettings,
-    ) -> Result<ExitRuns, Failure> {
-        let motion = MotionSettings {
-            drag: self.drag,
-            restitution: self.restitution,
-            friction: 0.0,
-            walls: false,
-            shaking: Some(self.kt),
-            ..MotionSettings::default()
-        };
-        exits(problem, *body, &motion, asked).map_err(|error| Failure::Usage(error.to_string()))
-    }
-
-    fn free_at(&self, design: &Design) -> f64 {
-        self.free_at.unwrap_or(design.space().free_distance)
-    }
-
-    fn table(&self, design: &Design, problem: Problem) -> Result<(), Failure> {
-        let output = self.out.as_ref();
-        let output = output.map(|it| self.force.folder(&RATES, it, self.design.inputs(design)));
-        let output = output.transpose()?;
-        let settings = self.survey();
-        memory::check(settings.milestones, None, 1)?;
-        let progress = self.print.progress();
-        let analysis = pipeline::analyse_problem(design, problem, &settings, &progress);
-        progress.stage("rates", 0.9);
-        let places = report::Place::held(&analysis, self.kt, self.traps, self.basin_energy);
-        let basins = places.iter().map(report::Place::basin);
-        let asked = RateSettings {
-            certify: Some(self.certified(Certify::default)),
-            map: self.out.as_ref().map(|_| SQUARES),
-            ..RateSettings::new(self.kt, basins.collect(), self.free_at(design))
-        };
-        let found = rates(&analysis.problem, &asked)?;
-        let motion = report::Motion::new(design, self.kt, self.drag);
-        let table = report::Table {
-            design,
-            asked: &asked,
-            motion: &motion,
-            places: &places,
-            found: &found,
-        };
-        let Some((output, folder)) = output.zip(self.out.as_ref()) else {
-            progress.finish();
-            return self
-                .print
-                .results(&json::text(&table.entry()), || table.summary());
-        };
-        let over_kt = report::over_kt(
-            design,
-            &analysis.problem,
-            &places,
-            (&asked, &found),
-            &motion,
-        );
-        let value = report::report(&table, &over_kt, self.work.seed);
-        let page = Page::of_rates(&table, &over_kt);
-        let tables = report::files(&table, &over_kt);
-        let files = with_report(tables, Some(page), &value, &command_line());
-        interrupt::without(|| output.write(&files))?;
-        progress.finish();
-        self.print.results(&json::text(&value), || {
-            format!(
-                "{}results in {}: report.html to look at; report.json, tables, pictures\n",
-                table.summary(),
-                folder.display()
-            )
-        })
-    }
-
-    /// States and their lowest barriers are needed, and no proofs.
-    fn survey(&self) -> Settings {
-        Settings {
+        question: &Question,
+        design: &Design,
+        problem: Problem,
+        output: Option<Output>,
+    ) -> Result<(), Failure> {
+        // States and their lowest barriers are needed, and no proofs.
+        let settings = Settings {
             milestones: Settings::default().milestones,
             ..Settings::without_proofs(self.work.seed)
-        }
+        };
+        memory::check(settings.milestones, None, 1)?;
+        let progress = self.results.progress();
+        let analysis = pipeline::analyse_problem(design, problem, &settings, &progress);
+        progress.stage("rates", 0.9);
+        let found = question.rates(design, &analysis, self.traps, output.is_some())?;
+        let document = document(design, &found, self.work.seed);
+        self.results.deliver(&document, output, &progress)
     }
 }

@@ -119,8 +119,9 @@ pub const RATES: Command = Command {
         "over-kt.csv",
         "committor.csv",
         "proved.csv",
+        "meshes.csv",
     ],
-    pictures: &["committor", "rates"],
+    pictures: &["committor", "rates", "meshes"],
 };
 
 /// `tilebind make`.

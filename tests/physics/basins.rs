@@ -3,7 +3,7 @@
 use tilebind::kinetics::rates::{Basin, RateSettings, Rates, rates};
 use tilebind::observer::Silent;
 use tilebind::pipeline::analyse;
-use tilebind::report::rates::Place;
+use tilebind::rates::RatedState;
 use tilebind::{Configuration, Problem, Settings};
 
 use crate::designs;
@@ -128,8 +128,8 @@ fn twins_have_basins_of_their_own_where_they_hold_apart_and_one_where_they_do_no
     };
     let analysis = analyse(&design, &settings, &Silent);
     let held = |kt| {
-        let all = Place::held(&analysis, kt, 3, None);
-        let told = |place: &Place| (place.name.clone(), place.below * 1e3);
+        let all = RatedState::held(&analysis, kt, 3, None);
+        let told = |place: &RatedState| (place.name.clone(), place.below * 1e3);
         all.iter().map(told).collect::<Vec<_>>()
     };
     // mJ: -1.951 in the wells, -1.132 on the pass.

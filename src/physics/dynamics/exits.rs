@@ -39,6 +39,20 @@ pub struct ExitRuns {
     pub warmth: [f64; 2],
 }
 
+/// Moving tiles have no temperature where their kinetic energy is below that of kT by more than this
+/// share, ...
+const WARM: f64 = 0.1;
+/// ... and by more than so many standard errors.
+const SURE: f64 = 3.0;
+
+impl ExitRuns {
+    /// Whether knocks take no energy that the shaking does not give back.
+    pub fn has_temperature(&self) -> bool {
+        let [warmth, error] = self.warmth;
+        !(warmth < 1.0 - WARM && warmth < 1.0 - SURE * error)
+    }
+}
+
 /// Runs of shaken tiles to the first of two ends.
 ///
 /// # Errors

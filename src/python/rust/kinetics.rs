@@ -4,59 +4,27 @@ use pyo3::prelude::*;
 use tilebind::Analysis;
 use tilebind::design::Design;
 use tilebind::kinetics::bond::Shaking;
-use tilebind::kinetics::exit::{ExitError, ExitSettings, exit, half_bond};
-use tilebind::kinetics::rates::{RateSettings, RatesError, rates as solved};
-use tilebind::kinetics::{Certify, why_unprovable};
+use tilebind::kinetics::exit::ExitError;
+use tilebind::kinetics::rates::RatesError;
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
+use tilebind::rates;
 use tilebind::report::bond::BondReport;
+use tilebind::report::json;
+use tilebind::report::rates::{document as rates_document, exit_document};
 use tilebind::report::yields::document;
-use tilebind::report::{json, rates as report};
 use tilebind::yields::{Question, YieldError, yields};
 
 use crate::{barrier, convert, fault, job};
 
-/// What is asked of a tile that is let go; `None` for the program's defaults.
-pub struct Asked {
-    /// Effective energy of shaking (J).
-    pub kt: f64,
-    /// Drag rate (1/s).
-    pub drag: f64,
-    /// The tile is bound below this energy (J).
-    pub basin_energy: Option<f64>,
-    /// It is free where the centres are so far apart (m).
-    pub free_at: Option<f64>,
-    /// Relative distance of the bounds.
-    pub certify: Option<f64>,
-    /// Whether what can be proved is.
-    pub prove: bool,
-}
-
-impl Asked {
-    fn check(&self, design: &Design, problem: &Problem) -> PyResult<()> {
-        let model = design.interaction.model;
-        if self.prove
-            && let Some(why) = why_unprovable(problem, model)
-        {
-            return Err(fault::value(why));
-        }
-        fault::positive("kt", Some(self.kt))?;
-        fault::positive("drag", Some(self.drag))?;
-        fault::positive("certify", self.certify)?;
-        fault::positive("free_at", self.free_at)
+fn check(asked: &rates::Question, design: &Design, problem: &Problem) -> PyResult<()> {
+    if let Some(why) = asked.refused(design, problem) {
+        return Err(fault::value(why));
     }
-
-    fn certify(&self, usual: fn() -> Certify) -> Certify {
-        let certify = self.certify.map_or_else(usual, Certify::to);
-        match self.prove {
-            true => certify.proved(),
-            false => certify,
-        }
-    }
-
-    fn free_at(&self, design: &Design) -> f64 {
-        self.free_at.unwrap_or(design.space().free_distance)
-    }
+    fault::positive("kt", Some(asked.kt))?;
+    fault::positive("drag", Some(asked.drag))?;
+    fault::positive("certify", asked.certify)?;
+    fault::positive("free_at", asked.free_at)
 }
 
 /// Mean exit time and exits of a tile that is let go at a pose.
@@ -64,57 +32,33 @@ pub fn exits<'py>(
     py: Python<'py>,
     (design, problem): (&Design, &Problem),
     start: &Bound<'py, PyAny>,
-    asked: &Asked,
+    asked: &rates::Question,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check(design, problem)?;
+    check(asked, design, problem)?;
     let start = barrier::pose(start)?;
-    let bound = &design.pair.bound;
-    let basin = asked
-        .basin_energy
-        .unwrap_or_else(|| half_bond(problem, bound));
-    let free_at = asked.free_at(design);
-    let settings = ExitSettings {
-        certify: Some(asked.certify(Certify::of_exit)),
-        ..ExitSettings::new(asked.kt, start, basin, free_at)
-    };
-    let found = job::quietly(py, || exit(problem, bound, &settings))?;
+    let found = job::quietly(py, || asked.exit((design, problem), start))?;
     let found = found.map_err(|error| match error {
         ExitError::Unsolved(_) => fault::run(error),
         _ => fault::value(error),
     })?;
-    let motion = report::Motion::new(design, asked.kt, asked.drag);
-    let entry = json::text(&report::exit_entry(&settings, &motion, &found));
-    convert::json(py, &entry)
+    convert::json(py, &exit_document(design, &found, None).report())
 }
 
 /// Rates between the bond, the deepest traps and free.
 pub fn rates<'py>(
     py: Python<'py>,
     (design, analysis): (&Design, &Analysis),
-    asked: &Asked,
+    asked: &rates::Question,
     traps: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
-    asked.check(design, &analysis.problem)?;
-    let places = report::Place::held(analysis, asked.kt, traps, asked.basin_energy);
-    let basins = places.iter().map(report::Place::basin).collect();
-    let free_at = asked.free_at(design);
-    let settings = RateSettings {
-        certify: Some(asked.certify(Certify::default)),
-        ..RateSettings::new(asked.kt, basins, free_at)
-    };
-    let found = job::quietly(py, || solved(&analysis.problem, &settings))?;
+    check(asked, design, &analysis.problem)?;
+    let found = job::quietly(py, || asked.rates(design, analysis, traps, false))?;
     let found = found.map_err(|error| match error {
         RatesError::Unsolved(_) => fault::run(error),
         _ => fault::value(error),
     })?;
-    let table = report::Table {
-        design,
-        asked: &settings,
-        motion: &report::Motion::new(design, asked.kt, asked.drag),
-        places: &places,
-        found: &found,
-    };
-    convert::json(py, &json::text(&table.entry()))
+    let document = rates_document(design, &found, analysis.settings.seed);
+    convert::json(py, &document.report())
 }
 
 /// Depths, docking costs and ln K of the bond and the traps of an analysis.

@@ -49,11 +49,12 @@ pub enum Unit {
 }
 
 /// Ends of keys and the units that they stand for, longer ones first.
-const UNITS: [(&str, &str); 20] = [
+const UNITS: [(&str, &str); 21] = [
     ("_m2_per_s", "m²/s"),
     ("_m2_s", "m²/s"),
     ("_per_m2", "1/m²"),
     ("_per_m", "1/m"),
+    ("_m_per_s", "m/s"),
     ("_per_s", "/s"),
     ("_m2_rad", "m² rad"),
     ("_J_per_m", "J/m"),

@@ -13,8 +13,6 @@ pub(super) mod landscape;
 pub(super) mod meetings;
 mod packed;
 pub(crate) mod pathways;
-pub(crate) mod rate_charts;
-mod rates;
 mod thumbnail;
 mod tree;
 mod word_charts;
@@ -99,16 +97,6 @@ pub struct Illustration {
     pub is_titled: bool,
     /// A whole document, put into the page as it is.
     pub svg: String,
-}
-
-/// Pictures that are files too: each with its name, its title and the document.
-fn illustrations(pictures: Vec<(&str, &str, String)>) -> Vec<Illustration> {
-    let shown = |(_, title, svg): (&str, &str, String)| Illustration {
-        title: title.to_owned(),
-        is_titled: false,
-        svg,
-    };
-    pictures.into_iter().map(shown).collect()
 }
 
 /// A table that sorts.

@@ -16,6 +16,7 @@
 mod approach;
 mod canvas;
 pub mod chart;
+pub(crate) mod committor;
 mod composition;
 mod contour;
 mod curve;

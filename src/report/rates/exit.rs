@@ -1,230 +1,284 @@
-//! Exits from a start.
-
-use std::fmt::Write;
+//! How soon a pose is left, and whereto.
 
 use serde_json::{Value, json};
 
 use super::{
-    Motion, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, area,
-    digits, finite, leaving_set, mean_exit_words, proved_entry, proved_words,
+    NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, digits,
+    finite, leaving_set, mean_exit, mean_exit_words, outwards, proved_entry,
 };
-use crate::values;
+use crate::document::{Document, Entries, Entry, Table, entries, rows};
+use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
+use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
-use physics::kinetics::exit::{Exit, ExitSettings};
+use physics::kinetics::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
-use physics::units::{duration, duration_to, si};
+use physics::units::{duration, duration_to, plain, si};
 
-/// Bounds of the mean exit time (s), those that are numbers.
-fn bounds(motion: &Motion, exit: &Exit) -> Option<[Option<f64>; 2]> {
-    let bounds = exit.bracket()?.map(|end| finite(end / motion.diffusion));
-    bounds[0].map(|_| bounds)
-}
-
-/// An exit as an object.
-pub fn exit_entry(asked: &ExitSettings, motion: &Motion, exit: &Exit) -> Value {
-    let finest = exit.finest();
-    let [time, bound] = exit.spread();
-    json!({
-        "diffusion_m2_s": motion.diffusion,
-        "mean_exit_s": exit.time() / motion.diffusion,
-        // Midway between the bounds, as the mesh is too coarse for it, or what the mesh has.
-        "mean_exit_midway": exit.midway.is_some(),
-        "mean_exit_bounds_s": bounds(motion, exit),
-        // Proved are the inequalities, not the integrals over cells.
-        "bounds_hold": exit.bracket().map(|_| "on the mesh"),
-        "bounds_leave_out": exit.bracket().map(|_| NOT_BOUNDED),
-        // Of the well about the start, apart from any mesh.
-        "proved": proved_entry(motion, exit.proved.as_ref()),
-        "exits": {"bound": finest.bound, "free": 1.0 - finest.bound},
-        "kt_J": asked.kt,
-        "drag_per_s": motion.drag,
-        "start": values::pose(&asked.start),
-        "basin_energy_J": asked.basin_energy,
-        "free_at_m": asked.free_at,
-        "way_out": exit.way.name(),
-        "mesh": {
-            "unknowns": finest.unknowns,
-            "mean_exit_spread": time,
-            "exits_spread": bound,
-            "of_basins": finite(finest.of_rims),
-            "error": finite(finest.error),
-        },
-    })
-}
-
-/// By how much the mean exit time may be off, relative, as far as meshes tell.
-fn error(exit: &Exit) -> f64 {
-    match (exit.midway, exit.bracket()) {
-        (Some(midway), Some([_, upper])) => upper / midway - 1.0,
-        _ => exit.spread()[0].max(exit.finest().error),
+/// What there is to know of an exit; and of moving tiles, where they were let go as well.
+pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
+    let finest = exit.found.finest();
+    let [x, y, theta] = exit.asked.start.to_array();
+    Document {
+        title: format!("Exit of {}", design.name),
+        answer: format!(
+            "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first \
+             in {} of all cases, free first in {}",
+            design.name,
+            duration(exit.mean(), known_digits(exit)),
+            percent(finest.bound),
+            percent(1.0 - finest.bound),
+        ),
+        remarks: vec![format!(
+            "(kT = {}, drag {} /s: D = {}; the mean exit time times D is {}; bound: U < {} in the \
+             basin of the bond or of one of its copies; free: centres {} apart)",
+            si(exit.asked.kt, "J", 4),
+            exit.drag,
+            si(exit.diffusion, "m²/s", 4),
+            area(exit.found.time()),
+            si(exit.asked.basin_energy, "J", 4),
+            si(exit.asked.free_at, "m", 4),
+        )],
+        entries: found_entries(design, exit, check),
+        pictures: vec![by_mesh(exit).into()],
+        notes: notes(exit, check),
+        origin: format!("{} magnets; {SCOPE}", design.interaction.model.name()),
+        ..Document::default()
     }
 }
 
-/// An exit in a few lines.
-pub fn exit_summary(design: &Design, asked: &ExitSettings, motion: &Motion, exit: &Exit) -> String {
-    let finest = exit.finest();
-    let [time, bound] = exit.spread().map(|spread| 100.0 * spread);
-    let mean = exit.time() / motion.diffusion;
-    let share = 100.0 * finest.bound;
-    let [x, y, theta] = asked.start.to_array();
-    let mut text = format!(
-        "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first in \
-         {share:.1} % of all cases, free first in {:.1} %\n",
-        design.name,
-        duration(mean, digits(error(exit))),
-        100.0 - share,
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+fn known_digits(exit: &PoseExit) -> usize {
+    digits(exit.mean(), exit.error(), [None; 2])
+}
+
+// One line an entry.
+#[rustfmt::skip]
+fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Entries {
+    let (asked, found, finest) = (&exit.asked, &exit.found, exit.found.finest());
+    let [time, bound] = found.spread();
+    let bounds = found.bracket();
+    entries(design)
+        .fact("diffusion_m2_s", "", exit.diffusion)
+        .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(told_bounds(exit).unwrap_or_default())
+        // Midway between the bounds, as the mesh is too coarse for it, or what the mesh has.
+        .fact("mean_exit_midway", "", found.midway.is_some())
+        .fact("mean_exit_bounds_s", "", exit.bounds())
+        // Proved are the inequalities, not the integrals over cells.
+        .data("bounds_hold", bounds.map(|_| "on the mesh"))
+        .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
+        // Of the well about the start, apart from any mesh.
+        .data("proved", proved_entry(exit.diffusion, found.proved.as_ref()))
+        .group("exits", Entries::default()
+            .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("share of all cases")
+            .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("share of all cases"))
+        .fact("kt_J", "kT", asked.kt).noted(format!("drag {} /s", exit.drag))
+        .fact("drag_per_s", "", exit.drag)
+        .fact("start", "start", asked.start).noted("x (mm), y (mm), theta")
+        .fact("basin_energy_J", "bound below", asked.basin_energy).digits(4)
+        .fact("free_at_m", "free", asked.free_at).digits(4).noted("centres so far apart")
+        .fact("way_out", "", found.way.name())
+        .group("mesh", Entries::default()
+            .fact("unknowns", "", finest.unknowns)
+            .fact("mean_exit_spread", "", time)
+            .fact("exits_spread", "", bound)
+            .fact("of_basins", "", finest.of_rims)
+            .fact("error", "", finest.error))
+        .table(meshes(exit))
+        .more(check.map(|runs| Entry::Data("check", check_entry(exit, runs))))
+}
+
+#[rustfmt::skip]
+fn meshes(exit: &PoseExit) -> Table {
+    rows(&exit.found.meshes)
+        .column("unknowns", "unknowns", "of the mesh, each finer than the last", |mesh| mesh.unknowns)
+        .column("mean_exit_s", "mean exit time", "", |mesh| mesh.time / exit.diffusion)
+        .column("bound", "bound first", "share of all cases", |mesh| mesh.bound).viewed(|mesh| percent(mesh.bound))
+        .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| percent(mesh.error))
+        .column("of_basins", "of basins", "what of it is due to the basin being made of whole cells", |mesh| mesh.of_rims)
+            .viewed(|mesh| percent(mesh.of_rims))
+        .table("meshes").titled("meshes", "").in_file("meshes")
+}
+
+/// The mean exit time over the meshes' unknowns, with its bounds.
+fn by_mesh(exit: &PoseExit) -> Chart {
+    let unknowns = |mesh: &MeshExit| mesh.unknowns as f64;
+    let line = |of: &dyn Fn(&MeshExit) -> f64| -> Vec<[f64; 2]> {
+        let meshes = exit.found.meshes.iter();
+        meshes.map(|mesh| [unknowns(mesh), of(mesh)]).collect()
+    };
+    let ends = exit.bounds().unwrap_or([f64::NAN; 2]);
+    let meshes = exit.found.meshes.iter();
+    let times = meshes.map(|mesh| mesh.time / exit.diffusion).chain(ends);
+    let times = times.filter(|time| time.is_finite());
+    let range = times.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], time| {
+        [low.min(0.9 * time), high.max(1.1 * time)]
+    });
+    let mut chart = Chart {
+        name: "meshes",
+        title: "Mean exit time on finer and finer meshes".to_owned(),
+        x: Dimension::new("unknowns", "unknowns of the mesh")
+            .logarithmic()
+            .marked(
+                [exit.found.meshes.first(), exit.found.meshes.last()]
+                    .into_iter()
+                    .flatten()
+                    .map(unknowns),
+            ),
+        y: Dimension::new("mean_exit_s", "mean exit time").within(range),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with(
+        "on the mesh",
+        Look::Line,
+        line(&|mesh| mesh.time / exit.diffusion),
     );
-    let _ = writeln!(
-        text,
-        "  kT = {}, drag {} /s: D = {}; the mean exit time times D is {}",
-        si(asked.kt, "J", 4),
-        motion.drag,
-        si(motion.diffusion, "m²/s", 4),
-        area(exit.time()),
-    );
-    let _ = writeln!(
-        text,
-        "  bound: U < {} in the basin of the bond or of one of its copies; free: centres {} apart",
-        si(asked.basin_energy, "J", 4),
-        si(asked.free_at, "m", 4),
-    );
-    let _ = writeln!(
-        text,
-        "  the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the shares;\n  the basin, made of whole cells, is off by an estimated {:.1} % of its capacity;\n  \
-         estimated error of flows {:.1} %",
+    for (name, end) in ["lower bound", "upper bound"].into_iter().zip(ends) {
+        if end.is_finite() {
+            chart = chart.with(name, Look::Dashed, line(&|_| end));
+        }
+    }
+    chart
+}
+
+/// The bounds of the mean exit time.
+fn told_bounds(exit: &PoseExit) -> Option<String> {
+    let [lower, upper] = exit.bounds()?;
+    let least = duration_to(lower, 3, f64::floor);
+    Some(match upper.is_finite() {
+        true => {
+            let most = duration_to(upper, 3, f64::ceil);
+            format!(
+                "between {least} and {most} ({} apart)",
+                apart([lower, upper])
+            )
+        }
+        false => format!("{least} at least; {ONE_SIDED}"),
+    })
+}
+
+fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
+    let finest = exit.found.finest();
+    let [time, bound] = exit.found.spread().map(|spread| 100.0 * spread);
+    let mut notes = vec![format!(
+        "the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
+         points in the shares; the basin, made of whole cells, is off by an estimated {:.1} % of its \
+         capacity; estimated error of flows {:.1} %",
         finest.unknowns,
         100.0 * finest.of_rims,
         100.0 * finest.error,
-    );
-    if exit.midway.is_some() {
-        let _ = writeln!(
-            text,
-            "  this mesh has {}, which is not between the bounds below: what is told lies midway \
-             between them",
-            duration(finest.time / motion.diffusion, 2),
-        );
+    )];
+    if exit.found.midway.is_some() {
+        notes.push(format!(
+            "this mesh has {}, which is not between the bounds below: what is told lies midway between \
+             them",
+            duration(finest.time / exit.diffusion, 2),
+        ));
     }
-    if exit.way != Way::Open {
-        let _ = writeln!(text, "  {}", exit.way.told());
+    if exit.found.way != Way::Open {
+        notes.push(exit.found.way.told().to_owned());
     }
-    let _ = match bounds(motion, exit) {
-        Some([Some(lower), None]) => writeln!(
-            text,
-            "  from the well about the start the mean exit time is {} at least; {ONE_SIDED};\n  \
-             {ON_THE_MESH}",
-            duration_to(lower, 3, f64::floor),
-        ),
-        Some([Some(lower), Some(upper)]) => writeln!(
-            text,
-            "  from the well about the start the mean exit time is between {} and {} ({} apart);\n  \
-             {ON_THE_MESH}",
-            duration_to(lower, 3, f64::floor),
-            duration_to(upper, 3, f64::ceil),
-            apart([lower, upper]),
-        ),
-        _ => writeln!(text, "  {NO_BOUNDS}"),
-    };
-    let is_asked = asked.certify.is_some_and(|certify| certify.pieces > 0);
-    let _ = match &exit.proved {
-        Some(proved) => writeln!(
-            text,
-            "  {PROVED}:\n  while it is in the well about the start, U < {}, a tile sets out for an end, not \
-             to\n  come back before, {};\n  from where it last \
-             leaves the well the mean exit time is {}",
-            si(proved.below, "J", 4),
-            proved_words(leaving_set(motion, proved)),
-            mean_exit_words(motion, proved),
-        ),
-        None if is_asked => writeln!(text, "  {NOT_PROVED}"),
-        None => Ok(()),
-    };
-    text.push_str(SCOPE);
-    text
+    notes.push(match told_bounds(exit) {
+        Some(told) => {
+            format!("from the well about the start the mean exit time is {told}; {ON_THE_MESH}")
+        }
+        None => NO_BOUNDS.to_owned(),
+    });
+    match &exit.found.proved {
+        Some(proved) => {
+            let leaving = leaving_set(exit.diffusion, proved);
+            let [low, high] = outwards(leaving).map(|end| plain(end, 3));
+            notes.push(format!(
+                "{PROVED}: while it is in the well about the start, U < {}, a tile sets out for an \
+                 end, not to come back before, {low} to {high} times per second ({} apart); from where \
+                 it last leaves the well the mean exit time is {}",
+                si(proved.below, "J", 4),
+                apart(leaving),
+                mean_exit_words(mean_exit(exit.diffusion, proved)),
+            ));
+        }
+        None if exit.is_to_be_proved() => notes.push(NOT_PROVED.to_owned()),
+        None => {}
+    }
+    notes.push(SCOPE.to_owned());
+    notes.extend(check.into_iter().flat_map(|runs| check_notes(exit, runs)));
+    notes
 }
 
-/// What moving tiles say of an exit, as an object; ratios are theirs over the overdamped motion's.
-pub fn check_entry(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> Value {
-    let mean = exit.time() / motion.diffusion;
-    let [bound, free] = runs.ends;
-    let [warmth, of_warmth] = runs.warmth;
+/// What moving tiles say of an exit; ratios are theirs over the overdamped motion's.
+fn check_entry(exit: &PoseExit, runs: &ExitRuns) -> Value {
+    let ([bound, free], [time, error], [warmth, of_warmth]) = (runs.ends, runs.time, runs.warmth);
     json!({
         "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
         // Where some were given up the mean is longer than this.
-        "mean_exit_s": finite(runs.time[0]),
-        "standard_error_s": finite(runs.time[1]),
-        "ratio": finite(runs.time[0] / mean),
-        "ratio_error": finite(runs.time[1] / mean),
+        "mean_exit_s": finite(time),
+        "standard_error_s": finite(error),
+        "ratio": finite(time / exit.mean()),
+        "ratio_error": finite(error / exit.mean()),
         "bound": finite(bound as f64 / (bound + free) as f64),
         "kinetic_over_kt": finite(warmth),
         "kinetic_over_kt_error": finite(of_warmth),
-        "has_temperature": !is_cold(runs),
+        "has_temperature": runs.has_temperature(),
     })
 }
 
-/// Moving tiles have no temperature where their kinetic energy is below that of kT by more than this
-/// share, ...
-const WARM: f64 = 0.1;
-/// ... and by more than so many standard errors.
-const SURE: f64 = 3.0;
-
-/// Whether knocks take energy that shaking does not give back.
-fn is_cold(runs: &ExitRuns) -> bool {
-    let [warmth, error] = runs.warmth;
-    warmth < 1.0 - WARM && warmth < 1.0 - SURE * error
-}
-
-/// What moving tiles say of an exit, in a few lines.
-pub fn check_summary(motion: &Motion, exit: &Exit, runs: &ExitRuns) -> String {
-    let mean = exit.time() / motion.diffusion;
-    let [bound, free] = runs.ends;
-    let [time, error] = runs.time;
+fn check_notes(exit: &PoseExit, runs: &ExitRuns) -> Vec<String> {
+    let ([bound, free], [time, error], [warmth, of_warmth]) = (runs.ends, runs.time, runs.warmth);
     let ended = bound + free;
-    let is_least = runs.given_up > 0;
-    let mut text = format!(
-        "check: {} rigid bodies with inertia take {}{} +- {} on average, {}{:.2} +- {:.2} times as \
-         long",
-        ended + runs.given_up,
-        if is_least { "more than " } else { "" },
-        duration(time, 3),
-        duration(error, 2),
-        if is_least { "more than " } else { "" },
-        time / mean,
-        error / mean,
-    );
-    let _ = match ended {
-        0 => writeln!(text),
-        _ => writeln!(
-            text,
+    let least = match runs.given_up {
+        0 => "",
+        _ => "more than ",
+    };
+    let first = match ended {
+        0 => String::new(),
+        _ => format!(
             "; bound first in {:.0} % ({bound} of {ended})",
-            100.0 * bound as f64 / ended as f64,
+            100.0 * bound as f64 / ended as f64
         ),
     };
-    if is_least {
-        let _ = writeln!(
-            text,
-            "  {} were given up under way, and count with the time until then",
+    let mut notes = vec![format!(
+        "check: {} rigid bodies with inertia take {least}{} +- {} on average, {least}{:.2} +- {:.2} \
+         times as long{first}",
+        ended + runs.given_up,
+        duration(time, 3),
+        duration(error, 2),
+        time / exit.mean(),
+        error / exit.mean(),
+    )];
+    if runs.given_up > 0 {
+        notes.push(format!(
+            "{} were given up under way, and count with the time until then",
             runs.given_up
-        );
+        ));
     }
-    let [warmth, error] = runs.warmth;
-    let _ = writeln!(
-        text,
-        "  their kinetic energy is {warmth:.2} +- {error:.2} times that of kT{}",
-        match is_cold(runs) {
-            true =>
-                ": knocks take energy that the shaking does not give back, so no temperature exists",
-            false => "",
-        },
-    );
-    if motion.drag < OVERDAMPED {
-        let _ = writeln!(
-            text,
-            "  a drag of {} /s lets tiles glide: overdamped rates are not theirs, and the ratio says \
-             by how much",
-            motion.drag
-        );
+    let lost = match runs.has_temperature() {
+        true => "",
+        false => {
+            ": knocks take energy that the shaking does not give back, so no temperature exists"
+        }
+    };
+    notes.push(format!(
+        "their kinetic energy is {warmth:.2} +- {of_warmth:.2} times that of kT{lost}"
+    ));
+    if exit.drag < OVERDAMPED {
+        notes.push(format!(
+            "a drag of {} /s lets tiles glide: overdamped rates are not theirs, and the ratio says by \
+             how much",
+            exit.drag
+        ));
     }
-    text
+    notes
+}
+
+/// An area with four digits; small and large ones with a power of ten, for m² takes no prefix well.
+fn area(value: f64) -> String {
+    if (1e-4..1e4).contains(&value) {
+        format!("{value:.4} m²")
+    } else {
+        format!("{value:.3e} m²")
+    }
 }

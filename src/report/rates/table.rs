@@ -1,208 +1,401 @@
 //! Rates between states and `free`.
 
-use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-use super::{Motion, NOT_BOUNDED, Place, digits, digits_between, finite, proved_entry};
-use crate::values;
+use super::{
+    FAR, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, digits,
+    finite, leaving_set, mean_exit, mean_exit_ends, outwards, proved_entry,
+};
+use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
+use crate::plots::chart::{Chart, Dimension, Look};
+use crate::plots::committor::committor;
 use jobs::design::Design;
+use jobs::rates::{AtKt, RatedState, StateRates};
 use physics::kinetics::Way;
-use physics::kinetics::chain::Chain;
+use physics::kinetics::bond::LEAST_DEPTH;
 use physics::kinetics::map::Map;
-use physics::kinetics::rates::{Leaving, RateSettings, Rates};
+use physics::kinetics::rates::RateBounds;
+use physics::units::{duration, plain, si};
 
-/// Rates between states and `free`.
-pub struct Table<'a> {
-    /// The design.
-    pub design: &'a Design,
-    /// What was asked.
-    pub asked: &'a RateSettings,
-    /// The motion.
-    pub motion: &'a Motion,
-    /// The states, in the order of the basins asked for.
-    pub places: &'a [Place],
-    /// What was found.
-    pub found: &'a Rates,
+/// Meshes that differ by this share say nothing of a rate.
+const UNSETTLED: f64 = 0.5;
+/// Upper bounds that are so many times too high by what lies outside of basins are told why.
+const MOSTLY: f64 = 1.5;
+
+/// What there is to know of rates, which were found with this seed of all random numbers.
+pub fn document<'a>(design: &'a Design, found: &'a StateRates, seed: u64) -> Document<'a> {
+    Document {
+        title: format!("Rates of {}", design.name),
+        answer: format!("{}: {}", design.name, headline(design, found)),
+        remarks: vec![format!(
+            "(kT = {}, drag {} /s: D = {})",
+            si(found.asked.kt, "J", 4),
+            found.drag,
+            si(found.diffusion, "m²/s", 4),
+        )],
+        entries: found_entries(design, found, seed),
+        pictures: pictures(design, found),
+        notes: notes(found),
+        origin: format!(
+            "{} magnets; overdamped motion at drag {} per s, reflected by contact",
+            design.interaction.model.name(),
+            found.drag,
+        ),
+        ..Document::default()
+    }
 }
 
-impl Table<'_> {
-    pub(crate) fn count(&self) -> usize {
-        self.places.len() + 1
+fn headline(design: &Design, found: &StateRates) -> String {
+    let free = found.states.len();
+    let [width, height] = design.space().half_size.map(|half| 2.0 * half);
+    match (found.known_rate(free, 0), found.known_rate_out(0)) {
+        (Some(0.0), Some(0.0)) => {
+            "no tile ever binds or comes off: contact blocks every way".to_owned()
+        }
+        (Some(on), Some(off)) => format!(
+            "free tiles bind at {} and the bond is left at {}, on a table of {width} by {height} m",
+            per_second(on, digits_of(found, free, 0)),
+            per_second(off, digits_out(found, 0)),
+        ),
+        _ => "no way into the bond was found, so that nothing is known of how fast tiles bind or come \
+              off"
+            .to_owned(),
     }
+}
 
-    pub(crate) fn name(&self, place: usize) -> &str {
-        self.places.get(place).map_or("free", |place| &place.name)
+fn per_second(rate: f64, digits: usize) -> String {
+    format!("{} /s", plain(rate, digits))
+}
+
+/// A share of all, to three digits: 1 - 1e-9 is all but nothing, and no more is known of it.
+fn share(part: f64) -> String {
+    format!("{} %", plain(100.0 * part, 3))
+}
+
+/// How many digits of a rate are known, as far as meshes tell.
+fn digits_of(found: &StateRates, from: usize, to: usize) -> usize {
+    let bounds = found.bounds(from, to);
+    digits(found.rate(from, to), found.error(from, to), bounds)
+}
+
+/// How many digits of the rate out of a place are known: as many as of the largest that it is made of.
+fn digits_out(found: &StateRates, from: usize) -> usize {
+    let others = (0..found.count()).filter(|to| *to != from);
+    let largest = others.max_by(|a, b| found.rate(from, *a).total_cmp(&found.rate(from, *b)));
+    let error = largest.map_or(1.0, |to| found.error(from, to));
+    digits(found.rate_out(from), error, found.bounds_out(from))
+}
+
+/// A bound from below, or from above, rounded outwards.
+fn told_end(end: Option<f64>, is_upper: bool) -> String {
+    end.map_or("-".to_owned(), |end| {
+        per_second(outwards([end; 2])[usize::from(is_upper)], 3)
+    })
+}
+
+/// The bounds of the rate out of a place.
+fn told_bounds(found: &StateRates, place: usize) -> String {
+    match found.bounds_out(place) {
+        [_, Some(0.0)] => "contact blocks every way".to_owned(),
+        [Some(lower), Some(upper)] => {
+            let [lower, upper] = outwards([lower, upper]).map(|end| plain(end, 3));
+            format!("{lower} to {upper} /s")
+        }
+        [_, upper @ Some(_)] => format!("up to {}", told_end(upper, true)),
+        _ => "-".to_owned(),
     }
+}
 
-    /// The map of the committor, where tiles come to the bond at all.
-    pub(crate) fn map(&self) -> Option<&Map> {
-        let bind = self.known_rate(self.places.len(), 0)?;
-        self.found.map.as_ref().filter(|_| bind > 0.0)
+/// What of the landscape a place is.
+fn told_set(found: &StateRates, place: usize) -> String {
+    match found.states.get(place) {
+        Some(state) => below(state.below),
+        None => format!("{} apart", si(found.asked.free_at, "m", 4)),
     }
+}
 
-    /// Rate (1/s) from one place to another, where anything is known of it.
-    pub(crate) fn known_rate(&self, from: usize, to: usize) -> Option<f64> {
-        let is_known = self.found.is_known(from, to);
-        is_known.then(|| self.rate(from, to))
-    }
+fn below(limit: f64) -> String {
+    format!("U < {}", si(limit, "J", 4))
+}
 
-    /// Rate (1/s) out of a place, where anything is known of it.
-    pub(crate) fn known_rate_out(&self, from: usize) -> Option<f64> {
-        let is_known = self.found.is_known_out(from);
-        is_known.then(|| self.rate_out(from))
-    }
+// One line an entry.
+#[rustfmt::skip]
+fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
+    let (finest, free, error) = (found.found.finest(), found.states.len(), found.found.error());
+    let bounds = found.found.bounds.as_ref();
+    let of_basins = finite(finest.of_rims).filter(|_| error.is_finite());
+    entries(design)
+        .data("seed", seed)
+        .fact("leaving_per_s", "the bond is left", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_bounds(found, 0)).in_view()
+        .fact("binding_per_s", "free tiles bind", found.known_rate(free, 0)).digits(digits_of(found, free, 0)).noted("by any way").in_view()
+        .fact("diffusion_m2_s", "", found.diffusion)
+        .fact("kt_J", "kT", found.asked.kt).noted(format!("drag {} /s", found.drag))
+        .fact("drag_per_s", "", found.drag)
+        .fact("free_at_m", "free", found.asked.free_at).noted("centres so far apart").in_view()
+        .table(places(found))
+        .table(pairs(found))
+        // Proved are the inequalities, not the integrals over cells.
+        .data("bounds_hold", bounds.map(|_| "on the mesh"))
+        .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
+        .group("mesh", Entries::default()
+            .fact("unknowns", "", finest.unknowns)
+            .fact("of_basins", "", of_basins)
+            .fact("error", "", error))
+        .more(found.is_to_be_proved().then(|| Entry::Table(proofs(found))))
+        .more((!found.over_kt.is_empty()).then(|| Entry::Data("over_kT", by_kt(found))))
+        .more((!found.over_kt.is_empty()).then(|| Entry::Table(courses(found))))
+        .more(found.map().map(|map| Entry::Table(squares(map))))
+}
 
-    /// A share of time spent in or about a place, where anything is known of it: a basin without a way
-    /// may be one between contacts that the mesh has no cell in.
-    pub(crate) fn known_share(&self, place: usize, part: f64) -> Option<f64> {
-        let is_known = place == self.places.len() || self.found.ways[place] != Way::Lost;
-        is_known.then_some(part)
-    }
-
-    /// The probability that one place is the first that is reached from another.
-    pub(crate) fn first(&self, from: usize, to: usize) -> Option<f64> {
-        finite(self.known_rate(from, to)? / self.known_rate_out(from)?)
-    }
-
-    /// Rate (1/s) from one place to another, 0 where no way is known.
-    pub(crate) fn rate(&self, from: usize, to: usize) -> f64 {
-        self.found.finest().rates[from][to] * self.motion.diffusion
-    }
-
-    pub(crate) fn rate_out(&self, from: usize) -> f64 {
-        (0..self.count()).map(|to| self.rate(from, to)).sum()
-    }
-
-    /// How many digits of a rate are known, as far as meshes tell; or as many as keep it between its
-    /// bounds.
-    pub(crate) fn digits(&self, from: usize, to: usize) -> usize {
-        let spread = finite(self.found.spread(from, to)).unwrap_or(0.0);
-        let known = digits(spread.max(self.found.error()));
-        digits_between(self.rate(from, to), known, self.bounds(from, to))
-    }
-
-    /// How many digits of the rate out of a place are known: as many as of the largest that it is made
-    /// of.
-    pub(crate) fn digits_out(&self, from: usize) -> usize {
-        let others = (0..self.count()).filter(|to| *to != from);
-        let largest = others.max_by(|a, b| self.rate(from, *a).total_cmp(&self.rate(from, *b)));
-        let known = largest.map_or(1, |to| self.digits(from, to));
-        digits_between(self.rate_out(from), known, self.bounds_out(from))
-    }
-
-    /// Bounds (1/s) of the rate from one place to another, where there are any.
-    pub(crate) fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
-        self.scaled(
-            self.found
-                .bounds
-                .as_ref()
-                .map(|bounds| bounds.rates[from][to]),
-        )
-    }
-
-    /// Bounds (1/s) of the rate out of a place, where there are any.
-    pub(crate) fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
-        self.scaled(
-            self.found
-                .bounds
-                .as_ref()
-                .map(|bounds| bounds.leaving[from]),
-        )
-    }
-
-    /// Bounds (1/s), those that say anything: of what is 0 from below none is known, unless it is
-    /// 0 altogether.
-    fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
-        let scaled = |end: f64| finite(end * self.motion.diffusion);
-        let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
-        [
-            lower.filter(|lower| *lower > 0.0 || upper == Some(0.0)),
-            upper,
-        ]
-    }
-
-    /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
-    /// does not count.
-    pub(crate) fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
-        let rate = |i: usize, j: usize| self.rate(i, j);
-        let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
-        chain.mean_times(&[to])[from]
-    }
-
-    /// Every two places, from and to.
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
-        let count = self.count();
-        (0..count).flat_map(move |i| (0..count).filter(move |j| *j != i).map(move |j| (i, j)))
-    }
-
-    /// All of it as an object.
-    pub fn entry(&self) -> Value {
-        let finest = self.found.finest();
-        let place = |number: usize| {
-            let own = self.places.get(number);
-            json!({
-                "name": self.name(number),
-                "pose": own.map(|place| values::pose(&place.at)),
-                "energy_J": own.map(|place| place.energy),
-                "basin_energy_J": own.map(|place| place.below),
-                "free_at_m": own.is_none().then_some(self.asked.free_at),
-                "copies": own.map(|place| place.copies),
-                "occupation": self.known_share(number, finest.occupation[number]),
-                "inside": self.known_share(number, self.found.inside[number]),
-                "way_out": self.found.ways.get(number).map(|way| way.name()),
-                "mean_exit_s": self.known_rate_out(number).and_then(|rate| finite(1.0 / rate)),
-                "leaving_per_s": self.known_rate_out(number),
-                "leaving_bounds_per_s": self.bounds_out(number),
-                "proved": own.map(|_| self.proved_entry(number)),
-            })
-        };
-        let rate = |(from, to): (usize, usize)| {
-            let [lower, upper] = self.bounds(from, to);
-            json!({
-                "from": self.name(from),
-                "to": self.name(to),
-                "lower_per_s": lower,
-                "value_per_s": self.known_rate(from, to),
-                "upper_per_s": upper,
-                "mean_first_passage_s": finite(self.mean_first_passage(from, to)),
-                "first": self.first(from, to),
-                "spread": finite(self.found.spread(from, to)),
-            })
-        };
-        json!({
-            "diffusion_m2_s": self.motion.diffusion,
-            "kt_J": self.asked.kt,
-            "drag_per_s": self.motion.drag,
-            "places": (0..self.count()).map(place).collect::<Vec<_>>(),
-            "rates": self.pairs().map(rate).collect::<Vec<_>>(),
-            // Proved are the inequalities, not the integrals over cells.
-            "bounds_hold": self.found.bounds.as_ref().map(|_| "on the mesh"),
-            "bounds_leave_out": self.found.bounds.as_ref().map(|_| NOT_BOUNDED),
-            "mesh": {
-                "unknowns": finest.unknowns,
-                "of_basins": finite(finest.of_rims).filter(|_| self.found.error().is_finite()),
-                "error": finite(self.found.error()),
-            },
-        })
-    }
-
-    /// What is proved of how a basin is left.
-    pub(crate) fn proved(&self, place: usize) -> Option<&Leaving> {
-        self.found.proved[place].as_ref()
-    }
-
-    fn proved_entry(&self, place: usize) -> Value {
-        let proved = self.proved(place);
-        let mut entry = proved_entry(self.motion, proved.map(|proved| &proved.capacity));
-        if let Some(proved) = proved {
-            entry["end_below_J"] = json!(proved.end_below);
+// One line a column: what files and people call it, what it means, its value.
+#[rustfmt::skip]
+fn places(found: &StateRates) -> Table {
+    let of = |get: fn(&RatedState) -> f64| move |k: &usize| found.states.get(*k).map(get);
+    let shared = |part: fn(&StateRates, usize) -> f64| move |k: &usize| found.known_share(*k, part(found, *k));
+    let told = |part: Option<f64>| part.map_or("-".to_owned(), share);
+    let occupation = shared(|it, k| it.found.finest().occupation[k]);
+    let inside = shared(|it, k| it.found.inside[k]);
+    let proved = |k: &usize| {
+        let leaving = found.proved(*k);
+        let mut entry = proved_entry(found.diffusion, leaving.map(|it| &it.capacity));
+        if let Some(leaving) = leaving {
+            entry["end_below_J"] = json!(leaving.end_below);
         }
         entry
-    }
+    };
+    rows(0..found.count())
+        .column("name", "place", "", |k| found.name(*k)).without_csv()
+        .column("place", "", "", |k| found.name(*k)).in_csv()
+        .column("copies", "copies", "states that symmetries make of it", |k| found.states.get(*k).map(|it| it.copies))
+        .column("occupation", "share of all time", "what lies between places is shared out by committors", occupation)
+            .viewed(move |k| told(occupation(k)))
+        .column("energy_J", "energy", "of the state", of(|it| it.energy)).digits(4)
+        .column("basin_energy_J", "", "", of(|it| it.below)).in_json()
+        .column("basin_J", "", "", of(|it| it.below)).in_csv()
+        .column("set", "its set", "the configurations that the place is made of", |k| told_set(found, *k)).in_view()
+        .column("free_at_m", "", "", |k| (*k == found.states.len()).then_some(found.asked.free_at)).in_data()
+        .column("inside", "inside alone", "share of all time that is spent in the set itself", inside)
+            .viewed(move |k| told(inside(k)))
+        .column("pose", "", "", |k| found.states.get(*k).map(|it| it.at)).in_json()
+        .column("way_out", "", "", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
+        .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
+        .column("leaving_per_s", "is left", "rate out of it for any other place", |k| found.known_rate_out(*k))
+            .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
+        .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
+        .column("bounds", "bounds", "between which that rate lies", |k| told_bounds(found, *k)).in_view()
+        .column("proved", "", "", proved).in_json()
+        .table("places").titled("places", "").in_file("occupation")
+}
 
-    /// Whether a proof was asked for.
-    pub(crate) fn is_to_be_proved(&self) -> bool {
-        let certify = self.asked.certify;
-        certify.is_some_and(|certify| certify.pieces > 0)
+#[rustfmt::skip]
+fn pairs(found: &StateRates) -> Table {
+    let bound = |end: usize| move |(i, j): &(usize, usize)| found.bounds(*i, *j)[end];
+    let [lower, upper] = [0, 1].map(bound);
+    let passage = |(i, j): &(usize, usize)| finite(found.mean_first_passage(*i, *j));
+    let limit = |k: usize| found.states.get(k).map(|it| it.below);
+    let hold = found.found.bounds.as_ref().map(|_| "on the mesh");
+    rows(found.pairs())
+        .column("from", "from", "", |(i, _)| found.name(*i))
+        .column("to", "to", "", |(_, j)| found.name(*j))
+        .column("lower_per_s", "lower bound", "of the rate", lower).viewed(move |row| told_end(lower(row), false))
+        .column("value_per_s", "rate", "", |(i, j)| found.known_rate(*i, *j))
+            .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
+        .column("upper_per_s", "upper bound", "of the rate", upper).viewed(move |row| told_end(upper(row), true))
+        .column("spread", "", "by how much it differs on the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
+        .column("first", "comes first", "share of all that leave for which it is the next place", |(i, j)| found.first(*i, *j)).share()
+        .column("mean_first_passage_s", "mean first passage", "time from one to the other, by whatever way", passage)
+            .viewed(move |row| passage(row).map_or("-".to_owned(), |time| duration(time, digits_of(found, row.0, row.1))))
+        .column("from_basin_J", "", "", move |(i, _)| limit(*i)).in_csv()
+        .column("to_basin_J", "", "", move |(_, j)| limit(*j)).in_csv()
+        .column("free_at_m", "", "", |_| found.asked.free_at).in_csv()
+        .column("bounds_hold", "", "", move |_| hold).in_csv()
+        .table("rates").titled("rates", "").in_file("rates")
+}
+
+/// What is proved of how basins are left, beside what the mesh has.
+#[rustfmt::skip]
+fn proofs(found: &StateRates) -> Table {
+    let proved = |k: &usize| found.proved(*k);
+    let mean = move |k: &usize| proved(k).map(|it| mean_exit(found.diffusion, &it.capacity));
+    let leaving = move |k: &usize| proved(k).map(|it| leaving_set(found.diffusion, &it.capacity));
+    let told = |end: usize| move |k: &usize| mean(k).and_then(|ends| mean_exit_ends(ends)[end].clone()).unwrap_or("-".to_owned());
+    let on_mesh = |k: &usize| found.known_rate_out(*k).map(|rate| 1.0 / rate);
+    let others = |k: &usize| {
+        proved(k)?;
+        let others = (0..found.states.len()).filter(|other| other != k);
+        let limits = others.filter_map(|other| Some(crate::csv::number(found.proved(other)?.end_below)));
+        Some(limits.collect::<Vec<_>>().join(" "))
+    };
+    let is_known = (0..found.states.len()).any(|k| found.proved(k).is_some());
+    let note = match is_known {
+        true => format!(
+            "{PROVED}: mean time until a tile that leaves a basin for another or free tiles is there; \
+             no upper bound where it would be {FAR} times the lower one or more"
+        ),
+        false => NOT_PROVED.to_owned(),
+    };
+    rows(0..found.states.len())
+        .column("from", "from", "the basin that is left", |k| found.name(*k))
+        .column("set_below_J", "its set", "", move |k| proved(k).map(|it| it.capacity.below)).viewed(move |k| proved(k).map_or("-".to_owned(), |it| below(it.capacity.below)))
+        .column("others_below_J", "", "", others).in_data()
+        .column("free_at_m", "", "", |_| found.asked.free_at).in_data()
+        .column("mean_exit_lower_s", "proved: at least", "", move |k| mean(k).map(|it| it[0])).viewed(told(0))
+        .column("mesh", "on the mesh", "", on_mesh).viewed(move |k| on_mesh(k).map_or("-".to_owned(), |time| duration(time, digits_out(found, *k)))).without_csv()
+        .column("mean_exit_upper_s", "proved: at most", "", move |k| mean(k).map(|it| it[1])).viewed(told(1))
+        .column("sets_out_lower_per_s", "", "", move |k| leaving(k).map(|it| it[0])).in_data()
+        .column("sets_out_upper_per_s", "", "", move |k| leaving(k).map(|it| it[1])).in_data()
+        .column("end", "as an end", "its set where the others' proofs end in it", move |k| proved(k).map(|it| below(it.end_below))).in_view()
+        .table("proved").titled("proved", note).in_view().in_file("proved")
+}
+
+/// The rates out of states over kT, by the states' names.
+fn by_kt(found: &StateRates) -> Value {
+    let of = |rates: &[Option<f64>]| -> Value {
+        let named = found.states.iter().zip(rates);
+        let named = named.map(|(state, rate)| (state.name.clone(), json!(rate)));
+        named.collect()
+    };
+    let at = |at: &AtKt| {
+        let (leaving, corner) = (of(&at.leaving), of(&at.corner));
+        json!({"kT_J": at.kt, "leaving_per_s": leaving, "corner_leaving_per_s": corner})
+    };
+    found.over_kt.iter().map(at).collect()
+}
+
+#[rustfmt::skip]
+fn courses(found: &StateRates) -> Table {
+    let states = 0..found.states.len();
+    rows(found.over_kt.iter().flat_map(|at| states.clone().map(move |k| (at, k))))
+        .column("kT_J", "", "", |(at, _)| at.kt)
+        .column("from", "", "", |(_, k)| found.name(*k))
+        .column("leaving_per_s", "", "", |(at, k)| at.leaving[*k])
+        .column("corner_leaving_per_s", "", "", |(at, k)| at.corner[*k])
+        .table("over-kt").in_csv("over-kt")
+}
+
+/// The squares of a map that hold free configurations.
+#[rustfmt::skip]
+fn squares(map: &Map) -> Table {
+    rows((0..map.committor.len()).filter(|square| map.committor[*square].is_finite()))
+        .column("x_m", "", "", |square| map.middle(*square)[0])
+        .column("y_m", "", "", |square| map.middle(*square)[1])
+        .column("committor", "", "", |square| map.committor[*square])
+        .column("flux_x_per_m", "", "", |square| map.flux[*square][0])
+        .column("flux_y_per_m", "", "", |square| map.flux[*square][1])
+        .table("committor").in_csv("committor")
+}
+
+fn pictures<'a>(design: &'a Design, found: &'a StateRates) -> Vec<Drawing<'a>> {
+    let title = "How often the bond comes before free, and where the flux into it goes";
+    let map = found.map().map(|map| {
+        Drawing::new(title, move |sheet| {
+            committor(design, map, squares(map).csv(), sheet)
+        })
+    });
+    let mut rates_known = found.over_kt.iter().flat_map(|at| &at.leaving).flatten();
+    let is_left = rates_known.any(|rate| *rate > 0.0);
+    map.into_iter()
+        .chain(is_left.then(|| over_kt(found).into()))
+        .collect()
+}
+
+/// Rates out of each state over kT, both by their logarithms; the closed form dashed.
+fn over_kt(found: &StateRates) -> Chart {
+    let mut chart = Chart {
+        name: "rates",
+        title: "Rates out of states over kT".to_owned(),
+        x: Dimension::new("kT_J", "kT")
+            .logarithmic()
+            .marked(found.over_kt.iter().map(|at| at.kt)),
+        y: Dimension::new("leaving_per_s", "rate out").logarithmic(),
+        series: Vec::new(),
+        remark: "closed form: with the wells as corners".to_owned(),
+    };
+    for (k, state) in found.states.iter().enumerate() {
+        let line = |of: &dyn Fn(&AtKt) -> Option<f64>| -> Vec<[f64; 2]> {
+            let known = |at: &AtKt| Some([at.kt, of(at).filter(|rate| *rate > 0.0)?]);
+            found.over_kt.iter().filter_map(known).collect()
+        };
+        let (solved, closed) = (line(&|at| at.leaving[k]), line(&|at| at.corner[k]));
+        chart = chart
+            .with(format!("{} left", state.name), Look::Line, solved)
+            .in_colour(k)
+            .with(format!("{}, closed form", state.name), Look::Dashed, closed)
+            .in_colour(k);
     }
+    chart.series.retain(|series| !series.points.is_empty());
+    chart
+}
+
+fn notes(found: &StateRates) -> Vec<String> {
+    let mut notes = vec![of_meshes(found)];
+    let kt = found.asked.kt;
+    let shallow = found.states.iter();
+    let shallow = shallow.filter(|state| -state.energy < LEAST_DEPTH * kt);
+    notes.extend(shallow.map(|state| {
+        format!(
+            "{} is less than {LEAST_DEPTH} kT deep and holds nothing: these rates tell how often its \
+             set is passed through",
+            state.name
+        )
+    }));
+    let ways = found.states.iter().zip(&found.found.ways);
+    let ways = ways.filter(|(_, way)| **way != Way::Open);
+    notes.extend(ways.map(|(state, way)| format!("{}: {}", state.name, way.told())));
+    let is_blocked = |k: usize| found.bounds_out(k)[1] == Some(0.0);
+    match &found.found.bounds {
+        None => notes.push(NO_BOUNDS.to_owned()),
+        // That contact blocks every way is proved apart from any mesh.
+        Some(_) if (0..found.states.len()).all(is_blocked) => {}
+        Some(bounds) => notes.extend(of_bounds(found, bounds)),
+    }
+    notes.push(SCOPE.to_owned());
+    notes
+}
+
+fn of_meshes(found: &StateRates) -> String {
+    let spreads = found.pairs().map(|(i, j)| found.found.spread(i, j));
+    let worst = spreads.filter(|spread| spread.is_finite());
+    let worst = worst.fold(0.0, f64::max);
+    let unknowns = found.found.finest().unknowns;
+    let unsettled = match worst > UNSETTLED {
+        true => "; rates that differ that much are unknown: their spread stands in rates.csv",
+        false => "",
+    };
+    match found.found.error() {
+        error if error.is_finite() => format!(
+            "the two finest meshes ({unknowns} unknowns) differ by {} % at most; estimated error of \
+             flows {:.1} %{unsettled}",
+            plain(100.0 * worst, 2),
+            100.0 * error,
+        ),
+        _ => format!("nothing flows on the mesh ({unknowns} unknowns){unsettled}"),
+    }
+}
+
+fn of_bounds(found: &StateRates, bounds: &RateBounds) -> Vec<String> {
+    if !bounds.are_one_sided() {
+        let wells = found.states.iter().zip(&bounds.leaving);
+        let told = wells.map(|(state, ends)| format!("{} {}", state.name, apart(*ends)));
+        let told = told.collect::<Vec<_>>().join(", ");
+        return vec![format!(
+            "bounds of the rates out are apart by: {told}; {ON_THE_MESH}"
+        )];
+    }
+    // The first basin that has most of its occupation outside of it: upper bounds of rates that count
+    // the inside only say little then.
+    let shares = |k: usize| (found.found.inside[k], found.found.finest().occupation[k]);
+    let mut all = 0..found.states.len();
+    let mostly_outside = all.find(|k| MOSTLY * shares(*k).0 < shares(*k).1);
+    let told = mostly_outside.map(|k| {
+        let ((inside, all), name) = (shares(k), found.name(k));
+        format!(
+            "upper bounds count as {name}'s time what is spent inside its basin, {} of all, where its \
+             occupation is {}: how much of what lies between places is its own nothing bounds here",
+            share(inside),
+            share(all),
+        )
+    });
+    let reason = format!("{ONE_SIDED}; {ON_THE_MESH}");
+    told.into_iter().chain([reason]).collect()
 }

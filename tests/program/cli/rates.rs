@@ -57,7 +57,10 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
         (-0.03, 0.75)
     );
 
-    let text = stdout(&tilebind(&[&SLID[..], &["--drag", "100"]].concat()));
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("exit");
+    let more = ["--drag", "100", "--out", out.to_str().unwrap()];
+    let text = stdout(&tilebind(&[&SLID[..], &more].concat()));
     for told in [
         "paper-tile",
         "bound first",
@@ -67,6 +70,14 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
         "on the mesh",
     ] {
         assert!(text.contains(told), "{told} in\n{text}");
+    }
+    for name in [
+        "report.html",
+        "report.json",
+        "meshes.csv",
+        "pictures/meshes.png",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
     }
 }
 

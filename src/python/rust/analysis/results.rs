@@ -220,7 +220,7 @@ impl Analysis {
         certify: Option<f64>,
         prove: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked = kinetics::Asked {
+        let asked = tilebind::rates::Question {
             kt,
             drag,
             basin_energy,

@@ -1,16 +1,16 @@
 //! The states that rates are told of.
 
-use jobs::pipeline::Analysis;
+use crate::pipeline::Analysis;
 use physics::configuration::Configuration;
 use physics::kinetics::rates::Basin;
-use physics::landscape;
+use physics::landscape::Place;
 
 /// Energies that differ by less than this share are those of twins.
 const TWINS: f64 = 1e-6;
 
 /// A state with rates.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct RatedState {
     /// What people call it.
     pub name: String,
     /// The minimum.
@@ -23,7 +23,7 @@ pub struct Place {
     pub copies: usize,
 }
 
-impl Place {
+impl RatedState {
     /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
     /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
     /// Twins that do not hold apart from each other share the first one's basin.
@@ -60,7 +60,7 @@ impl Place {
             let given = basin_energy.filter(|_| kind.is_bond());
             passes.push(state.energy + barrier);
             held.push(Self {
-                name: inventory.name_of(landscape::Place::State(state.id)),
+                name: inventory.name_of(Place::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
                 below: given.unwrap_or(usual.below),
@@ -78,11 +78,11 @@ impl Place {
     /// Lowers basins, from the one of number `first` on, that reach over the pass (J) that another
     /// state leaves by.
     fn keep_apart(held: &mut [Self], passes: &[f64], first: usize) {
-        for (own, place) in held.iter_mut().enumerate().skip(first) {
+        for (own, state) in held.iter_mut().enumerate().skip(first) {
             let others = passes.iter().enumerate().filter(|(other, _)| *other != own);
             let lowest = others.map(|(_, pass)| *pass).fold(f64::INFINITY, f64::min);
-            if lowest > place.energy && lowest <= place.below {
-                place.below = Basin::of_state(place.at, place.energy, lowest - place.energy).below;
+            if lowest > state.energy && lowest <= state.below {
+                state.below = Basin::of_state(state.at, state.energy, lowest - state.energy).below;
             }
         }
     }

@@ -1,0 +1,67 @@
+//! Rates out of states over kT, and what corner wells in closed form say of them.
+
+use super::{StateRates, diffusion};
+use crate::design::Design;
+use physics::kinetics::corner;
+use physics::kinetics::rates::{RateSettings, Rates, rates};
+use physics::parallel;
+use physics::problem::Problem;
+
+/// kT over the one asked for.
+const SHAKINGS: [f64; 5] = [0.6, 0.8, 1.0, 1.3, 1.7];
+/// Meshes of pictures: the committors' relative error, and unknowns at most.
+const ROUGH: (f64, usize) = (0.04, 12_000);
+
+/// Rates out of states at one kT.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtKt {
+    /// kT (J).
+    pub kt: f64,
+    /// Out of each state (1/s), on a rough mesh; `None` where the states are none at this kT.
+    pub leaving: Vec<Option<f64>>,
+    /// The same capacities over the closed form of corner wells, see [`corner`]; `None` where contact
+    /// holds the tile in no such way. Ways to free have no pass, whose closed form it could take.
+    pub corner: Vec<Option<f64>>,
+}
+
+impl StateRates {
+    /// The rates out of states at some kT about the one asked for.
+    pub(super) fn at_other_kts(&self, design: &Design, problem: &Problem) -> Vec<AtKt> {
+        let energies = self.states.iter().map(|state| state.energy);
+        let lowest = energies.fold(f64::INFINITY, f64::min);
+        let at = |share: &f64| {
+            let kt = share * self.asked.kt;
+            let settings = RateSettings {
+                kt,
+                tolerance: ROUGH.0,
+                unknowns: ROUGH.1,
+                certify: None,
+                map: None,
+                ..self.asked.clone()
+            };
+            let diffusion = diffusion(design, kt, self.drag);
+            let found = match *share {
+                1.0 => Some(self.found.clone()),
+                _ => rates(problem, &settings).ok(),
+            };
+            let finest = found.as_ref().map(Rates::finest);
+            let rate = |state: usize| -> Option<f64> {
+                // Where no way was found nothing is known.
+                found.as_ref().filter(|found| found.is_known_out(state))?;
+                Some(finest?.rates[state].iter().sum::<f64>() * diffusion)
+            };
+            let by_corner = |state: usize| -> Option<f64> {
+                let own = &self.states[state];
+                let closed = corner::volume(problem, &own.at, kt)? * own.copies as f64;
+                let volume = finest?.volumes[state] * libm::exp((own.energy - lowest) / kt);
+                Some(rate(state)? * volume / closed)
+            };
+            AtKt {
+                kt,
+                leaving: (0..self.states.len()).map(rate).collect(),
+                corner: (0..self.states.len()).map(by_corner).collect(),
+            }
+        };
+        parallel::map(&SHAKINGS[..], at)
+    }
+}
