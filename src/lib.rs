@@ -100,8 +100,8 @@
 //! dependencies state; a compiler that old has not been tried.
 
 pub use jobs::{
-    Analysis, Design, Settings, assembly, calibration, comparison, design, docking, inspection,
-    output, pipeline, query, rates, sweep, workshop, yields,
+    Analysis, Design, Settings, assembly, bond, calibration, comparison, design, docking,
+    inspection, output, pipeline, query, rates, sweep, workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -1,13 +1,14 @@
 //! `tilebind bond`.
 
 use clap::Args;
-use tilebind::Settings;
+use tilebind::bond::held;
 use tilebind::kinetics::bond::Shaking;
-use tilebind::pipeline;
-use tilebind::report::bond::BondReport;
-use tilebind::report::json;
+use tilebind::report::bond::document;
+use tilebind::report::files::BOND;
+use tilebind::{Settings, pipeline};
 
-use super::options::{DesignOptions, PrintOptions, WorkOptions};
+use super::options::{DesignOptions, WorkOptions};
+use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
 
 /// How strongly bond and traps hold shaken tiles: depths, docking costs and ln K at kT
@@ -20,6 +21,7 @@ the moving tile. ln K is the depth less this cost: above 0 a pair is bound more 
 
 Examples:
   tilebind bond shapes/paper-tile.toml --kt 3e-3 --coverage 0.3
+  tilebind bond shapes/paper-tile.toml --kt 3e-3 --coverage 0.3 --out target/bond
   tilebind bond shapes/tab-20mm.toml --kt 3e-3 --coverage 0.3 --model cuboid --json")]
 pub struct BondCommand {
     #[command(flatten)]
@@ -37,25 +39,26 @@ pub struct BondCommand {
     work: WorkOptions,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 impl BondCommand {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
+        let output = self.results.output(&BOND, self.design.inputs(&design))?;
         self.work.use_threads()?;
-        let progress = self.print.progress();
+        let progress = self.results.progress();
         let settings = Settings::without_proofs(self.work.seed);
         let analysis = pipeline::analyse(&design, &settings, &progress);
         let shaking = Shaking {
             kt: self.kt,
             coverage: self.coverage,
         };
-        let found = BondReport::new(&design, &analysis.problem, &analysis.inventory, shaking);
-        let report = found.map_err(|error| Failure::Run(error.to_string()))?;
-        progress.finish();
-        let text = json::text(&report.json());
-        self.print.results(&text, || report.summary())
+        let found = (&*analysis.problem, &analysis.inventory);
+        let held = held(&design, found, shaking, output.is_some());
+        let held = held.map_err(|error| Failure::Run(error.to_string()))?;
+        self.results
+            .deliver(&document(&design, &held), output, &progress)
     }
 }

@@ -6,11 +6,12 @@
 //! | [`inspection`], [`workshop`] | a design at a glance; a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
-//! | [`docking`], [`rates`], [`yields`] | tiles sent towards each other; how fast shaken tiles bind and come off; what comes out of a shaken table |
+//! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
 
 pub mod assembly;
+pub mod bond;
 pub mod calibration;
 pub mod checksum;
 pub mod comparison;

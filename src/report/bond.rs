@@ -1,266 +1,209 @@
-//! How strongly the bond and the traps hold shaken tiles: for the terminal and for scripts.
+//! How strongly the bond and the traps hold shaken tiles.
 
-use std::fmt::Write;
+use serde_json::Value;
 
-use serde_json::{Value, json};
-
-use super::terminal::write_table;
-use super::values::{pose, positive_zero};
+use super::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
+use super::plots::chart::{Chart, Dimension, Look};
+use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
-use physics::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use physics::kinetics::bond::Docking;
 use physics::kinetics::well::NO_PLAY;
-use physics::landscape::Inventory;
-use physics::problem::Problem;
 use physics::units::si;
 
-/// What is said of a bond at one shaking.
-pub struct BondReport<'a> {
-    design: &'a Design,
-    shaking: Shaking,
-    /// The bond first, then the traps from the deepest on.
-    holds: Vec<Held>,
-    /// How many kinds of traps are too shallow to hold anything.
-    shallow: usize,
-    window: [Option<f64>; 2],
-    /// Whether the bond has play, but less than contact is known to.
-    is_too_cold: bool,
-}
-
-/// A state at one shaking.
-struct Held {
-    name: String,
-    pose: [f64; 3],
-    energy: f64,
-    copies: usize,
-    moving_copies: usize,
-    level: f64,
-    is_cut: bool,
-    docking: Docking,
-    /// With no more of the basin than lies below half its depth.
-    inner: Docking,
-    closed: Option<Docking>,
-}
-
-impl Held {
-    fn new(problem: &Problem, hold: &Hold, shaking: &Shaking) -> Self {
-        let basin = hold.well().basin();
-        Self {
-            name: hold.name.clone(),
-            pose: pose(&hold.configuration),
-            energy: hold.energy,
-            copies: hold.copies,
-            moving_copies: hold.moving_copies,
-            level: basin.level,
-            is_cut: basin.is_cut,
-            docking: hold.docking(shaking, TOLERANCE),
-            inner: hold.docking_below(shaking, hold.energy / 2.0, TOLERANCE),
-            closed: hold.closed_form(problem, shaking),
-        }
-    }
-
-    /// How far the closed form is off, where there are both.
-    fn closed_error(&self) -> Option<f64> {
-        let volume = self.docking.volume.value;
-        let closed = self.closed.filter(|_| volume > 0.0)?;
-        Some(closed.volume.value / volume - 1.0)
-    }
-
-    fn json(&self) -> Value {
-        let volume = self.docking.volume;
-        let closed = self.closed.map(|it| it.volume.value);
-        json!({
-            "state": self.name,
-            "pose": self.pose,
-            "energy_J": positive_zero(self.energy),
-            "copies": self.copies,
-            "moving_copies": self.moving_copies,
-            "depth_kT": self.docking.depth,
-            "docking_cost_kT": finite(self.docking.cost),
-            "ln_K": finite(self.docking.ln_k(1.0)),
-            "Z0_m2_rad": volume.value,
-            "Z0_error_m2_rad": volume.error,
-            // The basin: what can be reached from the state below this energy.
-            "basin_below_J": self.level,
-            "basin_cut": self.is_cut,
-            // What lies below half the state's depth alone: where it differs, K depends on what is
-            // counted as bound.
-            "docking_cost_half_depth_kT": finite(self.inner.cost),
-            "closed_form_Z0_m2_rad": closed,
-            "closed_form_error": self.closed_error(),
-        })
-    }
-
-    fn row(&self) -> [String; 7] {
-        [
-            self.name.clone(),
-            format!("x{}", self.copies),
-            si(self.energy, "J", 4),
-            format!("{:.2}", self.docking.depth),
-            number(self.docking.cost),
-            number(self.docking.ln_k(1.0)),
-            match self.closed_error() {
-                // It holds far below the depth only.
-                Some(error) if error.abs() < 10.0 => format!("{:+.1} %", 100.0 * error),
-                Some(_) => "useless".to_owned(),
-                None => "-".to_owned(),
-            },
-        ]
+/// What there is to know of how tiles are held.
+pub fn document<'a>(design: &Design, held: &Held) -> Document<'a> {
+    Document {
+        title: format!("Bond of {}", design.name),
+        answer: answer(design, held),
+        remarks: vec![window(held)],
+        entries: found_entries(design, held),
+        pictures: match held.over_kt.is_empty() {
+            true => Vec::new(),
+            false => vec![Drawing::from(over_kt(held))],
+        },
+        notes: notes(held),
+        origin: format!(
+            "{} magnets; kT is an effective energy of the shaking",
+            design.interaction.model.name()
+        ),
+        ..Document::default()
     }
 }
 
-impl<'a> BondReport<'a> {
-    /// Integrates over the bond and the traps of an inventory.
-    ///
-    /// # Errors
-    /// Where there is no bond.
-    pub fn new(
-        design: &'a Design,
-        problem: &Problem,
-        inventory: &Inventory,
-        shaking: Shaking,
-    ) -> Result<Self, BondError> {
-        let bond = Bond::new(problem, inventory)?;
-        let traps = traps(problem, inventory, shaking.kt);
-        let holds = std::iter::once(bond.hold()).chain(&traps);
-        Ok(Self {
-            design,
-            shaking,
-            shallow: inventory.kinds().count() - 1 - traps.len(),
-            holds: holds
-                .map(|hold| Held::new(problem, hold, &shaking))
-                .collect(),
-            window: bond.window(shaking.coverage),
-            is_too_cold: bond.hold().is_too_cold(shaking.kt),
-        })
+fn answer(design: &Design, held: &Held) -> String {
+    let bond = &held.states[0].docking;
+    let name = &design.name;
+    let at = format!(
+        "at kT = {} and {} coverage",
+        si(held.shaking.kt, "J", 4),
+        percent(held.shaking.coverage)
+    );
+    if held.is_too_cold {
+        return format!(
+            "{name}: {at} tiles move by less than {} in the bond, which is closer than contact is \
+             known: choose a larger --kt",
+            si(NO_PLAY, "m", 2)
+        );
     }
+    if bond.cost.is_infinite() {
+        return format!("{name}: {at} the bond has no play at all: shaken tiles never find it");
+    }
+    let verdict = match bond.ln_k(1.0) >= 0.0 {
+        true => "one bond holds",
+        false if bond.ln_k(2.0) >= 0.0 => "one bond does not hold, two together do",
+        false => "neither one bond holds nor two together",
+    };
+    format!(
+        "{name} {at}: {verdict} (ln K = {:.2} for one)",
+        bond.ln_k(1.0)
+    )
+}
 
-    /// What `--json` prints.
-    pub fn json(&self) -> Value {
-        let Self {
-            design,
-            shaking,
-            window,
-            ..
-        } = self;
-        let bond = &self.holds[0];
-        let area = design.pair.moving.outline.area();
-        let mut value = json!({
-            "tilebind": env!("CARGO_PKG_VERSION"),
-            "design": { "name": design.name, "sha256": design.sha256 },
-            "model": design.interaction.model.name(),
-            "kT_J": shaking.kt,
-            "coverage": shaking.coverage,
-            "tile_area_m2": area,
-            "tiles_per_m2": shaking.coverage / area,
-            "bond_kT": bond.docking.depth,
-            "docking_cost_kT": finite(bond.docking.cost),
-            "ln_K": finite(bond.docking.ln_k(1.0)),
-            "docking_cost_error_kT": bond.docking.volume.relative_error(),
-            // kT (J) between which two bonds closed by one docking hold and one alone does not;
-            // null where there is no such end.
-            "two_hold_one_does_not_J": window,
-            "two_hold_one_does_not_bond_kT": window.map(|kt| kt.map(|kt| -bond.energy / kt)),
-            "bond": bond.json(),
-        });
+/// The kT at which two bonds hold and one does not.
+fn window(held: &Held) -> String {
+    let bond = held.states[0].energy;
+    match held.window {
+        [Some(low), Some(high)] => format!(
+            "two bonds closed by one docking hold and one alone does not from kT = {} to {} (bond of \
+             {:.1} to {:.1} kT)",
+            si(low, "J", 3),
+            si(high, "J", 3),
+            -bond / low,
+            -bond / high
+        ),
+        _ => "no shaking was found at which two bonds hold and one alone does not".to_owned(),
+    }
+}
+
+// One line an entry.
+#[rustfmt::skip]
+fn found_entries(design: &Design, held: &Held) -> Entries {
+    let (shaking, bond) = (&held.shaking, &held.states[0]);
+    let states = states(held);
+    let mut found: Vec<Value> = states.json().as_array().cloned().unwrap_or_default();
+    let traps = found.split_off(1);
+    entries(design)
+        .fact("kT_J", "kT", shaking.kt)
+        .fact("coverage", "coverage", shaking.coverage).viewed(percent(shaking.coverage)).noted("share of the table")
+        .fact("tile_area_m2", "", held.tile_area)
+        .fact("tiles_per_m2", "", shaking.coverage / held.tile_area)
+        .fact("bond_kT", "depth of the bond", bond.docking.depth).viewed(in_kt(bond.docking.depth))
+        .fact("docking_cost_kT", "cost of docking", bond.docking.cost).viewed(in_kt(bond.docking.cost))
+        .fact("ln_K", "ln K", bond.docking.ln_k(1.0)).viewed(number(bond.docking.ln_k(1.0))).noted("of one bond")
+        .fact("docking_cost_error_kT", "", bond.docking.volume.relative_error())
+        // kT between which two bonds closed by one docking hold and one alone does not; null where
+        // there is no such end.
+        .data("two_hold_one_does_not_J", held.window.to_vec())
+        .data("two_hold_one_does_not_bond_kT", held.window.map(|kt| kt.map(|kt| -bond.energy / kt)).to_vec())
+        .data("bond", found.swap_remove(0))
+        .table(states)
         // Kinds of traps that are left out: less than 2 kT deep, they hold nothing.
-        value["shallow_traps"] = self.shallow.into();
-        value["traps"] = self.holds[1..].iter().map(Held::json).collect();
-        value
-    }
-
-    /// The sentence that answers.
-    pub fn headline(&self) -> String {
-        let bond = &self.holds[0];
-        let name = &self.design.name;
-        let at = format!(
-            "at kT = {} and {} coverage",
-            si(self.shaking.kt, "J", 4),
-            percent(self.shaking.coverage)
-        );
-        if self.is_too_cold {
-            return format!(
-                "{name}: {at} tiles move by less than {} in the bond, which is closer than contact \
-                 is known: choose a larger --kt",
-                si(NO_PLAY, "m", 2)
-            );
-        }
-        if bond.docking.cost.is_infinite() {
-            return format!("{name}: {at} the bond has no play at all: shaken tiles never find it");
-        }
-        let ln_k = bond.docking.ln_k(1.0);
-        let verdict = match ln_k >= 0.0 {
-            true => "one bond holds",
-            false if bond.docking.ln_k(2.0) >= 0.0 => "one bond does not hold, two together do",
-            false => "neither one bond holds nor two together",
-        };
-        format!("{name} {at}: {verdict} (ln K = {ln_k:.2} for one)")
-    }
-
-    /// What the terminal is told.
-    pub fn summary(&self) -> String {
-        let bond = &self.holds[0];
-        let mut text = format!("{}\n", self.headline());
-        text.push_str(&match self.window {
-            [Some(low), Some(high)] => format!(
-                "two bonds closed by one docking hold and one alone does not from kT = {} to {} \
-                 (bond of {:.1} to {:.1} kT)\n",
-                si(low, "J", 3),
-                si(high, "J", 3),
-                -bond.energy / low,
-                -bond.energy / high
-            ),
-            _ => "no shaking was found at which two bonds hold and one alone does not\n".to_owned(),
-        });
-        text.push('\n');
-        let head = [
-            "state",
-            "copies",
-            "energy",
-            "depth",
-            "docking",
-            "ln K",
-            "closed form",
-        ];
-        let mut rows = vec![head.map(str::to_owned)];
-        rows.extend(self.holds.iter().map(Held::row));
-        write_table(&mut text, &rows);
-        text.push_str(
-            "(depth and cost of docking in kT; closed form: how far the corner formula is off)\n",
-        );
-        if self.shallow > 0 {
-            let _ = writeln!(
-                text,
-                "{} more kinds of trap are less than 2 kT deep",
-                self.shallow
-            );
-        }
-        let blurred: Vec<&str> = self
-            .holds
-            .iter()
-            .filter(|held| held.inner.cost - held.docking.cost > 0.1)
-            .map(|held| &held.name[..])
-            .collect();
-        if !blurred.is_empty() {
-            let _ = writeln!(
-                text,
-                "in {} shaken tiles are often more than half way out: K depends on what is \
-                 counted as held, here all that is reached below the lowest pass, and below a \
-                 hundredth of the depth",
-                blurred.join(", ")
-            );
-        }
-        text
-    }
+        .fact("shallow_traps", "", held.shallow)
+        .data("traps", traps)
+        .more((!held.over_kt.is_empty()).then(|| Entry::Table(by_kt(held))))
 }
 
-/// Null for what is not finite.
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
+// One line a column: what files and people call it, what it means, its value.
+#[rustfmt::skip]
+fn states(held: &Held) -> Table {
+    let closed = |it: &HeldState| match it.closed_error() {
+        // It holds far below the depth only.
+        Some(error) if error.abs() < 10.0 => format!("{:+.1} %", 100.0 * error),
+        Some(_) => "useless".to_owned(),
+        None => "-".to_owned(),
+    };
+    rows(held.states.clone())
+        .column("state", "state", "a kind of states", |it| it.name.clone())
+        .column("pose", "", "", |it| it.configuration)
+        .column("energy_J", "energy", "", |it| it.energy).digits(4)
+        .column("copies", "copies", "that symmetries make of it", |it| it.copies)
+        .column("moving_copies", "", "", |it| it.moving_copies)
+        .column("depth_kT", "depth", "its energy over kT", |it| it.docking.depth).viewed(|it| in_kt(it.docking.depth))
+        .column("docking_cost_kT", "docking", "what it costs to find it, -ln(rho Z0 s / 2 pi)", |it| it.docking.cost)
+            .viewed(|it| in_kt(it.docking.cost))
+        .column("ln_K", "ln K", "depth less the cost of docking", |it| it.docking.ln_k(1.0)).viewed(|it| number(it.docking.ln_k(1.0)))
+        .column("Z0_m2_rad", "", "", |it| it.docking.volume.value)
+        .column("Z0_error_m2_rad", "", "", |it| it.docking.volume.error)
+        // The basin: what can be reached from the state below this energy.
+        .column("basin_below_J", "", "", |it| it.level)
+        .column("basin_cut", "", "", |it| it.is_cut)
+        // What lies below half the state's depth alone: where it differs, K depends on what is
+        // counted as bound.
+        .column("docking_cost_half_depth_kT", "", "", |it| it.inner.cost)
+        .column("closed_form_Z0_m2_rad", "", "", |it| it.closed.map(|it| it.volume.value))
+        .column("closed_form_error", "closed form", "how far the corner formula is off", HeldState::closed_error).viewed(closed)
+        .table("states").titled("states", "").in_view().in_file("states")
+}
+
+/// How states hold over kT.
+#[rustfmt::skip]
+fn by_kt(held: &Held) -> Table {
+    let states = held.states.iter();
+    let at = held.over_kt.iter().flat_map(|(kt, dockings)| {
+        states.clone().zip(dockings).map(move |(state, docking)| (*kt, &state.name[..], docking))
+    });
+    rows(at)
+        .column("kT_J", "", "", |(kt, ..)| *kt)
+        .column("state", "", "", |(_, state, _)| *state)
+        .column("depth_kT", "", "", |(.., docking)| docking.depth)
+        .column("docking_cost_kT", "", "", |(.., docking)| docking.cost)
+        .column("ln_K", "", "", |(.., docking)| docking.ln_k(1.0))
+        .table("over_kT").in_data().in_file("over-kt")
+}
+
+/// ln K over kT: of one bond, of two that are closed by one docking, and of the traps.
+fn over_kt(held: &Held) -> Chart {
+    let line = |of: &dyn Fn(&[Docking]) -> f64| -> Vec<[f64; 2]> {
+        let points = held.over_kt.iter();
+        points.map(|(kt, dockings)| [*kt, of(dockings)]).collect()
+    };
+    let two = line(&|dockings| dockings[0].ln_k(2.0));
+    let mut chart = Chart {
+        name: "shaking",
+        title: "How strongly states hold over kT".to_owned(),
+        x: Dimension::new("kT_J", "kT").logarithmic(),
+        y: Dimension::new("ln_K", "ln K"),
+        series: Vec::new(),
+        remark: "above 0 a pair is bound more often than not".to_owned(),
+    };
+    for (k, state) in held.states.iter().enumerate() {
+        let one = line(&|dockings| dockings[k].ln_k(1.0));
+        chart = chart.with(state.name.clone(), Look::Line, one).in_colour(k);
+    }
+    let name = format!("two {} closed by one docking", held.states[0].name);
+    chart.with(name, Look::Dashed, two).in_colour(0)
+}
+
+fn notes(held: &Held) -> Vec<String> {
+    let shallow = format!(
+        "{} more kinds of trap are less than 2 kT deep",
+        held.shallow
+    );
+    let blurred = held.states.iter();
+    let blurred = blurred.filter(|state| state.inner.cost - state.docking.cost > 0.1);
+    let blurred: Vec<&str> = blurred.map(|state| &state.name[..]).collect();
+    let told = format!(
+        "in {} shaken tiles are often more than half way out: K depends on what is counted as held, \
+         here all that is reached below the lowest pass, and below a hundredth of the depth",
+        blurred.join(", ")
+    );
+    let notes = [
+        (held.shallow > 0).then_some(shallow),
+        (!blurred.is_empty()).then_some(told),
+    ];
+    notes.into_iter().flatten().collect()
 }
 
 fn number(value: f64) -> String {
     match value.is_finite() {
         true => format!("{value:.2}"),
+        false => "-".to_owned(),
+    }
+}
+
+fn in_kt(value: f64) -> String {
+    match value.is_finite() {
+        true => format!("{value:.2} kT"),
         false => "-".to_owned(),
     }
 }

@@ -108,6 +108,13 @@ pub const YIELD: Command = Command {
     pictures: &["course", "yield", "shaking"],
 };
 
+/// `tilebind bond`.
+pub const BOND: Command = Command {
+    name: "bond",
+    files: &[REPORT, PAGE, "states.csv", "over-kt.csv"],
+    pictures: &["shaking"],
+};
+
 /// `tilebind rates`.
 pub const RATES: Command = Command {
     name: "rates",

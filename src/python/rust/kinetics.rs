@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use tilebind::Analysis;
+use tilebind::bond::held;
 use tilebind::design::Design;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::kinetics::exit::ExitError;
@@ -9,8 +10,7 @@ use tilebind::kinetics::rates::RatesError;
 use tilebind::landscape::Inventory;
 use tilebind::problem::Problem;
 use tilebind::rates;
-use tilebind::report::bond::BondReport;
-use tilebind::report::json;
+use tilebind::report::bond::document as bond_document;
 use tilebind::report::rates::{document as rates_document, exit_document};
 use tilebind::report::yields::document;
 use tilebind::yields::{Question, YieldError, yields};
@@ -65,16 +65,14 @@ pub fn rates<'py>(
 pub fn bond<'py>(
     py: Python<'py>,
     design: &Design,
-    (problem, inventory): (&Problem, &Inventory),
+    found: (&Problem, &Inventory),
     shaking: Shaking,
 ) -> PyResult<Bound<'py, PyAny>> {
     fault::positive("kt", Some(shaking.kt))?;
     fault::fraction("coverage", shaking.coverage)?;
-    let entry = job::quietly(py, || {
-        let report = BondReport::new(design, problem, inventory, shaking);
-        report.map(|report| json::text(&report.json()))
-    })?;
-    convert::json(py, &entry.map_err(fault::run)?)
+    let held = job::quietly(py, || held(design, found, shaking, false))?;
+    let held = held.map_err(fault::run)?;
+    convert::json(py, &bond_document(design, &held).report())
 }
 
 /// Most tiles on a table.

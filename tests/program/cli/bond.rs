@@ -12,6 +12,8 @@ fn design(file: &str) -> String {
 #[test]
 fn ln_k_is_depth_less_docking_cost() {
     let file = design(PAPER);
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("bond");
     let found = json(&[
         "bond",
         &file,
@@ -20,7 +22,22 @@ fn ln_k_is_depth_less_docking_cost() {
         "--coverage",
         "0.3",
         "--json",
+        "--out",
+        out.to_str().unwrap(),
     ]);
+    // One holds less the more tiles are shaken.
+    let course = found["over_kT"].as_array().unwrap();
+    let own = course.iter().filter(|row| row["state"] == "A");
+    let ln_ks: Vec<f64> = own.map(|row| row["ln_K"].as_f64().unwrap()).collect();
+    assert!(ln_ks.len() > 5 && ln_ks.is_sorted_by(|a, b| a > b));
+    for name in [
+        "report.html",
+        "states.csv",
+        "over-kt.csv",
+        "pictures/shaking.png",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
     let of = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key}"));
     assert!((of("ln_K") - (of("bond_kT") - of("docking_cost_kT"))).abs() < 1e-12);
     assert!((of("bond_kT") - 65.47 / 3.0).abs() < 0.01);

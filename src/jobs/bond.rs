@@ -1,0 +1,118 @@
+//! How strongly the bond and the traps hold shaken tiles.
+
+use crate::design::Design;
+use physics::configuration::Configuration;
+use physics::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use physics::landscape::Inventory;
+use physics::parallel;
+use physics::problem::Problem;
+
+/// kT over the one asked for, at which it is pictured how states hold.
+const SHAKINGS: [f64; 9] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5];
+/// Relative tolerance of integrals that are pictured.
+const ROUGH: f64 = 1e-2;
+
+/// The bond and the traps at one shaking.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// What was asked.
+    pub shaking: Shaking,
+    /// Area (m^2) of the moving tile.
+    pub tile_area: f64,
+    /// The bond first, then the traps from the deepest on.
+    pub states: Vec<HeldState>,
+    /// How many kinds of traps are too shallow to hold anything.
+    pub shallow: usize,
+    /// kT (J) between which two bonds closed by one docking hold and one alone does not.
+    pub window: [Option<f64>; 2],
+    /// Whether the bond has play, but less than contact is known to.
+    pub is_too_cold: bool,
+    /// At other kT (J) what the states hold with; none where that was not asked for.
+    pub over_kt: Vec<(f64, Vec<Docking>)>,
+}
+
+/// A kind of states at one shaking.
+#[derive(Clone, Debug)]
+pub struct HeldState {
+    /// What people call it: `A` for the bond, `B` for the deepest trap.
+    pub name: String,
+    /// Where its first state is.
+    pub configuration: Configuration,
+    /// U there (J).
+    pub energy: f64,
+    /// How many copies symmetries make of it.
+    pub copies: usize,
+    /// How many of them turns of the moving tile alone make.
+    pub moving_copies: usize,
+    /// Its basin is what can be reached from it below this energy (J), ...
+    pub level: f64,
+    /// ... or what of that was looked at.
+    pub is_cut: bool,
+    /// What it holds with.
+    pub docking: Docking,
+    /// With no more of the basin than lies below half its depth.
+    pub inner: Docking,
+    /// By the closed form of corner wells, where there is one.
+    pub closed: Option<Docking>,
+}
+
+impl HeldState {
+    fn new(problem: &Problem, hold: &Hold, shaking: &Shaking) -> Self {
+        let basin = hold.well().basin();
+        Self {
+            name: hold.name.clone(),
+            configuration: hold.configuration,
+            energy: hold.energy,
+            copies: hold.copies,
+            moving_copies: hold.moving_copies,
+            level: basin.level,
+            is_cut: basin.is_cut,
+            docking: hold.docking(shaking, TOLERANCE),
+            inner: hold.docking_below(shaking, hold.energy / 2.0, TOLERANCE),
+            closed: hold.closed_form(problem, shaking),
+        }
+    }
+
+    /// How far the closed form is off, where there are both.
+    pub fn closed_error(&self) -> Option<f64> {
+        let volume = self.docking.volume.value;
+        let closed = self.closed.filter(|_| volume > 0.0)?;
+        Some(closed.volume.value / volume - 1.0)
+    }
+}
+
+/// Integrates over the bond and the traps of an inventory; at other kT, too, if they are to be pictured.
+///
+/// # Errors
+/// Where there is no bond.
+pub fn held(
+    design: &Design,
+    (problem, inventory): (&Problem, &Inventory),
+    shaking: Shaking,
+    is_pictured: bool,
+) -> Result<Held, BondError> {
+    let bond = Bond::new(problem, inventory)?;
+    let traps = traps(problem, inventory, shaking.kt);
+    let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
+    let at = |share: &f64| {
+        let kt = share * shaking.kt;
+        let shaking = Shaking { kt, ..shaking };
+        let dockings = holds.iter().map(|hold| hold.docking(&shaking, ROUGH));
+        (kt, dockings.collect())
+    };
+    Ok(Held {
+        shaking,
+        tile_area: design.pair.moving.outline.area(),
+        shallow: inventory.kinds().count() - holds.len(),
+        states: holds
+            .iter()
+            .map(|hold| HeldState::new(problem, hold, &shaking))
+            .collect(),
+        window: bond.window(shaking.coverage),
+        is_too_cold: bond.hold().is_too_cold(shaking.kt),
+        over_kt: match is_pictured {
+            true => parallel::map(&SHAKINGS[..], at),
+            false => Vec::new(),
+        },
+    })
+}
