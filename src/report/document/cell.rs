@@ -17,7 +17,7 @@ pub enum Cell {
     /// A quantity; what is not finite is not known, or never.
     Number(f64),
     /// A count or a number by which something is called.
-    Whole(u64),
+    Whole(i128),
     /// Whether something holds.
     Truth(bool),
     /// A name.
@@ -195,8 +195,9 @@ macro_rules! cell_from {
 
 cell_from! {
     f64 => |value| Self::Number(value);
-    u64 => |value| Self::Whole(value);
-    usize => |value| Self::Whole(value as u64);
+    u64 => |value| Self::Whole(value.into());
+    i32 => |value| Self::Whole(value.into());
+    usize => |value| Self::Whole(value as i128);
     bool => |value| Self::Truth(value);
     &str => |value| Self::Text(value.to_owned());
     String => |value| Self::Text(value);

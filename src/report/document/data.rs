@@ -28,10 +28,7 @@ impl Document<'_> {
         for table in self.tables() {
             collect(table, None, &mut sheets);
         }
-        let file = |sheet: Numbers| {
-            let text = csv::table(sheet.columns, sheet.rows);
-            (format!("{}.csv", sheet.file), text.into_bytes())
-        };
+        let file = |sheet: Numbers| (format!("{}.csv", sheet.file), sheet.text().into_bytes());
         sheets.into_iter().map(file).collect()
     }
 }
@@ -59,6 +56,13 @@ fn object(entries: &[Entry]) -> Value {
 }
 
 impl Table {
+    /// Its numbers.
+    pub fn csv(&self) -> String {
+        let mut sheets = Vec::new();
+        collect(&self.clone().in_file(""), None, &mut sheets);
+        sheets.swap_remove(0).text()
+    }
+
     /// An object for each row.
     pub fn json(&self) -> Value {
         let row = |cells: &Vec<(Cell, Option<String>)>| -> Value {
@@ -106,6 +110,12 @@ struct Numbers {
     file: &'static str,
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
+}
+
+impl Numbers {
+    fn text(self) -> String {
+        csv::table(self.columns, self.rows)
+    }
 }
 
 /// Adds a table with those within its rows; `outer` is the cell of the row that it is within.

@@ -335,10 +335,17 @@ impl Table {
         self
     }
 
-    /// The columns that people see, by their numbers.
+    /// The columns that people see, by their numbers: those of which anything is known.
     pub fn viewed(&self) -> impl Iterator<Item = usize> {
+        let is_known = |k: usize| {
+            self.rows
+                .iter()
+                .any(|row| !matches!(row[k].0, Cell::Missing))
+        };
         let heads = self.heads.iter().enumerate();
-        heads.filter(|(_, head)| head.is_viewed).map(|(k, _)| k)
+        heads
+            .filter(move |(k, head)| head.is_viewed && is_known(*k))
+            .map(|(k, _)| k)
     }
 
     /// A cell as people read it.

@@ -44,6 +44,8 @@ pub struct Dimension {
     name: String,
     unit: Unit,
     is_logarithmic: bool,
+    /// What logarithms are taken beside: 1 of counts, which begin at none.
+    offset: f64,
     range: Option<[f64; 2]>,
     /// Where marks are; wherever numbers are round if there are none.
     marks: Vec<f64>,
@@ -57,6 +59,7 @@ impl Dimension {
             name: name.into(),
             unit: Unit::of_key(key),
             is_logarithmic: false,
+            offset: 0.0,
             range: None,
             marks: Vec::new(),
         }
@@ -80,6 +83,15 @@ impl Dimension {
         }
     }
 
+    /// Of counts, none among them: by the decimal logarithm of one more.
+    #[must_use]
+    pub fn counting(self) -> Self {
+        Self {
+            offset: 1.0,
+            ..self.logarithmic()
+        }
+    }
+
     /// From one number to another.
     #[must_use]
     pub fn within(self, range: [f64; 2]) -> Self {
@@ -100,7 +112,7 @@ impl Dimension {
 
     /// Whether a value has a place on the axis.
     fn holds(&self, value: f64) -> bool {
-        value.is_finite() && !(self.is_logarithmic && value <= 0.0)
+        value.is_finite() && !(self.is_logarithmic && value + self.offset <= 0.0)
     }
 
     /// The axis for values up to the greatest of these, and where a value stands on it.
@@ -111,7 +123,7 @@ impl Dimension {
             Some([low.min(value), high.max(value)])
         });
         let [low, high] = self.range.or(ends).unwrap_or([0.0, 1.0]);
-        let is_logarithmic = self.is_logarithmic;
+        let (is_logarithmic, offset) = (self.is_logarithmic, self.offset);
         let (scale, name) = match self.unit {
             _ if is_logarithmic => (1.0, self.name.clone()),
             Unit::Share => (0.01, format!("{} (%)", self.name)),
@@ -122,7 +134,7 @@ impl Dimension {
             }
         };
         let place = move |value: f64| match is_logarithmic {
-            true => libm::log10(value),
+            true => libm::log10(value + offset),
             false => value / scale,
         };
         let range = self.room(place(low), place(high));
@@ -169,14 +181,19 @@ impl Dimension {
         let multiples: &[f64] = if count < 2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
         let all = powers
             .step_by(count / MOST_POWERS + 1)
-            .flat_map(|power| multiples.iter().map(move |m| m * 10f64.powi(power)));
+            .flat_map(|power| multiples.iter().map(move |m| m * 10f64.powi(power)))
+            .filter(|value| *value >= self.offset);
+        let none = (self.offset > 0.0).then_some(0.0);
         let text = |value: f64| match self.unit {
             // Powers of ten of minutes and hours are none.
             Unit::Of("s") => si(value, "s", 1),
+            Unit::None if value.fract() == 0.0 => value.to_string(),
             unit => told(value, unit, 1),
         };
-        let mark = |value: f64| (libm::log10(value), text(value));
-        all.map(mark)
+        let mark = |value: f64| (libm::log10(value + self.offset), text(value));
+        none.into_iter()
+            .chain(all)
+            .map(mark)
             .filter(|(place, _)| range.contains(place))
             .collect()
     }
@@ -281,7 +298,8 @@ impl Chart {
     pub fn draw(&self, sheet: &Sheet) -> Result<Figure, PictureError> {
         let height = |width| FLATNESS * width + MARGIN[0] + MARGIN[2];
         let panel = Panel::new("", 0.0, height, |root, _, place| self.plot(root, place));
-        let names = self.series.iter();
+        let shown = |series: &&Series| !series.points.is_empty();
+        let names = self.series.iter().filter(shown);
         let names = names.map(|series| (series.name.clone(), COLOURS[series.colour], series.look));
         let mut key = names_of_series(names.collect());
         if !self.remark.is_empty() {
