@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::assembly::{Built, TileSet, Wiring, lattice, proofread, square};
+use tilebind::assembly::{Built, TileSet, Wiring, WordSearch, lattice, proofread, square};
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
-use tilebind::report::assembly::{self as report, Assembly, WordSearch};
+use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::report::files::ASSEMBLE;
 use tilebind::words::{Rules, Shape};
 

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::design::{MagnetModel, WordSet};
-use tilebind::report::crosstalk as report;
+use tilebind::report::crosstalk::document;
 use tilebind::report::files::CROSSTALK;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 
-use super::figures::command_line;
-use super::options::{ForceOption, PrintOptions};
-use super::{Failure, input, interrupt, tell};
+use super::results::ResultOptions;
+use super::{Failure, input, interrupt, options, tell};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
@@ -42,29 +41,21 @@ pub struct Crosstalk {
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
-    /// Folder for report.html, report.json and crosstalk.csv
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-
-    #[command(flatten)]
-    force: ForceOption,
-
     /// Threads [default: all cores]; the results do not depend on them
     #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
     threads: Option<u16>,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let set = WordSet::load(&self.set, self.model)?;
-        let output = self.out.as_ref();
-        let output = output.map(|it| self.force.folder(&CROSSTALK, it, vec![self.set.clone()]));
-        let output = output.transpose()?;
-        super::options::use_threads(self.threads)?;
+        let output = self.results.output(&CROSSTALK, vec![self.set.clone()])?;
+        options::use_threads(self.threads)?;
+        let progress = self.results.progress();
         let stage = Stage::new(
             set.stage.pair.as_ref().clone(),
             set.stage.interaction.clone(),
@@ -80,17 +71,7 @@ impl Crosstalk {
                  hold, and --certify-cells makes them closer",
             );
         }
-        let json = report::json(&set, &found);
-        if let Some(output) = output {
-            let files = report::files(&set, &found, &command_line());
-            interrupt::without(|| output.write(&files))?;
-        }
-        self.print.results(&json, || {
-            let mut text = report::summary(&set, &found);
-            if let Some(folder) = &self.out {
-                text += &format!("results in {}: {}\n", folder.display(), report::FILES);
-            }
-            text
-        })
+        self.results
+            .deliver(&document(&set, &found), output, &progress)
     }
 }

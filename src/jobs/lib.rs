@@ -7,6 +7,7 @@
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
+//! | [`word_sets`] | sets of barcodes: what is asked, magnets anywhere, sets as files |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
 
@@ -23,6 +24,7 @@ pub mod pipeline;
 pub mod query;
 pub mod rates;
 pub mod sweep;
+pub mod word_sets;
 pub mod workshop;
 pub mod yields;
 

@@ -1,74 +1,235 @@
 //! Crosstalk: the attraction of every two words over all poses.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
-use super::csv::table;
-use super::files::{Files, with_report};
-use super::json as layout;
-use super::page::Page;
+use super::document::{Document, Drawing, Entries, Part, Table, rows};
+use super::page::Meetings;
+use super::page::meetings::{Carrier, Met};
 use super::values::{pose, positive_zero};
-use super::words::name;
+use super::words::{MOST_DRAWN, histogram};
 use jobs::design::WordSet;
 use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::units::si;
+use physics::words::Word;
 use physics::words::crosstalk::Crosstalk;
+use physics::words::set::name;
 
-/// What is written, for the terminal.
-pub const FILES: &str = "report.html to look at; crosstalk.csv, report.json";
+/// Meetings that people see, the strongest, and those of them that a terminal has.
+const SHOWN: usize = 100;
+const LISTED: usize = 5;
 
-/// What `--json` prints.
-pub fn json(set: &WordSet, found: &Crosstalk) -> String {
-    layout::text(&value(set, found))
+/// What there is to know of the crosstalk of a set.
+pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
+    let map = map(set, found);
+    Document {
+        title: format!("Crosstalk of {} words", found.words.len()),
+        answer: headline(set, found),
+        entries: entries(set, found),
+        pictures: pictures(map.as_ref(), found),
+        part: map.map(Part::Meetings),
+        notes: vec![
+            "A word and its own mate also hold where a trap is; traps are found, not proved."
+                .to_owned(),
+        ],
+        origin: format!(
+            "{} magnets; all poses in which two faces can meet",
+            set.stage.interaction.model.name()
+        ),
+        ..Document::default()
+    }
 }
 
-fn value(set: &WordSet, found: &Crosstalk) -> Value {
-    let numbers = |matrix: &[Vec<f64>]| -> Value {
-        let row =
-            |row: &Vec<f64>| json!(row.iter().copied().map(positive_zero).collect::<Vec<_>>());
-        matrix.iter().map(row).collect()
+// One line an entry.
+#[rustfmt::skip]
+fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
+    let numbers = |matrix: &Vec<Vec<f64>>| -> Value {
+        matrix.iter().map(|row| row.iter().copied().map(positive_zero).collect::<Value>()).collect()
     };
-    let poses = found
-        .poses
-        .iter()
-        .map(|row| json!(row.iter().map(pose).collect::<Vec<_>>()));
-    json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "words": found.words.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    let worst = found.strongest_wrong();
+    let [all, strongest] = tables(set, found);
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("words", found.words.iter().map(ToString::to_string).collect::<Vec<_>>())
+        .fact("count", "words", found.words.len())
         // Rows and columns: words, then their mates.
-        "faces": faces(found),
+        .data("faces", faces(found).map(|word| word.to_string()).collect::<Vec<_>>())
         // Where the places of the words lie along the face, if not a pitch apart.
-        "places_m": set.places,
-        "strongest_J": numbers(&found.strongest),
-        "lower_J": found.lower.as_ref().map(|lower| numbers(lower)),
-        "poses": poses.collect::<Value>(),
+        .data("places_m", set.places.clone())
+        .data("strongest_J", numbers(&found.strongest))
+        .data("lower_J", found.lower.as_ref().map(numbers))
+        .data("poses", found.poses.iter().map(|row| row.iter().map(|q| json!(pose(q))).collect::<Value>()).collect::<Value>())
         // Of each word and its own mate the deepest meeting found that holds beside the bond.
-        "traps_J": found.traps.iter()
-            .map(|trap| json!(trap.map(|trap| positive_zero(trap.0))))
-            .collect::<Value>(),
-        "trap_poses": found.traps.iter()
-            .map(|trap| json!(trap.map(|trap| pose(&trap.1))))
-            .collect::<Value>(),
-        "bond_J": found.weakest_bond().map(|bond| -bond.1),
-        "gap": found.gap(),
-        "model": set.stage.interaction.model.name(),
-        "pitch_m": set.stage.pitch,
+        .data("traps_J", found.traps.iter().map(|it| json!(it.map(|it| positive_zero(it.0)))).collect::<Value>())
+        .data("trap_poses", found.traps.iter().map(|it| json!(it.map(|it| pose(&it.1)))).collect::<Value>())
+        .fact("bond_J", "weakest bond", found.weakest_bond().map(|bond| -bond.1)).digits(4).noted("depth")
+        .fact("gap", "gap", found.gap()).digits(4).noted("over sampled poses")
+        .fact("worst_J", "strongest wrong meeting", worst.map(|it| it.1)).digits(4)
+            .noted(worst.map_or(String::new(), |([i, j], ..)| met(set, found, i, j)))
+        .table(strongest)
+        .table(all)
+        .data("model", set.stage.interaction.model.name())
+        .data("pitch_m", set.stage.pitch)
         // Whether all lower bounds are as close as asked for.
-        "settled": found.lower.as_ref().map(|_| found.settled),
-        "cells": found.cells,
-    })
+        .data("settled", found.lower.as_ref().map(|_| found.settled))
+        .data("cells", found.cells)
 }
 
-/// The codes of all faces, in the order of rows and columns.
-pub(super) fn faces(found: &Crosstalk) -> Vec<String> {
+/// All meetings, traps last, for programs; and for people the strongest wrong ones.
+pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> [Table; 2] {
+    let n = found.words.len();
+    let bound = |i: usize, j: usize| found.lower.as_ref().map(|lower| lower[i][j]);
+    let pairs = pairs(found).map(|(i, j)| Row {
+        faces: [i, j],
+        lower: bound(i, j),
+        energy: found.strongest[i][j],
+        pose: found.poses[i][j],
+        meeting: if is_bond(found, i, j) {
+            "bond"
+        } else {
+            "wrong"
+        },
+    });
+    let traps = found.traps.iter().enumerate().filter_map(|(i, trap)| {
+        let (energy, pose) = (*trap)?;
+        Some(Row {
+            faces: [i, i + n],
+            lower: None,
+            energy,
+            pose,
+            meeting: "trap",
+        })
+    });
+    let all: Vec<Row> = pairs.chain(traps).collect();
+    let mut wrong: Vec<Row> = all
+        .iter()
+        .filter(|it| it.meeting != "bond")
+        .cloned()
+        .collect();
+    wrong.order_by(|a, b| a.energy.total_cmp(&b.energy));
+    let more = wrong.len().saturating_sub(SHOWN);
+    wrong.truncate(SHOWN);
+    let note = if more > 0 {
+        format!("{more} weaker ones are in crosstalk.csv")
+    } else {
+        String::new()
+    };
+    [
+        table(set, found, all).in_csv("crosstalk"),
+        table(set, found, wrong)
+            .titled("Strongest wrong meetings", note)
+            .listing(LISTED)
+            .in_view(),
+    ]
+}
+
+/// Two faces that meet.
+#[derive(Clone)]
+struct Row {
+    faces: [usize; 2],
+    /// What their energy does not fall below (J).
+    lower: Option<f64>,
+    /// J.
+    energy: f64,
+    pose: Configuration,
+    meeting: &'static str,
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn table(set: &WordSet, found: &Crosstalk, all: Vec<Row>) -> Table {
+    let codes: Vec<String> = faces(found).map(|word| word.to_string()).collect();
+    let face = |it: &Row, k: usize| face_name(set, found, it.faces[k]);
+    rows(all)
+        .column("faces", "faces", "which ones meet", |it| met(set, found, it.faces[0], it.faces[1])).in_view()
+        .column("first", "", "", |it| face(it, 0))
+        .column("second", "", "", |it| face(it, 1))
+        .column("first_code", "", "", |it| codes[it.faces[0]].clone())
+        .column("second_code", "", "", |it| codes[it.faces[1]].clone())
+        .column("lower_J", "no lower than", "proved", |it| it.lower).digits(4)
+        .column("upper_J", "energy", "the lowest that was found", |it| positive_zero(it.energy)).digits(4)
+        .column("pose", "x, y (mm), angle", "of the second face's tile, as the first one's sees it", |it| it.pose)
+        .column("meeting", "", "", |it| it.meeting)
+        .table("meetings")
+}
+
+/// The map of all faces against all, unless they are too many.
+pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
+    let pair = &set.stage.pair;
+    let (face, magnets) = (pair.target_face(), &pair.fixed.magnets);
+    let along = face.tangent();
+    let place = |at: nalgebra::Vector2<f64>| (at - face.middle()).dot(&along);
+    let places = magnets.iter().map(|magnet| place(magnet.position));
+    let carrier = Carrier::of_magnets(face.length(), face.normal(), magnets, places.collect());
+    let m = found.words.len();
+    let named = faces(found).enumerate();
+    let faces: Vec<_> = named
+        .map(|(k, word)| (face_name(set, found, k), word))
+        .collect();
+    let met = |i: usize, j: usize| {
+        let (energy, lower, pose) = match is_bond(found, i, j) {
+            true => {
+                let (energy, pose) = found.traps[i.min(j)]?;
+                (energy, None, found.seen_from(&pose, i < m))
+            }
+            false => {
+                let lower = found.lower.as_ref().map(|lower| lower[i][j]);
+                (found.strongest[i][j], lower, found.poses[i][j])
+            }
+        };
+        Some(Met {
+            energy,
+            lower,
+            pose,
+            over: false,
+        })
+    };
+    let bond = found.weakest_bond().map_or(1.0, |bond| -bond.1);
+    let map = || {
+        Meetings::new(&carrier, &faces, bond, met).titled(
+        "Strongest wrong meeting of every two faces, over all poses",
+        "Rows and columns are words and their mates; a number is the attraction as a share of the \
+         weakest bond, slid, tilted or drawn back. Framed: a word and its own mate, in their deepest \
+         trap. Click a cell to see the tiles.",
+    )
+    };
+    (1..=MOST_DRAWN).contains(&m).then(map)
+}
+
+/// The map as a picture, and how many pairs have which gap.
+pub(super) fn pictures(map: Option<&Meetings>, found: &Crosstalk) -> Vec<Drawing<'static>> {
+    let gaps = histogram("Gaps of all pairs of faces", gaps(found));
+    let map = map.map(|map| map.picture().off_page());
+    map.into_iter().chain([gaps.into()]).collect()
+}
+
+/// 1 less the share of the weakest bond of every two faces that are no word and its own mate, and of
+/// traps.
+fn gaps(found: &Crosstalk) -> impl Iterator<Item = f64> {
+    let bond = found.weakest_bond().map_or(-1.0, |bond| bond.1);
+    let others = pairs(found).filter(|(i, j)| !is_bond(found, *i, *j));
+    let others = others.map(|(i, j)| found.strongest[i][j]);
+    let traps = found.traps.iter().flatten().map(|trap| trap.0);
+    others
+        .chain(traps)
+        .map(move |energy| 1.0 - energy.min(0.0) / bond)
+}
+
+/// `A on B*`; of a word and its own mate a trap.
+fn met(set: &WordSet, found: &Crosstalk, first: usize, second: usize) -> String {
+    let [a, b] = [first, second].map(|face| face_name(set, found, face));
+    let trap = if is_bond(found, first, second) {
+        ", a trap"
+    } else {
+        ""
+    };
+    format!("{a} on {b}{trap}")
+}
+
+/// All faces, in the order of rows and columns.
+fn faces(found: &Crosstalk) -> impl Iterator<Item = Word> {
     let words = found.words.iter().copied();
-    words
-        .clone()
-        .chain(words.map(|word| word.mate()))
-        .map(|word| word.to_string())
-        .collect()
+    words.clone().chain(words.map(|word| word.mate()))
 }
 
 /// The name of a face: `A`, or `A*` of a mate.
@@ -81,7 +242,7 @@ pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String
 }
 
 /// Whether two faces are a word and its own mate.
-pub(super) fn is_bond(found: &Crosstalk, first: usize, second: usize) -> bool {
+fn is_bond(found: &Crosstalk, first: usize, second: usize) -> bool {
     first.abs_diff(second) == found.words.len()
 }
 
@@ -112,15 +273,10 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
     };
     let wrong = match found.strongest_wrong() {
         Some(([i, j], energy, q)) if energy < 0.0 => format!(
-            "strongest wrong meeting {}: {} on {}{} at {}",
+            "strongest wrong meeting {}: {}{} at {}",
             si(-energy, "J", 4),
-            face_name(set, found, i),
-            face_name(set, found, j),
-            if is_bond(found, i, j) {
-                ", a trap,"
-            } else {
-                ""
-            },
+            met(set, found, i, j),
+            if is_bond(found, i, j) { "," } else { "" },
             told(&q)
         ),
         _ => "nothing wrong attracts".to_owned(),
@@ -132,110 +288,10 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
     )
 }
 
-/// What the terminal is told.
-pub fn summary(set: &WordSet, found: &Crosstalk) -> String {
-    let mut text = headline(set, found) + ".\n";
-    let proved = found.lower.as_ref().map_or("", |_| "   proved below");
-    let _ = writeln!(text, "\nstrongest wrong meetings{proved:>42}");
-    let mut wrong: Vec<(usize, usize)> = pairs(found)
-        .filter(|(i, j)| !is_bond(found, *i, *j))
-        .collect();
-    wrong.order_by(|a, b| found.strongest[a.0][a.1].total_cmp(&found.strongest[b.0][b.1]));
-    for (i, j) in wrong.into_iter().take(LISTED) {
-        let q = found.poses[i][j];
-        let names = format!(
-            "{} on {}",
-            face_name(set, found, i),
-            face_name(set, found, j)
-        );
-        let energy = si(found.strongest[i][j], "J", 4);
-        let place = told(&q);
-        let lower = found
-            .lower
-            .as_ref()
-            .map_or(String::new(), |lower| si(lower[i][j], "J", 4));
-        let _ = writeln!(text, "  {names:<10}{energy:>12}   {place:<30}{lower:>12}");
-    }
-    text + "A word and its own mate also hold where a trap is; traps are found, not proved.\n"
-}
-
 /// A pose for the terminal.
 fn told(q: &Configuration) -> String {
     // No minus of what rounds to nothing.
     let tenth = |x: f64| (10.0 * x).round() / 10.0 + 0.0;
     let [x, y, theta] = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()].map(tenth);
     format!("{x:.1}, {y:.1} mm, {theta:.1} deg")
-}
-
-/// Meetings that the terminal lists.
-const LISTED: usize = 5;
-
-/// All files, made by `command`.
-pub fn files(set: &WordSet, found: &Crosstalk, command: &str) -> Files {
-    let page = Page::of_crosstalk(set, found);
-    with_report(tables(set, found), Some(page), &value(set, found), command)
-}
-
-/// The tables.
-pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> Files {
-    let table = csv(set, found).into_bytes();
-    Files::from([("crosstalk.csv".to_owned(), table)])
-}
-
-fn csv(set: &WordSet, found: &Crosstalk) -> String {
-    let codes = faces(found);
-    let rows = pairs(found).map(|(i, j)| {
-        let [x, y, theta] = pose(&found.poses[i][j]);
-        let lower = found
-            .lower
-            .as_ref()
-            .map_or(String::new(), |lower| lower[i][j].to_string());
-        vec![
-            face_name(set, found, i),
-            face_name(set, found, j),
-            codes[i].clone(),
-            codes[j].clone(),
-            lower,
-            positive_zero(found.strongest[i][j]).to_string(),
-            x.to_string(),
-            y.to_string(),
-            theta.to_string(),
-            if is_bond(found, i, j) {
-                "bond"
-            } else {
-                "wrong"
-            }
-            .to_owned(),
-        ]
-    });
-    let traps = found.traps.iter().enumerate().filter_map(|(i, trap)| {
-        let (energy, q) = (*trap)?;
-        let j = i + found.words.len();
-        let [x, y, theta] = pose(&q).map(|x| x.to_string());
-        Some(vec![
-            face_name(set, found, i),
-            face_name(set, found, j),
-            codes[i].clone(),
-            codes[j].clone(),
-            String::new(),
-            positive_zero(energy).to_string(),
-            x,
-            y,
-            theta,
-            "trap".to_owned(),
-        ])
-    });
-    let header = [
-        "first",
-        "second",
-        "first_code",
-        "second_code",
-        "lower_J",
-        "upper_J",
-        "x_m",
-        "y_m",
-        "theta_rad",
-        "meeting",
-    ];
-    table(header.map(str::to_owned), rows.chain(traps))
 }

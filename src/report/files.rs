@@ -64,15 +64,22 @@ pub const DOCK: Command = Command {
 /// `tilebind words`.
 pub const WORDS: Command = Command {
     name: "words",
-    files: &[REPORT, PAGE, "words.csv", "crosstalk.csv", "words.toml"],
-    pictures: &[],
+    files: &[
+        REPORT,
+        PAGE,
+        "words.csv",
+        "crosstalk.csv",
+        "frontier.csv",
+        "words.toml",
+    ],
+    pictures: &["crosstalk", "gaps", "frontier"],
 };
 
 /// `tilebind crosstalk`.
 pub const CROSSTALK: Command = Command {
     name: "crosstalk",
     files: &[REPORT, PAGE, "crosstalk.csv"],
-    pictures: &[],
+    pictures: &["crosstalk", "gaps"],
 };
 
 /// `tilebind assemble`.

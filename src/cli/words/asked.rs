@@ -1,7 +1,7 @@
 //! What `tilebind words` is asked: places, magnets, constraints.
 
 use tilebind::design::Design;
-use tilebind::report::words as report;
+use tilebind::word_sets;
 use tilebind::words::word::MOST_PLACES;
 use tilebind::words::{Bar, Constraints, PAPER_FACE};
 
@@ -71,7 +71,7 @@ impl Words {
             Some(path) => Failure::Usage(format!("{}: {message}", path.display())),
             None => Failure::Usage(message),
         };
-        let (bar, face) = report::bar(design.as_ref(), self.pitch, self.model).map_err(usage)?;
+        let (bar, face) = word_sets::bar(design.as_ref(), self.pitch, self.model).map_err(usage)?;
         Ok((bar, face.unwrap_or(PAPER_FACE), design))
     }
 

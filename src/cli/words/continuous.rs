@@ -1,12 +1,12 @@
 //! `tilebind words --continuous`.
 
 use tilebind::output::Output;
-use tilebind::report::words::{Spaced, SpacedError};
+use tilebind::report::words::document_of_spaced;
+use tilebind::word_sets::{Spaced, SpacedError};
 use tilebind::words::continuous::Wanted;
 use tilebind::words::{Bar, Faces, Question};
 
 use super::super::Failure;
-use super::super::figures::command_line;
 use super::Words;
 
 impl Words {
@@ -15,8 +15,9 @@ impl Words {
         magnets: usize,
         bar: Bar,
         face: f64,
-        output: Option<&Output>,
+        output: Option<Output>,
     ) -> Result<(), Failure> {
+        let progress = self.results.progress();
         let wanted = Wanted {
             magnets,
             bar,
@@ -39,11 +40,7 @@ impl Words {
             }
             _ => Failure::Usage(error.to_string()),
         })?;
-        self.finish(
-            output,
-            &spaced.json(),
-            || spaced.files(&command_line()),
-            || spaced.summary(),
-        )
+        self.results
+            .deliver(&document_of_spaced(&spaced), output, &progress)
     }
 }

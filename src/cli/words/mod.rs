@@ -8,15 +8,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::budget::Budget;
-use tilebind::design::{Design, MagnetModel};
-use tilebind::output::Output;
-use tilebind::report::files::{Files, WORDS};
-use tilebind::report::words::{self as report, Request};
+use tilebind::design::MagnetModel;
+use tilebind::report::files::WORDS;
+use tilebind::report::words as report;
+use tilebind::word_sets::Request;
 use tilebind::words::search::Effort;
 use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
 
-use super::figures::command_line;
-use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::options::WorkOptions;
+use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
 use values::{faces, fault, gap, mismatches, range, shape, whole_range};
 
@@ -146,18 +146,11 @@ pub struct Words {
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = input::positive)]
     seconds: f64,
 
-    /// Folder for report.html, report.json, words.csv, crosstalk.csv and words.toml
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-
-    #[command(flatten)]
-    force: ForceOption,
-
     #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 impl Words {
@@ -165,12 +158,15 @@ impl Words {
         interrupt::prepare()?;
         let (places, magnets) = self.places()?;
         let (bar, face, design) = self.bar()?;
-        let output = self.output(design.as_ref())?;
+        let read = self.design.as_ref().zip(design.as_ref());
+        let inputs = read.map(|(path, design)| input::files_of(path, design));
+        let output = self.results.output(&WORDS, inputs.unwrap_or_default())?;
         self.work.use_threads()?;
         if self.continuous {
             let face = self.face.unwrap_or(face);
-            return self.run_continuous(magnets, bar, face, output.as_ref());
+            return self.run_continuous(magnets, bar, face, output);
         }
+        let progress = self.results.progress();
         let energies = Lags::new(&bar, places);
         let rules = Rules {
             faces: self.faces,
@@ -209,44 +205,7 @@ impl Words {
             seconds: self.seconds,
             energies,
         };
-        let json = report::json(&request, &answer);
-        self.finish(
-            output.as_ref(),
-            &json,
-            || report::files(&request, &answer, &command_line()),
-            || report::summary(&request, &answer),
-        )
-    }
-
-    /// Where the files go, if a folder is given.
-    fn output(&self, design: Option<&Design>) -> Result<Option<Output>, Failure> {
-        let read = self.design.as_ref().zip(design);
-        let inputs = read.map(|(path, design)| input::files_of(path, design));
-        let inputs = inputs.unwrap_or_default();
-        let folder = self.out.as_ref();
-        folder
-            .map(|it| self.force.folder(&WORDS, it, inputs))
-            .transpose()
-    }
-
-    /// Writes the files, if a folder is given, and prints.
-    fn finish(
-        &self,
-        output: Option<&Output>,
-        json: &str,
-        files: impl FnOnce() -> Files,
-        summary: impl FnOnce() -> String,
-    ) -> Result<(), Failure> {
-        if let Some(output) = output {
-            let files = files();
-            interrupt::without(|| output.write(&files))?;
-        }
-        self.print.results(json, || {
-            let mut text = summary();
-            if let Some(folder) = &self.out {
-                text += &format!("results in {}: {}\n", folder.display(), report::FILES);
-            }
-            text
-        })
+        let document = report::document(&request, &answer);
+        self.results.deliver(&document, output, &progress)
     }
 }

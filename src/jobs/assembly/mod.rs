@@ -28,6 +28,7 @@ pub mod matrix;
 pub mod proofread;
 pub mod rests;
 pub mod rgrow;
+mod search;
 pub mod slides;
 pub mod square;
 pub mod wiring;
@@ -41,6 +42,7 @@ use std::path::Path;
 use crate::design::{DesignError, Place};
 
 pub use built::Built;
+pub use search::WordSearch;
 pub use wiring::{Axis, Wiring};
 
 /// North, east, south and west: the order of a tile's glues.

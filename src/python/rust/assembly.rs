@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::assembly::{Built, TileSet, Wiring, proofread};
+use tilebind::assembly::{Built, TileSet, Wiring, WordSearch, proofread};
 use tilebind::design::WordSet;
 use tilebind::kinetics::bond::Shaking;
-use tilebind::report::assembly::{self as report, Assembly, WordSearch};
+use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::words::Rules;
 
 use crate::design::Design;

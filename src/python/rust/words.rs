@@ -4,7 +4,8 @@ use pyo3::prelude::*;
 use tilebind::budget::Budget;
 use tilebind::design::WordSet;
 use tilebind::report::crosstalk as crosstalk_report;
-use tilebind::report::words::{self as report, Request, Spaced};
+use tilebind::report::words as report;
+use tilebind::word_sets::{self, Request, Spaced};
 use tilebind::words::continuous::Wanted;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 use tilebind::words::search::Effort;
@@ -137,7 +138,8 @@ pub fn words<'py>(
             told.tell(0.0, "words".to_owned());
             Spaced::search(&wanted, question, seed, seconds)
         })?;
-        return convert::json(py, &found.map_err(fault::value)?.json());
+        let found = found.map_err(fault::value)?;
+        return convert::json(py, &report::document_of_spaced(&found).report());
     }
     if face.is_some() {
         return Err(fault::value("face goes with continuous=True"));
@@ -181,7 +183,7 @@ pub fn words<'py>(
         seconds,
         energies,
     };
-    convert::json(py, &report::json(&request, &answer))
+    convert::json(py, &report::document(&request, &answer).report())
 }
 
 /// A complementary shape by its name.
@@ -198,7 +200,7 @@ pub fn word_shape(name: &str) -> PyResult<Shape> {
 fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> {
     fault::positive("pitch", pitch)?;
     let design = design.map(|design| &design.get().content.design);
-    let (bar, face) = report::bar(design, pitch, None).map_err(fault::value)?;
+    let (bar, face) = word_sets::bar(design, pitch, None).map_err(fault::value)?;
     Ok((bar, face.unwrap_or(PAPER_FACE)))
 }
 
@@ -245,7 +247,7 @@ pub fn crosstalk<'py>(
         told.tell(0.0, "crosstalk".to_owned());
         stage.crosstalk(&set.words, tolerance.map(|tolerance| (tolerance, cells)))
     })?;
-    convert::json(py, &crosstalk_report::json(&set, &found))
+    convert::json(py, &crosstalk_report::document(&set, &found).report())
 }
 
 /// A set of words and its file, from a list of them or the keys of the file.

@@ -4,13 +4,11 @@
 mod designs;
 mod pairs;
 mod picture;
-mod search;
 mod text;
 
 use serde_json::{Value, json};
 
 pub(crate) use pairs::deeper;
-pub use search::WordSearch;
 pub use text::{headline, summary};
 
 use super::csv::table;

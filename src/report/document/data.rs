@@ -56,7 +56,7 @@ fn object(entries: &[Entry]) -> Value {
 }
 
 impl Table {
-    /// Its numbers.
+    /// The file of its numbers, without those of tables within its rows.
     pub fn csv(&self) -> String {
         let mut sheets = Vec::new();
         collect(&self.clone().in_file(""), None, &mut sheets);
@@ -75,16 +75,6 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// The file of its numbers, without those of tables within its rows.
-    pub fn csv(&self) -> String {
-        let mut sheets = Vec::new();
-        collect(&self.clone().in_file(self.key), None, &mut sheets);
-        let sheet = sheets.swap_remove(0);
-        csv::table(sheet.columns, sheet.rows)
-    }
-}
-
-impl Table {
     /// The columns of its file of numbers, each with its cells.
     pub fn columns(&self) -> Vec<(String, Vec<Cell>)> {
         let shown = (0..self.heads.len()).filter(|k| self.heads[*k].is_csv);

@@ -4,6 +4,8 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{finite, fixed};
+use crate::document::{Drawing, rows};
+use crate::plots::matrix::Matrix;
 use physics::configuration::Configuration;
 use physics::tile::Magnet;
 use physics::words::Word;
@@ -122,10 +124,10 @@ impl Carrier {
 }
 
 impl Meetings {
-    /// Of faces with their names and words, `met` telling of every two of them (rows, columns).
+    /// Of faces by their names, with their words, `met` telling of every two of them (rows, columns).
     pub fn new(
         carrier: &Carrier,
-        faces: &[(String, String, Word)],
+        faces: &[(String, Word)],
         bond: f64,
         met: impl Fn(usize, usize) -> Option<Met>,
     ) -> Self {
@@ -150,7 +152,7 @@ impl Meetings {
             title: String::new(),
             note: String::new(),
             names: faces.iter().map(|face| face.0.clone()).collect(),
-            codes: faces.iter().map(|face| face.1.clone()).collect(),
+            codes: faces.iter().map(|face| face.1.to_string()).collect(),
             energies: table(&all, |met| met.and_then(|met| finite(met.energy, 5))),
             lower: match any(|met| met.lower.is_some()) {
                 true => table(&all, |met| met.and_then(|met| finite(met.lower?, 5))),
@@ -168,13 +170,38 @@ impl Meetings {
             outline: vec![[half, -half], [half, half], [-half, half], [-half, -half]],
             first: faces
                 .iter()
-                .map(|face| carrier.blocks(face.2, true))
+                .map(|face| carrier.blocks(face.1, true))
                 .collect(),
             second: faces
                 .iter()
-                .map(|face| carrier.blocks(face.2, false))
+                .map(|face| carrier.blocks(face.1, false))
                 .collect(),
         }
+    }
+
+    /// The same as a picture.
+    pub(crate) fn picture(&self) -> Drawing<'static> {
+        let share = |energy: &Option<f64>| energy.map(|energy| (-energy / self.bond).max(0.0));
+        let row = |row: &Vec<Option<f64>>| row.iter().map(share).collect();
+        let shares: Vec<Vec<Option<f64>>> = self.energies.iter().map(row).collect();
+        let n = self.names.len();
+        let pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let met = pairs.filter_map(|(i, j)| Some((i, j, self.energies[i][j]?, shares[i][j]?)));
+        let numbers = rows(met)
+            .column("first", "", "", |it| self.names[it.0].clone())
+            .column("second", "", "", |it| self.names[it.1].clone())
+            .column("energy_J", "", "", |it| it.2)
+            .column("share", "", "", |it| it.3);
+        Matrix {
+            name: "crosstalk",
+            title: self.title.clone(),
+            names: self.names.clone(),
+            numbers: numbers.table("crosstalk").csv(),
+            shares,
+            is_framed: |row, column, count| 2 * row.abs_diff(column) == count,
+            legend: "Attraction over the weakest bond; framed: a word and its own mate".to_owned(),
+        }
+        .into()
     }
 
     /// With a heading and what a cell is.

@@ -7,7 +7,6 @@
 
 mod assembly;
 mod charts;
-mod crosstalk;
 mod html;
 pub(super) mod landscape;
 pub(super) mod meetings;
@@ -16,7 +15,6 @@ pub(crate) mod pathways;
 mod thumbnail;
 mod tree;
 mod word_charts;
-mod words;
 
 use serde::Serialize;
 use serde_json::Value;

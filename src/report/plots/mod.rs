@@ -34,6 +34,7 @@ mod key;
 mod labels;
 mod map_marks;
 mod marks;
+pub mod matrix;
 pub(crate) mod merge_tree;
 mod models;
 pub mod paths;

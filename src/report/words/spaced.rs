@@ -1,192 +1,126 @@
-//! The search for words with magnets anywhere along the face: what is found is judged over all poses
-//! as its file tells it.
+//! Sets of words with magnets anywhere along the face, judged over all poses.
 
-use super::{Spaced, rounded, spaced_toml};
-use jobs::design::{DesignError, WordSet};
-use physics::budget::Budget;
+use serde_json::json;
+
+use crate::crosstalk;
+use crate::document::{Cell, Document, Entries, Part, Table, rows};
+use crate::values::{pose, positive_zero};
+use jobs::word_sets::{Spaced, file};
+use physics::units::si;
 use physics::words::Question;
-use physics::words::continuous::{SpacedWord, Wanted, search};
-use physics::words::crosstalk::{Crosstalk, Stage, sampling_work};
-use physics::words::search::Effort;
-use physics::words::word::MOST_PLACES;
+use physics::words::continuous::SpacedWord;
+use physics::words::crosstalk::Crosstalk;
+use physics::words::set::name;
 
-/// Share of the work left for one more word.
-const FOR_A_WORD: f64 = 0.2;
-/// Annealing looks at fewer poses than the judgement: it goes on until the gap is wider than asked
-/// for by the first of these, or else by the second.
-const MARGINS: [f64; 2] = [0.01, 0.05];
-
-/// Why no words can be sought.
-#[derive(Debug, thiserror::Error)]
-pub enum SpacedError {
-    /// Neither a gap nor a number of words was given.
-    #[error("with magnets anywhere along the face a gap or a number of words must be given")]
-    NothingAsked,
-    /// The least spacing is below the magnets' width.
-    #[error(
-        "magnets {} mm wide do not fit side by side {} mm apart: give a pitch of {width} m or more",
-        1e3 * .width, 1e3 * .pitch
-    )]
-    TooNarrow {
-        /// Of a magnet, along the face (m).
-        width: f64,
-        /// The least spacing (m).
-        pitch: f64,
-    },
-    /// A word does not fit on the face.
-    #[error(
-        "{magnets} magnets at least {} mm apart do not fit on a face of {} mm: give fewer magnets, a \
-         smaller pitch or a longer face",
-        1e3 * .pitch, 1e3 * .face
-    )]
-    NoRoom {
-        /// Of a word.
-        magnets: usize,
-        /// The least spacing (m).
-        pitch: f64,
-        /// Length of the face (m).
-        face: f64,
-    },
-    /// More places than are judged.
-    #[error(
-        "words and mates with magnets at more than {MOST_PLACES} places are not judged: give at \
-         most {most} words of {magnets} magnets"
-    )]
-    TooMany {
-        /// Words that can be judged.
-        most: usize,
-        /// Of a word.
-        magnets: usize,
-    },
-    /// What was found makes no file.
-    #[error(transparent)]
-    File(#[from] DesignError),
-}
-
-type Judged = Option<(WordSet, Crosstalk)>;
-
-impl Spaced {
-    /// Searches for what is asked, with work of about so many seconds of a core.
-    ///
-    /// # Errors
-    /// Where such words cannot be.
-    pub fn search(
-        wanted: &Wanted,
-        asked: Question,
-        seed: u64,
-        seconds: f64,
-    ) -> Result<Self, SpacedError> {
-        check(wanted, asked)?;
-        let mut effort = Effort {
-            seed,
-            budget: Budget::seconds(seconds),
-        };
-        let (words, judged) = match asked {
-            Question::Count(count) => of_count(wanted, count, &mut effort)?,
-            Question::Gap(gap) => of_gap(wanted, gap, &mut effort)?,
-            Question::Frontier => return Err(SpacedError::NothingAsked),
-        };
-        Ok(Self {
-            words,
-            asked,
-            bar: wanted.bar,
-            face: wanted.face,
-            seed,
-            seconds,
-            judged,
-        })
+/// What there is to know of words with magnets anywhere.
+pub fn document(spaced: &Spaced) -> Document<'_> {
+    let headline = headline(spaced);
+    let set = file::of_spaced(&headline, &spaced.words, &spaced.bar, spaced.face);
+    let judged = spaced.judged.as_ref();
+    let map = judged.and_then(|(set, found)| crosstalk::map(set, found));
+    Document {
+        title: format!("{} words with magnets anywhere", spaced.words.len()),
+        answer: headline,
+        entries: entries(spaced),
+        pictures: judged.map_or(Vec::new(), |(_, found)| {
+            crosstalk::pictures(map.as_ref(), found)
+        }),
+        part: map.map(Part::Meetings),
+        beside: [("words.toml".to_owned(), set.into_bytes())].into(),
+        origin: format!(
+            "seed {}; {} magnets at least {} apart on faces of {}; all poses in which two faces can meet",
+            spaced.seed,
+            spaced.bar.model.name(),
+            si(spaced.bar.pitch, "m", 3),
+            si(spaced.face, "m", 3),
+        ),
+        ..Document::default()
     }
 }
 
-fn check(wanted: &Wanted, asked: Question) -> Result<(), SpacedError> {
-    let (width, pitch, magnets) = (wanted.bar.size[1], wanted.bar.pitch, wanted.magnets);
-    if pitch < width * (1.0 - 1e-9) {
-        return Err(SpacedError::TooNarrow { width, pitch });
+fn headline(spaced: &Spaced) -> String {
+    match (&spaced.judged, spaced.asked) {
+        (Some((set, found)), _) => format!(
+            "{}; at least so many, no upper bound known",
+            crosstalk::headline(set, found)
+        ),
+        (None, Question::Gap(gap)) => format!("none found with the gap {gap}, nothing proved"),
+        (None, _) => "none found, nothing proved".to_owned(),
     }
-    if wanted.room() < 0.0 {
-        let face = wanted.face;
-        return Err(SpacedError::NoRoom {
-            magnets,
-            pitch,
-            face,
-        });
-    }
-    let most = MOST_PLACES / (2 * magnets);
-    if most == 0 || matches!(asked, Question::Count(count) if count > most) {
-        return Err(SpacedError::TooMany { most, magnets });
-    }
-    Ok(())
 }
 
-/// So many words with a wide gap.
-fn of_count(
-    wanted: &Wanted,
-    count: usize,
-    effort: &mut Effort,
-) -> Result<(Vec<SpacedWord>, Judged), DesignError> {
-    effort.budget.spend(judging(wanted, count));
-    let found = search(wanted, count, &[], 0.0, effort);
-    let words = told(found.map(|found| found.words));
-    let judged = judged(wanted, &words)?;
-    Ok((words, judged))
+// One line an entry.
+#[rustfmt::skip]
+fn entries(spaced: &Spaced) -> Entries {
+    let (gap, count) = match spaced.asked {
+        Question::Gap(gap) => (Some(gap), None),
+        Question::Count(count) => (None, Some(count)),
+        Question::Frontier => (None, None),
+    };
+    let judged = spaced.judged.as_ref();
+    let found = judged.map(|it| &it.1);
+    let worst = judged.and_then(|(set, found)| {
+        let ([i, j], energy, q) = found.strongest_wrong()?;
+        let [first, second] = [i, j].map(|k| crosstalk::face_name(set, found, k));
+        Some((first, second, energy, q))
+    });
+    let entries = Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        // Poles in order; where they lie along the face is in positions_m.
+        .data("words", spaced.words.iter().map(SpacedWord::code).collect::<Vec<_>>())
+        .data("positions_m", json!(spaced.words.iter().map(SpacedWord::positions).collect::<Vec<_>>()))
+        .fact("count", "words", spaced.words.len())
+        // None is known: positions are numbers without end.
+        .data("upper_bound", json!(null))
+        .data("proved", false)
+        .fact("gap", "gap", found.and_then(Crosstalk::gap)).digits(4).noted("over sampled poses")
+        .fact("bond_J", "weakest bond", found.and_then(|it| it.weakest_bond()).map(|bond| -bond.1)).digits(4)
+        .fact("worst", "strongest wrong meeting", worst.as_ref().map(|(first, second, energy, q)| Cell::Data(json!({
+                "first": first, "second": second, "pose": pose(q),
+                "slide_m": positive_zero(q.y), "energy_J": positive_zero(*energy),
+            })))).viewed(worst.as_ref().map_or(String::new(), |it| si(it.2, "J", 4)))
+            .noted(worst.as_ref().map_or(String::new(), |it| format!("{} on {}", it.0, it.1)))
+        .table(words(&spaced.words).in_view())
+        .data("seed", spaced.seed)
+        .data("settings", json!({
+            "continuous": true,
+            "gap": gap,
+            "count": count,
+            "face_m": spaced.face,
+            "least_spacing_m": spaced.bar.pitch,
+            "model": spaced.bar.model.name(),
+            "magnet_size_m": spaced.bar.size,
+            "magnet_moment_Am2": spaced.bar.moment,
+            "inset_m": spaced.bar.inset,
+            "seconds": spaced.seconds,
+        }));
+    judged.iter().fold(entries, |entries, (set, found)| {
+        let [all, strongest] = crosstalk::tables(set, found);
+        entries.table(strongest).table(all)
+    })
 }
 
-/// As many words as are found with a gap over all poses.
-fn of_gap(
-    wanted: &Wanted,
-    gap: f64,
-    effort: &mut Effort,
-) -> Result<(Vec<SpacedWord>, Judged), DesignError> {
-    let mut best = (Vec::new(), None);
-    let most = MOST_PLACES / (2 * wanted.magnets);
-    'more: for count in 1..=most {
-        for margin in MARGINS {
-            // One word is judged in any case.
-            let judging = judging(wanted, count);
-            if count > 1 && judging > effort.budget.left() {
-                break 'more;
-            }
-            effort.budget.spend(judging);
-            let mut part = Effort {
-                seed: effort.seed,
-                budget: effort.budget.share(FOR_A_WORD),
-            };
-            let enough = (1.0 - gap - margin).max(0.0);
-            let found = search(wanted, count, &best.0, enough, &mut part);
-            effort.budget.give_back(&part.budget);
-            let words = told(found.map(|found| found.words));
-            let judged = judged(wanted, &words)?;
-            let reached = judged.as_ref().and_then(|(_, found)| found.gap());
-            if reached.is_some_and(|reached| reached >= gap) {
-                best = (words, judged);
-                continue 'more;
-            }
-        }
-        break;
-    }
-    Ok(best)
-}
-
-/// Units of work that judging so many words takes: each and its mate has places of its own.
-fn judging(wanted: &Wanted, count: usize) -> u64 {
-    sampling_work(2 * wanted.magnets * count)
-}
-
-fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {
-    words.unwrap_or_default().iter().map(rounded).collect()
-}
-
-/// The set as its file tells it, over all poses.
-fn judged(wanted: &Wanted, words: &[SpacedWord]) -> Result<Judged, DesignError> {
-    if words.is_empty() {
-        return Ok(None);
-    }
-    let text = spaced_toml(words, &wanted.bar, wanted.face, "");
-    let set = WordSet::parse(&text, "words.toml", None)?;
-    let stage = Stage::new(
-        set.stage.pair.as_ref().clone(),
-        set.stage.interaction.clone(),
-    );
-    let found = stage.crosstalk(&set.words, None);
-    Ok(Some((set, found)))
+/// The words, and every magnet of each.
+#[rustfmt::skip]
+fn words(words: &[SpacedWord]) -> Table {
+    let magnets = |word: &SpacedWord| {
+        let code = word.code();
+        rows(word.magnets.clone())
+            .column("word", "", "", move |_| code.clone())
+            .column("at_m", "", "", |it| it.0)
+            .column("pole", "", "", |it| if it.1 > 0 { "N" } else { "S" })
+            .table("magnets")
+            .in_file("words")
+    };
+    let places = |word: &SpacedWord| {
+        let places = word.magnets.iter().map(|it| format!("{:.1}", 1e3 * it.0));
+        places.collect::<Vec<_>>().join(", ") + " mm"
+    };
+    rows(words.iter().enumerate())
+        .column("name", "name", "of the word; its mate is marked with *", |it| name(it.0))
+        .column("word", "word", "its poles in order: N a north pole out, S a south pole", |it| it.1.code())
+        .column("positions", "magnets at", "along the face, from its middle", move |it| places(it.1))
+        .column("magnets", "", "", move |it| magnets(it.1))
+        .table("words")
+        .titled("Words", "")
 }

@@ -1,66 +1,12 @@
 //! The answer in words.
 
-use std::fmt::Write;
-
-use super::{Request, fault, name};
+use jobs::word_sets::Request;
 use physics::units::si;
+use physics::words::set::name;
 use physics::words::{Answer, Faces, Fault, Meeting, Question, Shape, Word};
 
-/// What the terminal is told.
-pub fn summary(request: &Request, answer: &Answer) -> String {
-    let mut text = headline(request, answer) + "\n";
-    if let Some(kind) = request.task.rules.fault {
-        let _ = writeln!(
-            text,
-            "All figures with the worst of {} in every face.",
-            fault(kind)
-        );
-    }
-    if !answer.frontier.is_empty() {
-        text += "\ngap asked   words   at most   gap reached\n";
-        for (point, judgement) in &answer.frontier {
-            let count = point.found.words.len();
-            let most = match point.found.is_proved() {
-                true => "proved".to_owned(),
-                false => point.found.upper.to_string(),
-            };
-            let gap = judgement
-                .as_ref()
-                .map_or("-".to_owned(), |it| format!("{:.4}", it.gap));
-            let _ = writeln!(text, "{:>9.4}{count:>8}{most:>10}{gap:>14}", point.asked);
-        }
-        text.push('\n');
-    } else if !answer.words.is_empty() && answer.words.len() <= LISTED {
-        for (k, word) in answer.words.iter().enumerate() {
-            let _ = writeln!(text, "  {:<3} {word}   mate {}", name(k), word.mate());
-        }
-    }
-    if let Some((point, Some(judgement))) = &answer.beyond
-        && point.found.words.len() > answer.words.len()
-    {
-        let many = how_many(point.found.words.len(), point.found.upper);
-        let _ = writeln!(
-            text,
-            "This gap is a tie of contacts, which neighbours' magnets decide: {many} with the gap \
-             {:.4}.",
-            judgement.gap
-        );
-    }
-    if !answer.complete {
-        let _ = writeln!(
-            text,
-            "Chosen from {} words drawn at random: there are too many to look at all.",
-            answer.candidates
-        );
-    }
-    text
-}
-
-/// Sets of more words are not listed on the terminal.
-const LISTED: usize = 40;
-
 /// The first sentence: how many words, how sure, the weakest bond and the strongest wrong meeting.
-pub fn headline(request: &Request, answer: &Answer) -> String {
+pub(super) fn headline(request: &Request, answer: &Answer) -> String {
     let many = match request.question {
         Question::Gap(_) => how_many(answer.words.len(), answer.upper),
         Question::Count(count) if answer.words.is_empty() => match answer.proved {
@@ -105,7 +51,7 @@ pub fn headline(request: &Request, answer: &Answer) -> String {
     )
 }
 
-fn how_many(count: usize, upper: usize) -> String {
+pub(super) fn how_many(count: usize, upper: usize) -> String {
     let words = |count| if count == 1 { "word" } else { "words" };
     match (count, upper) {
         (0, 0) => "none exists, proved".to_owned(),
@@ -115,16 +61,17 @@ fn how_many(count: usize, upper: usize) -> String {
     }
 }
 
+/// A face of the set by its name: `A`, or `A*` of a mate.
+pub(super) fn face(word: Word, answer: &Answer) -> String {
+    let find = |word| answer.words.iter().position(|other| *other == word);
+    let own = find(word).map(name);
+    let named = own.or_else(|| find(word.mate()).map(|k| name(k) + "*"));
+    named.unwrap_or_else(|| word.to_string())
+}
+
 /// `A on B*, slid 40 mm`.
-fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
-    let face = |word: Word| {
-        let find = |word| answer.words.iter().position(|other| *other == word);
-        find(word)
-            .map(name)
-            .or_else(|| find(word.mate()).map(|k| name(k) + "*"))
-    };
-    let [first, second] =
-        [meeting.first, meeting.second].map(|word| face(word).unwrap_or(word.to_string()));
+pub(super) fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
+    let [first, second] = [meeting.first, meeting.second].map(|word| face(word, answer));
     let slide = match meeting.slide {
         0 => "not slid".to_owned(),
         slide => format!("slid {}", si(f64::from(slide) * request.bar.pitch, "m", 3)),
@@ -134,7 +81,7 @@ fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
 }
 
 /// How faces meet, in words.
-pub fn meetings(request: &Request) -> String {
+pub(super) fn meetings(request: &Request) -> String {
     let rules = &request.task.rules;
     let who = match (rules.faces, rules.words_meet()) {
         (Faces::All, true) | (_, true) => "every face can meet every face",
@@ -150,4 +97,12 @@ pub fn meetings(request: &Request) -> String {
         Fault::Flipped => ", one magnet of each face the wrong way round",
     });
     format!("{who}, {slides}{flip}{fault}")
+}
+
+/// As `--tolerate` names it.
+pub(super) fn fault(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Missing => "missing=1",
+        Fault::Flipped => "flipped=1",
+    }
 }

@@ -1,6 +1,6 @@
 //! The magnets that words are made of.
 
-use jobs::design::{Design, MagnetModel};
+use crate::design::{Design, MagnetModel};
 use physics::words::Bar;
 
 /// The magnets of a design's target face and the face's length (m), or the paper's magnets without

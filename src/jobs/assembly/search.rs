@@ -1,10 +1,10 @@
 //! The words of an assembly, searched.
 
-use super::super::words::{self, set_toml};
-use jobs::assembly::Wiring;
-use jobs::assembly::choice::{self, Asked, Choice, Class, Verdict};
-use jobs::design::{Design, MagnetModel};
-use physics::words::{Bar, Rules, Word};
+use super::Wiring;
+use super::choice::{self, Asked, Choice, Class, Verdict};
+use crate::design::{Design, MagnetModel};
+use crate::word_sets::{self, file};
+use physics::words::{Bar, Rules};
 
 /// The least gap where none is asked for.
 const GAP: f64 = 0.5;
@@ -41,7 +41,7 @@ impl WordSearch {
         wiring: &Wiring,
         design: Option<&Design>,
     ) -> Result<(String, Vec<Choice>), String> {
-        let (bar, face) = words::bar(design, self.pitch, self.model)?;
+        let (bar, face) = word_sets::bar(design, self.pitch, self.model)?;
         let most = self.most_places(&bar, face)?;
         let asked = Asked {
             bar,
@@ -58,7 +58,10 @@ impl WordSearch {
         };
         match tried.last() {
             Some(last) if last.verdict == Verdict::Found => {
-                Ok((set_text(last, &bar, face.unwrap_or_default()), tried))
+                let (words, places) = (&last.words, last.places);
+                let headline = format!("{} words of {places} places", words.len());
+                let side = face.unwrap_or_else(|| word_sets::side(&bar, places));
+                Ok((file::of_words(&headline, words, &bar, side), tried))
             }
             Some(last) => Err(missing(last)),
             None => Err("the face holds no magnet".to_owned()),
@@ -120,23 +123,5 @@ fn missing(choice: &Choice) -> String {
         choice.gap,
         choice.places,
         sum(|it| it.found),
-    )
-}
-
-/// The words as a set, on a face of `side` (m), or as long as they are.
-fn set_text(choice: &Choice, bar: &Bar, side: f64) -> String {
-    let words = &choice.words;
-    let places = choice.places as f64;
-    let needed = (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1]);
-    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
-    let faces = words.iter().map(|word: &Word| {
-        [word.to_string(), word.mate().to_string()].map(|code| format!("code = \"{code}\""))
-    });
-    set_toml(
-        &format!("{} words of {} places", words.len(), choice.places),
-        &format!("words = [{}]\n\n", quoted.join(", ")),
-        bar,
-        if side > 0.0 { side } else { needed },
-        faces,
     )
 }

@@ -1,0 +1,68 @@
+//! Sets of words as files: `tilebind crosstalk` reads them, and their faces can be pasted into a design.
+
+use std::fmt::Write;
+
+use physics::potential::MagnetModel;
+use physics::units::MU0;
+use physics::words::continuous::SpacedWord;
+use physics::words::set::name;
+use physics::words::{Bar, Word};
+
+/// Words whose places are a pitch apart, on faces of `side` (m).
+pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    let list = format!("words = [{}]\n\n", quoted.join(", "));
+    let faces = words
+        .iter()
+        .map(|word| [*word, word.mate()].map(|word| format!("code = \"{word}\"")));
+    text(headline, &list, bar, side, faces)
+}
+
+/// Words with magnets anywhere along the face.
+pub fn of_spaced(headline: &str, words: &[SpacedWord], bar: &Bar, side: f64) -> String {
+    let magnets = |word: &SpacedWord| {
+        let letters = word.magnets.iter().map(|(at, pole)| {
+            let pole = if *pole > 0 { 'N' } else { 'S' };
+            // No minus of nothing.
+            format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0)
+        });
+        format!("magnets = [{}]", letters.collect::<Vec<_>>().join(", "))
+    };
+    let faces = words
+        .iter()
+        .map(|word| [magnets(word), magnets(&word.mate())]);
+    text(headline, "", bar, side, faces)
+}
+
+/// The text of a set: its magnets, the tiles' side (m), and what each face and its mate hold.
+fn text(
+    headline: &str,
+    list: &str,
+    bar: &Bar,
+    side: f64,
+    faces: impl Iterator<Item = [String; 2]>,
+) -> String {
+    let [length, width, thickness] = bar.size;
+    // A rounding error would make figures that nobody typed.
+    let rounded = |x: f64| (x * 1e9).round() / 1e9;
+    let remanence = rounded(MU0 * bar.moment / (length * width * thickness));
+    let mut text = format!(
+        "# {headline}\n\n{list}[magnet]\nsize = [{length}, {width}, {thickness}]\n\
+         remanence = {remanence:?}\npitch = {:?}\n",
+        bar.pitch
+    );
+    if bar.inset > 0.0 {
+        let _ = writeln!(text, "inset = {:?}", bar.inset);
+    }
+    let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
+    if bar.model == MagnetModel::Cuboid {
+        text += "\n[potential]\nmodel = \"cuboid\"\n";
+    }
+    text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
+             face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
+    for (k, [word, mate]) in faces.enumerate() {
+        let name = name(k);
+        let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");
+    }
+    text
+}
