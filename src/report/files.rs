@@ -82,6 +82,13 @@ pub const CROSSTALK: Command = Command {
     pictures: &["crosstalk", "gaps"],
 };
 
+/// `tilebind match`.
+pub const MATCH: Command = Command {
+    name: "match",
+    files: &[REPORT, PAGE, "matches.csv"],
+    pictures: &["matches"],
+};
+
 /// `tilebind assemble`.
 pub const ASSEMBLE: Command = Command {
     name: "assemble",

@@ -10,6 +10,7 @@
 //! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
 //! - [`assembly`] - tile sets whose glues are words;
 //! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
+//! - [`matching`] - how two outlines fit together;
 //! - [`rates`] - exits and rates of overdamped motion;
 //! - [`figures`] - numbers with their bounds, for people;
 //! - [`summary`] - ten lines for the terminal; [`inspection`] - a design at a glance;
@@ -37,6 +38,7 @@ pub mod files;
 pub mod inspection;
 pub mod json;
 mod markdown;
+pub mod matching;
 pub mod names;
 mod packing;
 pub mod page;

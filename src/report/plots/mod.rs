@@ -40,6 +40,7 @@ mod models;
 pub mod paths;
 mod pdf;
 mod picture;
+pub mod poses;
 mod profiles;
 pub mod ranking;
 mod raster;

@@ -111,6 +111,7 @@ const YIELD: &str = "yield d.toml --tiles 4 --time 10 --kt 3e-3 --runs 8 --simul
                      --out R";
 const WORDS: &str = "words --length 4 --gap 0.3 --quiet --out R";
 const CROSSTALK: &str = "crosstalk w.toml --quiet --out R";
+const MATCH: &str = "match d.toml --quiet --out R";
 const ASSEMBLE: &str = "assemble lattice --lattice 2x2 --kt 4e-3 --coverage 0.1 --quiet --out R";
 /// Refused or begun, but not waited for.
 const RATES: &str = "rates d.toml --kt 8e-3 --quiet --out R";

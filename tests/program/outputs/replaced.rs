@@ -7,7 +7,7 @@ use tilebind::report::files;
 use super::*;
 
 /// The commands that write folders, with one of their files each.
-const COMMANDS: [(&str, &Command, &str); 9] = [
+const COMMANDS: [(&str, &Command, &str); 10] = [
     (ANALYSE, &files::ANALYSE, "pathways/0-free.csv"),
     (DOCK, &files::DOCK, "pictures/chances.svg"),
     (MAKE, &files::MAKE, "sheet.md"),
@@ -16,6 +16,7 @@ const COMMANDS: [(&str, &Command, &str); 9] = [
     (YIELD, &files::YIELD, "pictures/course.svg"),
     (WORDS, &files::WORDS, "words.toml"),
     (CROSSTALK, &files::CROSSTALK, "crosstalk.csv"),
+    (MATCH, &files::MATCH, "matches.csv"),
     (ASSEMBLE, &files::ASSEMBLE, "report.html"),
 ];
 

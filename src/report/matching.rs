@@ -1,0 +1,67 @@
+//! How two outlines fit together.
+
+use super::document::{Document, Drawing, Table, entries, rows};
+use super::plots::poses;
+use jobs::design::Design;
+use physics::contact::matching::Match;
+use physics::units::si;
+
+/// Motions that a terminal has, and those that are drawn.
+const LISTED: usize = 20;
+const DRAWN: usize = 12;
+
+/// What there is to know of the ways in which the outlines fit, longest contact first.
+pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
+    let longest = found.first().map(|longest| {
+        let as_long = found
+            .iter()
+            .filter(|it| it.contact > longest.contact - 1e-6);
+        format!(
+            "Longest contact {}, in {} of {} ways listed",
+            si(longest.contact, "m", 4),
+            as_long.count(),
+            found.len()
+        )
+    });
+    let drawn = found.iter().take(DRAWN);
+    let drawn: Vec<_> = drawn
+        .map(|it| {
+            (
+                it.pose,
+                format!("{}, gap {}", si(it.contact, "m", 4), area(it)),
+            )
+        })
+        .collect();
+    let title = match found.len() {
+        ..=DRAWN => "How the outlines fit, by the length of their contact".to_owned(),
+        _ => format!("The {DRAWN} longest contacts"),
+    };
+    let picture = (!drawn.is_empty()).then(|| {
+        Drawing::new(title.clone(), move |sheet| {
+            let numbers = table(&found[..drawn.len()]).csv();
+            poses::draw(("matches", &title), &design.pair, &drawn, numbers, sheet)
+        })
+    });
+    Document {
+        title: format!("{}: how the outlines fit", design.name),
+        answer: longest.unwrap_or("no two edges can be laid on each other".to_owned()),
+        entries: entries(design).table(table(found).in_file("matches").listing(LISTED)),
+        pictures: picture.into_iter().collect(),
+        origin: "exact polygons, magnets aside".to_owned(),
+        ..Document::default()
+    }
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn table(found: &[Match]) -> Table {
+    rows(found)
+        .column("pose", "x, y (mm), angle", "of the moving tile", |it| it.pose)
+        .column("contact_m", "contact", "along which the outlines touch", |it| it.contact).digits(4)
+        .column("gap_m2", "gap", "area between the tiles within the hull of their contact", |it| it.gap).viewed(|it| area(it))
+        .table("matches")
+}
+
+fn area(found: &Match) -> String {
+    format!("{:.1} cm\u{b2}", 1e4 * found.gap)
+}
