@@ -14,7 +14,6 @@ mod packed;
 pub(crate) mod pathways;
 mod thumbnail;
 mod tree;
-mod word_charts;
 
 use serde::Serialize;
 use serde_json::Value;
