@@ -101,7 +101,7 @@
 
 pub use jobs::{
     Analysis, Design, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, output, pipeline, query, rates, sweep, word_sets, workshop, yields,
+    inspection, output, pipeline, query, rates, request, sweep, word_sets, workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -12,6 +12,7 @@ use tilebind::pipeline;
 use tilebind::report::analysis::{Extent, document, files};
 use tilebind::report::files::ANALYSE;
 use tilebind::report::plots::Scene;
+use tilebind::request;
 use tilebind::{Design, Settings};
 
 use super::failure::fail_if_contradicted;
@@ -19,7 +20,7 @@ use super::figures::{FigureOptions, command_line};
 use super::options::{
     CertifyOptions, DesignOptions, ForceOption, PrintOptions, SurveyOptions, WorkOptions,
 };
-use super::{Failure, input, interrupt, memory, style, workload};
+use super::{Failure, interrupt, memory, style, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
@@ -58,20 +59,20 @@ pub struct Analyse {
 
     /// Runs, each with the next seed; every barrier's spread over them is reported
     #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
-          value_parser = input::count)]
+          value_parser = request::count)]
     repeats: usize,
 
     /// Accept milestones by Boltzmann's rule at this energy (J), not by the linear rule
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     boltzmann: Option<f64>,
 
     /// Thermal energy (J) of the transition probabilities [default: a hundredth of the bond]
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     thermal_energy: Option<f64>,
 
     /// Width (J) to which the certified bounds are narrowed [default: a hundredth of
     /// the bond or a twentieth of the barrier, whichever is less]
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     tolerance: Option<f64>,
 
     #[command(flatten)]
@@ -79,22 +80,22 @@ pub struct Analyse {
 
     /// Work given to the proof that no state is missing from the list, as what takes about so many
     /// seconds of a core; it is counted. 0 for no proof [default: 180; of very many magnets 0]
-    #[arg(long, value_name = "W", value_parser = input::not_negative)]
+    #[arg(long, value_name = "W", value_parser = request::not_negative)]
     complete_work: Option<f64>,
 
     /// Seconds by the clock after which that proof ends too, so that another run may differ; 0 for no
     /// proof [default: no limit]
-    #[arg(long, value_name = "S", value_parser = input::not_negative)]
+    #[arg(long, value_name = "S", value_parser = request::not_negative)]
     complete_seconds: Option<f64>,
 
     /// Traps are looked for below this share of the bond's energy
     #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.below,
-          value_parser = input::fraction)]
+          value_parser = request::fraction)]
     complete_below: f64,
 
     /// Traps are to be listed that need more than this share of the bond's energy to leave
     #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.escape,
-          value_parser = input::fraction)]
+          value_parser = request::fraction)]
     complete_escape: f64,
 
     #[command(flatten)]

@@ -8,6 +8,7 @@ use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
 use tilebind::report::assembly::{self as report, Assembly};
 use tilebind::report::files::ASSEMBLE;
+use tilebind::request;
 use tilebind::words::{Rules, Shape};
 
 use super::figures::command_line;
@@ -42,7 +43,7 @@ pub struct Assemble {
     design: Option<PathBuf>,
 
     /// Effective energy kT of the shaking (J)
-    #[arg(long, value_name = "E", value_parser = input::shaking)]
+    #[arg(long, value_name = "E", value_parser = request::shaking)]
     kt: f64,
 
     /// Share of the table that loose tiles cover, all kinds together
@@ -58,19 +59,19 @@ pub struct Assemble {
     lattice: Option<[usize; 2]>,
 
     /// Side of a counted square (tiles)
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     side: Option<usize>,
 
     /// Blocks of K x K tiles in place of tiles, against errors
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = input::whole(1, 6))]
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = request::whole(1, 6))]
     proofread: u16,
 
     /// Places of a face [default: the fewest that carry the words]
-    #[arg(long, value_name = "L", value_parser = input::count)]
+    #[arg(long, value_name = "L", value_parser = request::count)]
     length: Option<usize>,
 
     /// Magnets of the strongest bonds' words, where spacing is code too [default: one a place]
-    #[arg(long, value_name = "K", value_parser = input::count)]
+    #[arg(long, value_name = "K", value_parser = request::count)]
     magnets: Option<usize>,
 
     /// Least gap of the words, from 0 to 1 [default: 0.5; with --length the widest there is]
@@ -84,7 +85,7 @@ pub struct Assemble {
     shape: Shape,
 
     /// From place to place (m) [default: the design's, or 0.04]
-    #[arg(long, value_name = "M", value_parser = input::length)]
+    #[arg(long, value_name = "M", value_parser = request::length)]
     pitch: Option<f64>,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
@@ -93,7 +94,7 @@ pub struct Assemble {
 
     /// Work to spend on words, as what takes about so many seconds of a core; it is counted, so
     /// that the same work gives the same words everywhere
-    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = input::positive)]
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
     seconds: f64,
 
     /// Folder for the files

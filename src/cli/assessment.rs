@@ -3,8 +3,8 @@
 use clap::Args;
 use tilebind::Design;
 use tilebind::comparison::AssessmentSettings;
+use tilebind::request;
 
-use super::input;
 use super::options::SurveyOptions;
 
 const DYNAMICS: &str = "\
@@ -21,17 +21,17 @@ pub struct AssessmentOptions {
 
     /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the
     /// bond or a twentieth of the barrier, whichever is less]
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     tolerance: Option<f64>,
 
     /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds [default: 200000; of
     /// very many magnets 0]
-    #[arg(long, value_name = "N", value_parser = input::count_or_none)]
+    #[arg(long, value_name = "N", value_parser = request::count_or_none)]
     certify_cells: Option<usize>,
 
     /// Cells spent on the search for states that the survey missed, at most; 0 for no search
     /// [default: 300000; of very many magnets 0]
-    #[arg(long, value_name = "N", value_parser = input::count_or_none)]
+    #[arg(long, value_name = "N", value_parser = request::count_or_none)]
     complete_cells: Option<usize>,
 }
 

@@ -10,6 +10,7 @@ use tilebind::output::Command;
 use tilebind::query::{self, Answer, Query, QueryError};
 use tilebind::report::states::barriers;
 use tilebind::report::{csv, json};
+use tilebind::request;
 use tilebind::{Configuration, Design, Settings};
 
 use super::options::{CertifyOptions, DesignOptions, ForceOption, WorkOptions};
@@ -38,7 +39,7 @@ pub struct Barrier {
     design: DesignOptions,
 
     /// Pose at which the way starts (m, m, rad)
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = input::pose)]
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
     from: Configuration,
 
     /// Pose at which it ends, or `free`: anywhere with the tiles far apart
@@ -46,14 +47,14 @@ pub struct Barrier {
     to: End,
 
     /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     tolerance: Option<f64>,
 
     #[command(flatten)]
     certify: CertifyOptions,
 
     /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     milestones: Option<usize>,
 
     /// File for the pathway (CSV); from line to line the motion is straight in x, y and theta, the
@@ -146,7 +147,7 @@ impl Barrier {
 fn end(text: &str) -> Result<End, String> {
     match text {
         "free" => Ok(End::Free),
-        _ => input::pose(text)
+        _ => request::pose(text)
             .map(End::At)
             .map_err(|error| format!("{error}; or `free`")),
     }

@@ -5,11 +5,12 @@ use tilebind::bond::held;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::report::bond::document;
 use tilebind::report::files::BOND;
+use tilebind::request;
 use tilebind::{Settings, pipeline};
 
 use super::options::{DesignOptions, WorkOptions};
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, interrupt};
 
 /// How strongly bond and traps hold shaken tiles: depths, docking costs and ln K at kT
 #[derive(Args)]
@@ -28,11 +29,11 @@ pub struct BondCommand {
     design: DesignOptions,
 
     /// Effective energy kT of the shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = input::shaking)]
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     kt: f64,
 
     /// Share of the table that tiles cover
-    #[arg(long, value_name = "F", value_parser = input::fraction)]
+    #[arg(long, value_name = "F", value_parser = request::fraction)]
     coverage: f64,
 
     #[command(flatten)]

@@ -12,6 +12,7 @@ use tilebind::kinetics::Bond;
 use tilebind::observer::Silent;
 use tilebind::pipeline;
 use tilebind::report::calibration as report;
+use tilebind::request;
 
 use super::{Failure, input, print};
 
@@ -53,12 +54,12 @@ pub struct Calibrate {
     bonds: Option<PathBuf>,
 
     /// Area that a pair had for itself (m^2) [default: the design's table]
-    #[arg(long, value_name = "M2", value_parser = input::positive, requires = "bonds")]
+    #[arg(long, value_name = "M2", value_parser = request::positive, requires = "bonds")]
     area: Option<f64>,
 
     /// Distances (m) up to which those of --bonds count, for the rim of the table is felt beyond
     /// [default: where tiles are free]
-    #[arg(long, value_name = "R", value_parser = input::length, requires = "bonds")]
+    #[arg(long, value_name = "R", value_parser = request::length, requires = "bonds")]
     within: Option<f64>,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
@@ -67,7 +68,7 @@ pub struct Calibrate {
     model: Option<MagnetModel>,
 
     /// Of so many rows one is held out of the fit
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = input::whole(2, u16::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
     hold_out: u16,
 
     /// Print JSON

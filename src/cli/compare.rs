@@ -16,8 +16,8 @@ use super::failure::tell_refuted;
 use super::options::WorkOptions;
 use super::progress::Progress;
 use super::results::ResultOptions;
-use super::word::Word;
 use super::{Failure, input, interrupt, memory, workload};
+use tilebind::request::Word;
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]

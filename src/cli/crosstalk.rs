@@ -6,6 +6,7 @@ use clap::Args;
 use tilebind::design::{MagnetModel, WordSet};
 use tilebind::report::crosstalk::document;
 use tilebind::report::files::CROSSTALK;
+use tilebind::request;
 use tilebind::words::crosstalk::{Stage, TOLERANCE};
 
 use super::results::ResultOptions;
@@ -29,11 +30,11 @@ pub struct Crosstalk {
 
     /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
-          value_parser = input::positive)]
+          value_parser = request::positive)]
     certify: Option<Option<f64>>,
 
     /// Cells spent on the proof at most
-    #[arg(long, value_name = "N", default_value_t = 8_000_000, value_parser = input::count)]
+    #[arg(long, value_name = "N", default_value_t = 8_000_000, value_parser = request::count)]
     certify_cells: usize,
 
     /// Model of the magnets, dipole or cuboid [default: the set's]
@@ -42,7 +43,7 @@ pub struct Crosstalk {
     model: Option<MagnetModel>,
 
     /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
+    #[arg(long, value_name = "N", value_parser = request::whole(1, u16::MAX))]
     threads: Option<u16>,
 
     #[command(flatten)]

@@ -14,6 +14,7 @@ use tilebind::observer::Observer;
 use tilebind::rates::diffusion;
 use tilebind::report::files::DOCK;
 use tilebind::report::{docking as report, release};
+use tilebind::request;
 
 use super::docking_starts::StartOptions;
 use super::options::WorkOptions;
@@ -48,32 +49,32 @@ pub struct Dock {
 
     /// Trajectories
     #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
-          value_parser = input::runs)]
+          value_parser = request::runs)]
     runs: usize,
 
     /// How long each trajectory lasts (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
-          value_parser = input::positive)]
+          value_parser = request::positive)]
     duration: f64,
 
     /// Drag rate (1/s)
     #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = input::not_negative)]
+          value_parser = request::not_negative)]
     drag: f64,
 
     /// Coefficient of friction between the tiles and of a tile and the rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = input::not_negative)]
+          value_parser = request::not_negative)]
     friction: f64,
 
     /// Share of the approach velocity that a knock gives back
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = input::share)]
+          value_parser = request::share)]
     restitution: f64,
 
     /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
     /// a magnet]
-    #[arg(long, value_name = "M", value_parser = input::positive)]
+    #[arg(long, value_name = "M", value_parser = request::positive)]
     threshold: Option<f64>,
 
     #[command(flatten)]
@@ -99,7 +100,7 @@ pub struct Dock {
     fan: Vec<Fan>,
 
     /// Effective energy kT (J) of a random shaking force
-    #[arg(long, value_name = "E_J", value_parser = input::not_negative)]
+    #[arg(long, value_name = "E_J", value_parser = request::not_negative)]
     shaking: Option<f64>,
 
     /// Number of the trajectory that is written to trajectory.csv and that the page plays first
@@ -200,7 +201,7 @@ fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
                         0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
                         often a second";
-    match input::numbers(text).ok_or(FORM)?[..] {
+    match request::numbers(text).ok_or(FORM)?[..] {
         [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
         [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
             amplitude,

@@ -2,8 +2,7 @@
 
 use clap::Args;
 use tilebind::dynamics::docking::Starts;
-
-use super::input;
+use tilebind::request;
 
 /// Ranges from which starts are drawn.
 #[derive(Args)]
@@ -13,11 +12,11 @@ pub struct StartOptions {
     distance: Option<[f64; 2]>,
 
     /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
-    #[arg(long, value_name = "RAD", value_parser = input::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
     direction: Option<f64>,
 
     /// Orientation differs from the bound one by at most this (rad) [default: 1.5]
-    #[arg(long, value_name = "RAD", value_parser = input::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
     orientation: Option<f64>,
 
     /// Speed at the start, LOW,HIGH (m/s) [default: 0,1.3]
@@ -26,11 +25,11 @@ pub struct StartOptions {
 
     /// The velocity's direction differs from that to the fixed tile by at most this (rad)
     /// [default: 0.3]
-    #[arg(long, value_name = "RAD", value_parser = input::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
     aim: Option<f64>,
 
     /// Turning rate at the start, either way, at most this (rad/s) [default: 0]
-    #[arg(long, value_name = "RATE", value_parser = input::not_negative)]
+    #[arg(long, value_name = "RATE", value_parser = request::not_negative)]
     spin: Option<f64>,
 }
 
@@ -52,7 +51,7 @@ impl StartOptions {
 fn range(text: &str) -> Result<[f64; 2], String> {
     const FORM: &str = "a range is LOW,HIGH with 0 <= LOW <= HIGH, such as 0.4,0.8";
     let ends = text.split_once(',').ok_or(FORM)?;
-    let [low, high] = [ends.0, ends.1].map(|end| input::not_negative(end.trim()));
+    let [low, high] = [ends.0, ends.1].map(|end| request::not_negative(end.trim()));
     match (low, high) {
         (Ok(low), Ok(high)) if low <= high => Ok([low, high]),
         _ => Err(FORM.to_owned()),

@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use tilebind::query::poses;
 use tilebind::report::json;
+use tilebind::request;
 use tilebind::{Configuration, Problem};
 
 use super::options::DesignOptions;
@@ -29,7 +30,7 @@ pub struct Energy {
         value_name = "X,Y,THETA",
         required_unless_present = "file",
         allow_hyphen_values = true,
-        value_parser = input::pose
+        value_parser = request::pose
     )]
     poses: Vec<Configuration>,
 

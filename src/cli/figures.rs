@@ -2,8 +2,9 @@
 
 use clap::Args;
 use tilebind::report::plots::Sheet;
+use tilebind::request;
 
-use super::{Failure, input};
+use super::Failure;
 
 /// Text of this size (points) most journals ask for.
 const FONT: f64 = 7.0;
@@ -16,7 +17,7 @@ pub struct FigureOptions {
     figure_width: Option<f64>,
 
     /// Size of their text in points [default: 7]
-    #[arg(long, value_name = "POINTS", requires = "figure_width", value_parser = input::positive)]
+    #[arg(long, value_name = "POINTS", requires = "figure_width", value_parser = request::positive)]
     figure_font: Option<f64>,
 
     /// Make each panel a picture of its own
@@ -49,7 +50,7 @@ fn millimetres(text: &str) -> Result<f64, String> {
     let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
     let parsed = units.iter().find_map(|(unit, factor)| {
         let number = text.strip_suffix(unit)?.trim_end();
-        input::positive(number).ok().map(|number| number * factor)
+        request::positive(number).ok().map(|number| number * factor)
     });
     parsed.ok_or_else(|| "a width with its unit is needed, such as 85mm, 18cm or 3.3in".to_owned())
 }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::design::{STARTER, Shape, Start};
 use tilebind::output::{Command, Output};
+use tilebind::request;
 
-use super::word::Word;
-use super::{Failure, input, print, tell};
+use super::{Failure, print, tell};
+use tilebind::request::Word;
 
 /// Write a design to start from
 #[derive(Args)]
@@ -35,11 +36,11 @@ pub struct Init {
     sides: Option<u32>,
 
     /// Length of a side (m), or with a unit: \"12 cm\" [default: 0.43]
-    #[arg(long, value_name = "M", value_parser = input::length)]
+    #[arg(long, value_name = "M", value_parser = request::length)]
     side: Option<f64>,
 
     /// Magnets on each of the two faces that are to bind, 1 to 16 [default: 4]
-    #[arg(long, value_name = "K", value_parser = input::count)]
+    #[arg(long, value_name = "K", value_parser = request::count)]
     magnets: Option<usize>,
 
     /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::report::files::MAKE;
 use tilebind::report::workshop;
+use tilebind::request;
 use tilebind::workshop::Making;
 
 use super::options::ForceOption;
@@ -31,11 +32,11 @@ pub struct Make {
     force: ForceOption,
 
     /// Width of the cut (m), or with a unit: lines run half of it outside the parts
-    #[arg(long, value_name = "M", default_value = "0", value_parser = input::length_or_none)]
+    #[arg(long, value_name = "M", default_value = "0", value_parser = request::length_or_none)]
     kerf: f64,
 
     /// By how much pockets are larger than their magnets on every side (m)
-    #[arg(long, value_name = "M", default_value = "0.1 mm", value_parser = input::length_or_none)]
+    #[arg(long, value_name = "M", default_value = "0.1 mm", value_parser = request::length_or_none)]
     clearance: f64,
 }
 

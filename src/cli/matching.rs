@@ -7,6 +7,7 @@ use tilebind::contact::Contact;
 use tilebind::contact::matching::matches;
 use tilebind::report::files::MATCH;
 use tilebind::report::matching::document;
+use tilebind::request;
 
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
@@ -25,7 +26,7 @@ pub struct Match {
     design: PathBuf,
 
     /// Most motions listed
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = input::count)]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = request::count)]
     most: usize,
 
     #[command(flatten)]

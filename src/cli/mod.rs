@@ -29,7 +29,6 @@ pub mod show;
 mod style;
 pub mod sweep;
 mod sweep_progress;
-mod word;
 pub mod words;
 mod workload;
 pub mod yields;

@@ -10,6 +10,7 @@ use tilebind::Settings;
 use tilebind::budget::Allowance;
 use tilebind::design::{Design, MagnetModel};
 use tilebind::output::{Command, Output};
+use tilebind::request;
 
 use super::progress::Progress;
 use super::{Failure, input, print, tell};
@@ -91,30 +92,30 @@ impl ForceOption {
 #[derive(Args)]
 pub struct SurveyOptions {
     /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     pub milestones: Option<usize>,
 
     /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
-    #[arg(long, value_name = "K", value_parser = input::count)]
+    #[arg(long, value_name = "K", value_parser = request::count)]
     pub neighbours: Option<usize>,
 
     /// A barrier is settled when it moves by less than this fraction
     #[arg(long, value_name = "F", default_value_t = Settings::default().settled,
-          value_parser = input::fraction)]
+          value_parser = request::fraction)]
     pub settled: f64,
 
     /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
     /// fewer]
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     pub kinds: Option<usize>,
 
     /// Far starts from which capture shares are counted [default: 1000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = input::runs_or_none)]
+    #[arg(long, value_name = "N", value_parser = request::runs_or_none)]
     pub far_starts: Option<usize>,
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = input::runs)]
+          default_missing_value = "1000", value_parser = request::runs)]
     dynamics: Option<usize>,
 }
 
@@ -130,12 +131,12 @@ impl SurveyOptions {
 pub struct CertifyOptions {
     /// Work given to the certified bounds of barriers, as what takes about so many seconds of a core; it
     /// is counted. 0 for no bounds [default: 180; of very many magnets 0]
-    #[arg(long, value_name = "W", value_parser = input::not_negative)]
+    #[arg(long, value_name = "W", value_parser = request::not_negative)]
     certify_work: Option<f64>,
 
     /// Seconds by the clock after which the bounds stay as they are, so that another run may differ; 0
     /// for no bounds [default: no limit]
-    #[arg(long, value_name = "S", value_parser = input::not_negative)]
+    #[arg(long, value_name = "S", value_parser = request::not_negative)]
     certify_seconds: Option<f64>,
 }
 
@@ -155,20 +156,34 @@ impl CertifyOptions {
 pub struct WorkOptions {
     /// Seed of all random numbers: the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
-          value_parser = input::seed)]
+          value_parser = request::seed)]
     pub seed: u64,
 
-    /// Threads [default: all cores]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = input::whole(1, u16::MAX))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadOption,
 }
 
 impl WorkOptions {
     /// The number of threads asked for, or else that of cores.
     pub fn threads(&self) -> usize {
-        self.threads.map_or_else(cores, useful)
+        self.threads.threads.map_or_else(cores, useful)
     }
 
+    /// Has the library work on the number of threads asked for.
+    pub fn use_threads(&self) -> Result<(), Failure> {
+        self.threads.use_threads()
+    }
+}
+
+/// On how many threads work is done.
+#[derive(Args)]
+pub struct ThreadOption {
+    /// Threads [default: all cores]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = request::whole(1, u16::MAX))]
+    threads: Option<u16>,
+}
+
+impl ThreadOption {
     /// Has the library work on the number of threads asked for.
     pub fn use_threads(&self) -> Result<(), Failure> {
         use_threads(self.threads)

@@ -8,6 +8,7 @@ use tilebind::output::Output;
 use tilebind::rates::Question;
 use tilebind::report::files::RATES;
 use tilebind::report::rates::{document, exit_document};
+use tilebind::request;
 use tilebind::{Configuration, Problem, Settings, pipeline};
 
 use super::options::{DesignOptions, WorkOptions};
@@ -46,30 +47,30 @@ pub struct Rates {
     design: DesignOptions,
 
     /// Effective energy of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = input::shaking)]
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     kt: f64,
 
     /// Drag rate (1/s): the drag is this times the mass
-    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = input::positive)]
+    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::positive)]
     drag: f64,
 
     /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = input::pose)]
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
     start: Option<Configuration>,
 
     /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
     /// [default: half the bond's energy; without --start half way up to its lowest barrier]
-    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = input::negative)]
+    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::negative)]
     basin_energy: Option<f64>,
 
     /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
-    #[arg(long, value_name = "R", value_parser = input::length)]
+    #[arg(long, value_name = "R", value_parser = request::length)]
     free_at: Option<f64>,
 
     /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
     /// time, or those of the rates out of the bond and of the traps and of all that make up a tenth
     /// of these [default: 0.1, as far as it comes within seconds]
-    #[arg(long, value_name = "REL", value_parser = input::positive)]
+    #[arg(long, value_name = "REL", value_parser = request::positive)]
     certify: Option<f64>,
 
     /// Prove how often tiles set out from the well about the start, or from each basin, and bounds of
@@ -79,18 +80,18 @@ pub struct Rates {
     prove: bool,
 
     /// Kinds of traps with rates, the deepest first
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = input::count_or_none,
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
           conflicts_with = "start")]
     traps: usize,
 
     /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
     /// that of overdamped motion
-    #[arg(long, value_name = "N", requires = "start", value_parser = input::runs_of_a_mean)]
+    #[arg(long, value_name = "N", requires = "start", value_parser = request::runs_of_a_mean)]
     check: Option<usize>,
 
     /// Share of the approach velocity that a knock gives back, in --check
     #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
-          value_parser = input::share)]
+          value_parser = request::share)]
     restitution: f64,
 
     #[command(flatten)]

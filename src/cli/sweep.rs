@@ -11,6 +11,7 @@ use tilebind::output::{Output, OutputError};
 use tilebind::report::files::{REPORT, SWEEP};
 use tilebind::report::json;
 use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::request;
 use tilebind::sweep::{
     self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Source, Store,
 };
@@ -71,7 +72,7 @@ pub struct Sweep {
     out: Option<PathBuf>,
 
     /// Add so many points, between those at which the figures bend most, one number being varied
-    #[arg(long, value_name = "N", value_parser = input::count,
+    #[arg(long, value_name = "N", value_parser = request::count,
           conflicts_with_all = ["plan", "run", "merge", "status"])]
     refine: Option<usize>,
 

@@ -9,6 +9,7 @@
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
 //! | [`word_sets`] | sets of barcodes: what is asked, magnets anywhere, sets as files |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
+//! | [`request`] | what is asked: options, with their limits and help, of the command line and of Python alike |
 //! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
 
 pub mod assembly;
@@ -23,6 +24,7 @@ pub mod output;
 pub mod pipeline;
 pub mod query;
 pub mod rates;
+pub mod request;
 pub mod sweep;
 pub mod word_sets;
 pub mod workshop;

@@ -67,6 +67,7 @@ fn answer(design: &Design, question: &Question, found: &Yields) -> String {
 #[rustfmt::skip]
 fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entries {
     let (best, effort) = (found.best(), &question.effort);
+    let motion = effort.motion();
     let at_best = format!("states at kT = {}", si(best.kt, "J", 3));
     entries(design)
         .data("seed", question.seed)
@@ -84,8 +85,8 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .data("rates", format!("{}; detachment by detailed balance", effort.told()))
         .data("docking", json!({
             "runs": effort.runs, "duration_s": effort.duration,
-            "drag_per_s": effort.motion.drag, "restitution": effort.motion.restitution,
-            "friction": effort.motion.friction,
+            "drag_per_s": motion.drag, "restitution": motion.restitution,
+            "friction": motion.friction,
         }))
         .table(states(best).titled(at_best, "").in_view())
 }

@@ -11,6 +11,7 @@ use tilebind::budget::Budget;
 use tilebind::design::MagnetModel;
 use tilebind::report::files::WORDS;
 use tilebind::report::words as report;
+use tilebind::request;
 use tilebind::word_sets::Request;
 use tilebind::words::search::Effort;
 use tilebind::words::{Faces, Fault, Lags, Question, Rules, Shape, Task, answer};
@@ -44,7 +45,7 @@ pub struct Words {
     design: Option<PathBuf>,
 
     /// Magnets of a word
-    #[arg(long, value_name = "L", value_parser = input::count, required_unless_present_any = ["slots", "magnets"])]
+    #[arg(long, value_name = "L", value_parser = request::count, required_unless_present_any = ["slots", "magnets"])]
     length: Option<usize>,
 
     /// Least gap, from 0 to 1
@@ -52,11 +53,11 @@ pub struct Words {
     gap: Option<f64>,
 
     /// Words wanted: with the widest gap
-    #[arg(long, value_name = "M", value_parser = input::count, conflicts_with = "gap")]
+    #[arg(long, value_name = "M", value_parser = request::count, conflicts_with = "gap")]
     count: Option<usize>,
 
     /// Judge by counted contacts: wrong meetings have at most T matches more than mismatches
-    #[arg(long, value_name = "T", value_parser = input::count_or_none,
+    #[arg(long, value_name = "T", value_parser = request::count_or_none,
           conflicts_with_all = ["gap", "count"])]
     contacts: Option<usize>,
 
@@ -76,11 +77,11 @@ pub struct Words {
     flip: bool,
 
     /// Spacing is code: words have N places, most of them empty
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     slots: Option<usize>,
 
     /// Magnets of a word with --slots or --continuous [default: --length]
-    #[arg(long, value_name = "K", value_parser = input::count)]
+    #[arg(long, value_name = "K", value_parser = request::count)]
     magnets: Option<usize>,
 
     /// Magnets may lie anywhere along the face: positions and poles are found together, with wrong
@@ -90,7 +91,7 @@ pub struct Words {
     continuous: bool,
 
     /// Length of the face (m) with --continuous [default: the design's, or 0.43]
-    #[arg(long, value_name = "M", value_parser = input::length, requires = "continuous")]
+    #[arg(long, value_name = "M", value_parser = request::length, requires = "continuous")]
     face: Option<f64>,
 
     /// The gap holds though one magnet of every face is missing (missing=1) or the wrong way round
@@ -100,7 +101,7 @@ pub struct Words {
     tolerate: Option<Fault>,
 
     /// From place to place (m), the least spacing with --continuous [default: the design's, or 0.04]
-    #[arg(long, value_name = "M", value_parser = input::positive)]
+    #[arg(long, value_name = "M", value_parser = request::positive)]
     pitch: Option<f64>,
 
     /// As many north as south poles, or one more
@@ -108,7 +109,7 @@ pub struct Words {
     balanced: bool,
 
     /// Longest run of equal poles
-    #[arg(long, value_name = "N", value_parser = input::count)]
+    #[arg(long, value_name = "N", value_parser = request::count)]
     max_run: Option<usize>,
 
     /// Least mismatches of two words aligned, of a word and a complement aligned, and of either
@@ -121,7 +122,7 @@ pub struct Words {
     consecutive: Option<[usize; 2]>,
 
     /// Least depth of a bond (J)
-    #[arg(long, value_name = "E_J", value_parser = input::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
     min_bond: Option<f64>,
 
     /// Range of the lowest energy (J) of two words over all slides
@@ -143,7 +144,7 @@ pub struct Words {
 
     /// Work to spend, as what takes about so many seconds of a core; it is counted, so that the
     /// same work gives the same words everywhere
-    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = input::positive)]
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
     seconds: f64,
 
     #[command(flatten)]

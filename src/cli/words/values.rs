@@ -2,7 +2,7 @@
 
 use tilebind::words::{Faces, Fault, Shape};
 
-use super::super::word::Word;
+use tilebind::request::Word;
 
 /// A gap.
 pub fn gap(text: &str) -> Result<f64, String> {

@@ -2,10 +2,14 @@
 
 use std::f64::consts::PI;
 
+use clap::{Args, ValueEnum};
+
 use super::{Question, YieldError};
 use crate::pipeline::Analysis;
+use crate::request;
 use physics::dynamics::MotionSettings;
 use physics::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
+use physics::kinetics::OVERDAMPED;
 use physics::kinetics::bond::Hold;
 use physics::kinetics::rates::{Basin, RateSettings, rates};
 use physics::landscape::Inventory;
@@ -17,17 +21,29 @@ const SAME: f64 = 5e-3;
 /// Tiles start between the distance at which they are free and this multiple of it.
 const FARTHEST: f64 = 1.6;
 
-/// How many docking runs, and how tiles move in them.
-#[derive(Clone, Debug, PartialEq)]
+/// How attachment is found, and how tiles move meanwhile.
+#[derive(Clone, Debug, PartialEq, Args)]
 pub struct Effort {
-    /// Runs.
+    /// Docking runs for each kT
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = request::runs)]
     pub runs: usize,
-    /// How long each lasts (s).
+
+    /// How long each docking run lasts (s)
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = request::positive)]
     pub duration: f64,
-    /// Drag, restitution and friction; the shaking is set by kT.
-    pub motion: MotionSettings,
-    /// Where the rates come from.
+
+    /// Where attachment rates come from: docking runs, or overdamped motion as in `tilebind rates`
+    #[arg(long = "rates", value_enum, default_value_t)]
     pub source: Source,
+
+    /// Drag rate (1/s) [default: 0.005 of docking runs, 50 of overdamped motion]
+    #[arg(long, value_name = "C", value_parser = request::positive)]
+    pub drag: Option<f64>,
+
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = request::share)]
+    pub restitution: f64,
 }
 
 impl Effort {
@@ -39,11 +55,25 @@ impl Effort {
         }
     }
 
+    /// Drag, restitution and friction; the shaking is set by kT.
+    pub fn motion(&self) -> MotionSettings {
+        let usual = MotionSettings::default();
+        let drag = match self.source {
+            Source::Docking => usual.drag,
+            Source::Overdamped => OVERDAMPED,
+        };
+        MotionSettings {
+            drag: self.drag.unwrap_or(drag),
+            restitution: self.restitution,
+            ..usual
+        }
+    }
+
     /// How its rates come about.
     pub fn told(&self) -> String {
         let MotionSettings {
             drag, restitution, ..
-        } = self.motion;
+        } = self.motion();
         match self.source {
             Source::Docking => format!(
                 "attachment counted in {} docking runs for each kT (drag {drag} per s, restitution \
@@ -59,12 +89,12 @@ impl Effort {
 }
 
 /// Where attachment rates come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Source {
-    /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag.
+    /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag
     #[default]
     Docking,
-    /// Solved for overdamped motion, see [`physics::kinetics::rates`]; runs count nothing.
+    /// Solved for overdamped motion on a mesh; runs count nothing
     Overdamped,
 }
 
@@ -130,7 +160,7 @@ pub(super) fn attached(
             (kind == 0 || Basin::holds(height, kt)).then_some(basin)
         })
         .collect();
-    solve(problem, &basins, kt, effort.motion.drag)
+    solve(problem, &basins, kt, effort.motion().drag)
 }
 
 /// The rates of overdamped motion at `kt` (J) and a drag rate (1/s) to the kinds of states with these
@@ -212,7 +242,7 @@ pub fn count(
         starts,
         motion: MotionSettings {
             shaking: Some(kt),
-            ..effort.motion.clone()
+            ..effort.motion()
         },
         threshold: None,
     };

@@ -9,8 +9,11 @@
 pub mod attachment;
 mod outcome;
 
+use clap::Args;
+
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
+use crate::request;
 use attachment::Effort;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
@@ -28,28 +31,60 @@ const SLOTS: usize = 8;
 /// Pairs for which schedules are sought: ten states.
 const MIXED_PAIRS: usize = 3;
 
+/// Most settings.
+const MOST_SETTINGS: usize = 20;
+/// Most tiles.
+const MOST_TILES: usize = 10_000;
+
 /// What is asked.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Args)]
 pub struct Question {
-    /// Effective energies kT (J) of the settings.
-    pub kts: Vec<f64>,
-    /// Share of the table that tiles cover.
-    pub coverage: f64,
-    /// Tiles, half of either kind.
+    /// Tiles on the table, half of either kind
+    #[arg(long, value_name = "N", value_parser = tiles)]
     pub tiles: usize,
-    /// How long the table is shaken (s).
+
+    /// How long the table is shaken (s)
+    #[arg(long, value_name = "S", value_parser = request::positive)]
     pub time: f64,
-    /// Docking runs for each setting.
+
+    /// Effective energy kT of the shaking (J); of several, the best and a schedule are found
+    #[arg(long = "kt", value_name = "E_J[,E_J...]", value_parser = request::shaking,
+          value_delimiter = ',', required = true)]
+    pub kts: Vec<f64>,
+
+    /// Share of the table that tiles cover
+    #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
+    pub coverage: f64,
+
+    /// Docking runs for each kT, or how else attachment is found
+    #[command(flatten)]
     pub effort: Effort,
-    /// Runs of the exact simulation for each setting; 0 for none.
+
+    /// Runs of the exact simulation by which the numbers are checked; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = request::runs_or_none)]
     pub simulations: usize,
-    /// Of all random numbers.
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
+}
+
+/// A number of tiles, half of either kind.
+fn tiles(text: &str) -> Result<usize, String> {
+    match request::count(text)? {
+        count @ 2..=MOST_TILES if count % 2 == 0 => Ok(count),
+        _ => Err(format!(
+            "an even number of tiles from 2 to {MOST_TILES} is needed"
+        )),
+    }
 }
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum YieldError {
+    /// There are too many settings.
+    #[error("kt: {0} energies; at most {MOST_SETTINGS} are compared")]
+    Many(usize),
     /// There is no bond.
     #[error(transparent)]
     Bond(#[from] BondError),
@@ -83,6 +118,15 @@ pub enum YieldError {
 }
 
 impl YieldError {
+    /// Whether it is what was asked for that has no answer.
+    pub fn is_of_the_question(&self) -> bool {
+        match self {
+            Self::Many(_) | Self::Docking(_) | Self::Hot(..) | Self::Cold(_) | Self::Lost => true,
+            Self::Rates(error) => !matches!(error, RatesError::Unsolved(_)),
+            Self::Bond(_) | Self::NoPlay => false,
+        }
+    }
+
     /// Whether another kT may have an answer.
     fn is_of_one_kt(&self) -> bool {
         match self {
@@ -135,6 +179,10 @@ pub fn yields(
     question: &Question,
     observer: &dyn Observer,
 ) -> Result<Yields, YieldError> {
+    let count = question.kts.len();
+    if count > MOST_SETTINGS {
+        return Err(YieldError::Many(count));
+    }
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, inventory) = (&analysis.problem, &analysis.inventory);
     let bond = Bond::new(problem, inventory)?;

@@ -13,7 +13,7 @@ use tilebind::rates;
 use tilebind::report::bond::document as bond_document;
 use tilebind::report::rates::{document as rates_document, exit_document};
 use tilebind::report::yields::document;
-use tilebind::yields::{Question, YieldError, yields};
+use tilebind::yields::{Question, yields};
 
 use crate::{barrier, convert, fault, job};
 
@@ -75,9 +75,6 @@ pub fn bond<'py>(
     convert::json(py, &bond_document(design, &held).report())
 }
 
-/// Most tiles on a table.
-const MOST_TILES: usize = 10_000;
-
 /// What a shaken table yields.
 pub fn yielded<'py>(
     py: Python<'py>,
@@ -85,28 +82,10 @@ pub fn yielded<'py>(
     question: &Question,
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    fault::count("kt", question.kts.len())?;
-    for kt in &question.kts {
-        fault::positive("kt", Some(*kt))?;
-    }
-    fault::positive("time", Some(question.time))?;
-    fault::positive("duration", Some(question.effort.duration))?;
-    fault::positive("drag", Some(question.effort.motion.drag))?;
-    fault::not_negative("restitution", Some(question.effort.motion.restitution))?;
-    fault::fraction("coverage", question.coverage)?;
-    fault::count("runs", question.effort.runs)?;
-    if !(2..=MOST_TILES).contains(&question.tiles) || question.tiles % 2 == 1 {
-        return Err(fault::value(format!(
-            "tiles = {}: an even number from 2 to {MOST_TILES}",
-            question.tiles
-        )));
-    }
     let found = job::run(py, progress, |told| yields(design, question, told))?;
-    let found = found.map_err(|error| match error {
-        YieldError::Docking(_) | YieldError::Hot(..) | YieldError::Cold(_) | YieldError::Lost => {
-            fault::value(error)
-        }
-        _ => fault::run(error),
+    let found = found.map_err(|error| match error.is_of_the_question() {
+        true => fault::value(error),
+        false => fault::run(error),
     })?;
     convert::json(py, &document(design, question, &found).report())
 }

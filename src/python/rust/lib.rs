@@ -20,6 +20,7 @@ mod keywords;
 mod kinetics;
 mod pickle;
 mod poses;
+mod request;
 mod sweep;
 mod table;
 mod words;

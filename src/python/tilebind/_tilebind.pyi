@@ -129,6 +129,7 @@ class Design:
         coverage: float = 0.3,
         runs: int = 400,
         duration: float = 10.0,
+        rates: str = "docking",
         drag: float | None = None,
         restitution: float | None = None,
         simulations: int = 1000,

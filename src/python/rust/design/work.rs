@@ -2,13 +2,11 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::dynamics::MotionSettings;
 use tilebind::workshop::Making;
-use tilebind::yields::Question;
-use tilebind::yields::attachment::{Effort, Source};
 
 use super::Design;
 use crate::analysis::{self, Analysis};
+use crate::request::request;
 use crate::{barrier, dock, kinetics, workshop};
 
 #[pymethods]
@@ -198,6 +196,8 @@ impl Design {
     ///     Docking runs for each shaking, from which attachments are counted.
     /// duration : float, optional
     ///     How long each lasts (s).
+    /// rates : str, optional
+    ///     Where attachment rates come from: "docking" runs, or "overdamped" motion.
     /// drag, restitution : float, optional
     ///     Drag rate (1/s), and the share of the approach velocity that a knock gives back.
     /// simulations : int, optional
@@ -209,45 +209,17 @@ impl Design {
     /// -------
     /// dict
     ///     As ``tilebind yield --json``.
-    #[pyo3(signature = (kt, *, tiles, time, coverage = 0.3, runs = 400, duration = 10.0,
-                        drag = None, restitution = None, simulations = 1000, seed = 1,
-                        progress = None))]
-    #[allow(clippy::too_many_arguments)]
+    #[pyo3(signature = (kt, *, progress = None, **settings))]
     fn yields<'py>(
         &self,
         py: Python<'py>,
-        kt: Vec<f64>,
-        tiles: usize,
-        time: f64,
-        coverage: f64,
-        runs: usize,
-        duration: f64,
-        drag: Option<f64>,
-        restitution: Option<f64>,
-        simulations: usize,
-        seed: u64,
+        kt: Bound<'py, PyAny>,
         progress: Option<bool>,
+        settings: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let usual = MotionSettings::default();
-        let motion = MotionSettings {
-            drag: drag.unwrap_or(usual.drag),
-            restitution: restitution.unwrap_or(usual.restitution),
-            ..usual
-        };
-        let question = Question {
-            kts: kt,
-            coverage,
-            tiles,
-            time,
-            effort: Effort {
-                source: Source::Docking,
-                runs,
-                duration,
-                motion,
-            },
-            simulations,
-            seed,
-        };
+        let settings = settings.unwrap_or_else(|| PyDict::new(py));
+        settings.set_item("kt", kt)?;
+        let question = request(Some(&settings))?;
         kinetics::yielded(py, &self.content.design, &question, progress)
     }
 

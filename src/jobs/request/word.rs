@@ -14,6 +14,7 @@ pub struct Word<T> {
 }
 
 impl<T: Clone> Word<T> {
+    /// Of these names; `wrong` is said of any other word.
     pub fn new(names: &[(&'static str, T)], wrong: String) -> Self {
         Self {
             names: names.to_vec(),

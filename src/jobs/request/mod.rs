@@ -1,0 +1,16 @@
+//! What is asked of a job, in one struct each: options with their defaults, limits and help.
+//!
+//! A request is a set of options of clap's ([`clap::Args`]): the command line parses it, and
+//! [`of_keywords`] takes the same options from keyword arguments, as Python has them. An option is
+//! declared once, and what one of them refuses, so does the other.
+
+mod keywords;
+mod values;
+mod word;
+
+pub use keywords::{Misused, of_keywords, options};
+pub use values::{
+    count, count_or_none, fraction, length, length_or_none, negative, not_negative, numbers, pose,
+    positive, runs, runs_of_a_mean, runs_or_none, seed, shaking, share, whole,
+};
+pub use word::Word;

@@ -1,0 +1,185 @@
+//! What users type: poses, numbers with limits.
+
+use crate::design;
+use physics::configuration::Configuration;
+
+/// A pose as `X,Y,THETA` (m, m, rad), or each with a unit: `43 cm,0,90 deg`.
+pub fn pose(text: &str) -> Result<Configuration, String> {
+    const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0, or with units, \
+                        such as \"43 cm,0,90 deg\"";
+    let parts: Vec<&str> = text.split(',').collect();
+    let [x, y, theta] = parts[..] else {
+        return Err(FORM.to_owned());
+    };
+    let numbers = [design::length(x), design::length(y), design::angle(theta)];
+    let [Some(x), Some(y), Some(theta)] = numbers else {
+        return Err(FORM.to_owned());
+    };
+    if theta.abs() > 2.0 * std::f64::consts::TAU {
+        return Err(format!(
+            "theta = {theta} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
+        ));
+    }
+    Ok(Configuration::from([x, y, theta]))
+}
+
+/// Finite numbers with commas between them.
+pub fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect()
+}
+
+/// A whole number, at least 1; `1e4` is one too.
+pub fn count(text: &str) -> Result<usize, String> {
+    let found = count_or_none(text).ok().filter(|&count| count > 0);
+    found.ok_or_else(|| "a whole number of 1 or more is needed, such as 8000 or 8e3".to_owned())
+}
+
+/// A whole number, 0 among them.
+pub fn count_or_none(text: &str) -> Result<usize, String> {
+    let scientific = || {
+        let number = text.parse().ok();
+        let whole = |x: &f64| x.fract() == 0.0 && (0.0..1e15).contains(x);
+        number.filter(whole).map(|x| x as usize)
+    };
+    let found = text.parse().ok().or_else(scientific);
+    found.ok_or_else(|| "a whole number is needed, such as 8000 or 8e3".to_owned())
+}
+
+/// A whole number from `least` to `most`.
+pub fn whole(least: u16, most: u16) -> impl Fn(&str) -> Result<u16, String> + Clone {
+    move |text| {
+        let found = count_or_none(text).ok().and_then(|it| it.try_into().ok());
+        let found = found.filter(|number| (least..=most).contains(number));
+        found.ok_or_else(|| format!("a whole number from {least} to {most} is needed"))
+    }
+}
+
+/// A seed of random numbers.
+pub fn seed(text: &str) -> Result<u64, String> {
+    let found = text.parse().ok();
+    found.ok_or_else(|| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+/// Most runs of anything whose results are all held in memory.
+const MOST_RUNS: usize = 10_000_000;
+
+/// A number of runs, at least 1.
+pub fn runs(text: &str) -> Result<usize, String> {
+    count(text).and_then(not_too_many)
+}
+
+/// A number of runs of which a mean with its error comes.
+pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
+    match runs(text)? {
+        1 => Err("of one run no error of the mean is known: 2 or more are needed".to_owned()),
+        count => Ok(count),
+    }
+}
+
+/// A number of runs, 0 among them.
+pub fn runs_or_none(text: &str) -> Result<usize, String> {
+    count_or_none(text).and_then(not_too_many)
+}
+
+fn not_too_many(count: usize) -> Result<usize, String> {
+    match count {
+        0..=MOST_RUNS => Ok(count),
+        _ => Err(format!("at most {MOST_RUNS} can be held in memory")),
+    }
+}
+
+/// A positive length (m), or with a unit.
+pub fn length(text: &str) -> Result<f64, String> {
+    design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
+        "a length greater than 0 is needed, such as 0.12 (m) or \"12 cm\"".to_owned()
+    })
+}
+
+/// A length (m) of 0 or more, or with a unit.
+pub fn length_or_none(text: &str) -> Result<f64, String> {
+    design::length(text)
+        .filter(|x| *x >= 0.0)
+        .ok_or_else(|| "a length of 0 or more is needed, such as 1e-4 (m) or \"0.1 mm\"".to_owned())
+}
+
+/// A positive number.
+pub fn positive(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x > 0.0)
+        .ok_or_else(|| "a number greater than 0 is needed".to_owned())
+}
+
+/// Energies (J) that shaking may have.
+const SHAKING: [f64; 2] = [1e-12, 1e3];
+
+/// An effective energy of shaking (J).
+pub fn shaking(text: &str) -> Result<f64, String> {
+    let [least, most] = SHAKING;
+    positive(text)
+        .ok()
+        .filter(|kt| (least..=most).contains(kt))
+        .ok_or_else(|| format!("a kT between {least:e} and {most:e} J is needed"))
+}
+
+/// A number that is not negative.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x >= 0.0)
+        .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+}
+
+/// A share, or nothing or all.
+pub fn share(text: &str) -> Result<f64, String> {
+    not_negative(text)
+        .ok()
+        .filter(|x| *x <= 1.0)
+        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+}
+
+/// A number below 0.
+pub fn negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x < 0.0)
+        .ok_or_else(|| "a number less than 0 is needed".to_owned())
+}
+
+/// A fraction greater than 0 and less than 1.
+pub fn fraction(text: &str) -> Result<f64, String> {
+    positive(text)
+        .ok()
+        .filter(|x| *x < 1.0)
+        .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses() {
+        assert_eq!(pose("0.43,-1e-2,0").unwrap().to_array(), [0.43, -0.01, 0.0]);
+        assert_eq!(pose("-1, 2 ,-3").unwrap().to_array(), [-1.0, 2.0, -3.0]);
+        let turn = std::f64::consts::FRAC_PI_2;
+        assert_eq!(
+            pose("43cm,5 mm,90 deg").unwrap().to_array(),
+            [0.43, 0.005, turn]
+        );
+        for wrong in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,NaN", "1,inf,0"] {
+            assert!(pose(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn limits() {
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
+        assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+        assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
+        assert!(runs("1e7").is_ok() && runs("4294967295").is_err());
+        assert!(runs_or_none("4294967295").is_err());
+    }
+}

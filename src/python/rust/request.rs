@@ -1,0 +1,54 @@
+//! What is asked by keyword arguments: the options of the program, with their limits and defaults.
+
+use clap::Args;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyString};
+use tilebind::request::{Misused, of_keywords};
+
+/// A request out of keyword arguments; what is `None` is not asked for.
+pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
+    let mut words = Vec::new();
+    for (key, value) in given.into_iter().flatten() {
+        words.push((key.extract()?, values(&value)?));
+    }
+    of_keywords(words).map_err(|error| match error {
+        Misused::Unknown(..) => PyTypeError::new_err(error.to_string()),
+        Misused::Wrong(message) => PyValueError::new_err(message),
+    })
+}
+
+/// The values of an argument as a command line has them: the items of a list with commas between them,
+/// a list of lists one by one.
+fn values(value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    if value.is_none() {
+        return Ok(Vec::new());
+    }
+    if let Ok(truth) = value.cast::<PyBool>() {
+        return Ok(truth.is_true().then(String::new).into_iter().collect());
+    }
+    if let Some(word) = word(value) {
+        return Ok(vec![word]);
+    }
+    let items: Vec<Bound<'_, PyAny>> = value.try_iter()?.collect::<PyResult<_>>()?;
+    let words: Option<Vec<String>> = items.iter().map(word).collect();
+    match words {
+        Some(words) => Ok(vec![words.join(",")]),
+        None => Ok(items
+            .iter()
+            .map(values)
+            .collect::<PyResult<Vec<_>>>()?
+            .concat()),
+    }
+}
+
+/// A text or a number as it is typed.
+fn word(value: &Bound<'_, PyAny>) -> Option<String> {
+    if let Ok(text) = value.cast::<PyString>() {
+        return text.extract().ok();
+    }
+    if let Ok(whole) = value.extract::<i128>() {
+        return Some(whole.to_string());
+    }
+    value.extract::<f64>().ok().map(|number| number.to_string())
+}
