@@ -10,7 +10,6 @@ pub mod compare;
 pub mod completions;
 pub mod crosstalk;
 pub mod dock;
-mod docking_starts;
 pub mod energy;
 mod failure;
 mod figures;

@@ -1,8 +1,160 @@
-//! Paths of a docking experiment, to be looked at.
+//! Docking experiments: what is asked of them, and paths to be looked at.
 
-use physics::dynamics::Snapshot;
-use physics::dynamics::docking::{Docking, DockingError, DockingRun, End, trajectory};
+use clap::Args;
+
+use crate::request;
+use physics::dynamics::docking::{
+    Docking, DockingError, DockingRun, DockingSettings, End, Starts, trajectory,
+};
+use physics::dynamics::{Fan, MotionSettings, Snapshot};
 use physics::problem::Problem;
+
+/// What is asked of a docking experiment.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Trajectories
+    #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
+          value_parser = request::runs)]
+    pub runs: usize,
+
+    /// How long each trajectory lasts (s)
+    #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
+          value_parser = request::positive)]
+    pub duration: f64,
+
+    /// Drag rate (1/s)
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = request::not_negative)]
+    pub drag: f64,
+
+    /// Coefficient of friction between the tiles and of a tile and the rim
+    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
+          value_parser = request::not_negative)]
+    pub friction: f64,
+
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = request::share)]
+    pub restitution: f64,
+
+    /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
+    /// a magnet]
+    #[arg(long, value_name = "M", value_parser = request::positive)]
+    pub threshold: Option<f64>,
+
+    /// Where runs start.
+    #[command(flatten)]
+    pub starts: StartOptions,
+
+    /// Lets tiles leave the table
+    #[arg(long)]
+    pub no_walls: bool,
+
+    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m);
+    /// the energy may swing by the share A at the frequency F (Hz)
+    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
+    pub fan: Vec<Fan>,
+
+    /// Effective energy kT (J) of a random shaking force
+    #[arg(long, value_name = "E_J", value_parser = request::not_negative)]
+    pub shaking: Option<f64>,
+
+    /// Seed of all random numbers; a trajectory depends on it and on its own number only
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
+    pub seed: u64,
+}
+
+impl Request {
+    /// How the experiment is made.
+    pub fn settings(&self) -> DockingSettings {
+        DockingSettings {
+            runs: self.runs,
+            seed: self.seed,
+            duration: self.duration,
+            starts: self.starts.starts(Starts::default()),
+            motion: MotionSettings {
+                drag: self.drag,
+                friction: self.friction,
+                restitution: self.restitution,
+                walls: !self.no_walls,
+                fans: self.fan.clone(),
+                shaking: self.shaking,
+                ..MotionSettings::default()
+            },
+            threshold: self.threshold,
+        }
+    }
+}
+
+/// Ranges from which starts are drawn.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct StartOptions {
+    /// Distance between the tiles' reference points at the start, LOW,HIGH (m) [default: 0.62,1]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
+    pub distance: Option<[f64; 2]>,
+
+    /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    pub direction: Option<f64>,
+
+    /// Orientation differs from the bound one by at most this (rad) [default: 1.5]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    pub orientation: Option<f64>,
+
+    /// Speed at the start, LOW,HIGH (m/s) [default: 0,1.3]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
+    pub speed: Option<[f64; 2]>,
+
+    /// The velocity's direction differs from that to the fixed tile by at most this (rad)
+    /// [default: 0.3]
+    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    pub aim: Option<f64>,
+
+    /// Turning rate at the start, either way, at most this (rad/s) [default: 0]
+    #[arg(long, value_name = "RATE", value_parser = request::not_negative)]
+    pub spin: Option<f64>,
+}
+
+impl StartOptions {
+    /// The distribution asked for; what was not is as in `default`.
+    pub fn starts(&self, default: Starts) -> Starts {
+        Starts {
+            distance: self.distance.unwrap_or(default.distance),
+            direction: self.direction.unwrap_or(default.direction),
+            orientation: self.orientation.unwrap_or(default.orientation),
+            speed: self.speed.unwrap_or(default.speed),
+            aim: self.aim.unwrap_or(default.aim),
+            spin: self.spin.unwrap_or(default.spin),
+        }
+    }
+}
+
+/// A range as `LOW,HIGH`, neither negative.
+fn range(text: &str) -> Result<[f64; 2], String> {
+    const FORM: &str = "a range is LOW,HIGH with 0 <= LOW <= HIGH, such as 0.4,0.8";
+    let ends = text.split_once(',').ok_or(FORM)?;
+    let [low, high] = [ends.0, ends.1].map(|end| request::not_negative(end.trim()));
+    match (low, high) {
+        (Ok(low), Ok(high)) if low <= high => Ok([low, high]),
+        _ => Err(FORM.to_owned()),
+    }
+}
+
+/// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
+fn fan(text: &str) -> Result<Fan, String> {
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
+                        0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
+                        often a second";
+    match request::numbers(text).ok_or(FORM)?[..] {
+        [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
+        [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
+            amplitude,
+            frequency,
+            ..Fan::steady([x, y], energy, width)
+        }),
+        _ => Err(FORM.to_owned()),
+    }
+}
 
 /// Paths that are drawn over each other.
 const DRAWN: usize = 60;
@@ -70,4 +222,32 @@ fn chosen(docking: &Docking, asked: Option<usize>) -> Vec<DockingRun> {
         chosen.extend(runs.first());
     }
     chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges() {
+        assert_eq!(range("0, 1.3"), Ok([0.0, 1.3]));
+        for wrong in ["", "1", "1,0", "-1,1", "a,b", "0,1,2", "0,inf"] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn fans() {
+        let steady = Fan::steady([0.6, -0.5], 1e-3, 0.2);
+        assert_eq!(fan("0.6,-0.5, 1e-3,0.2"), Ok(steady));
+        let swinging = Fan {
+            amplitude: 0.5,
+            frequency: 2.0,
+            ..steady
+        };
+        assert_eq!(fan("0.6,-0.5,1e-3,0.2,0.5,2"), Ok(swinging));
+        for wrong in ["", "1,2,3", "0,0,1,0", "0,0,1,-1", "0,0,1,1,1", "0,0,NaN,1"] {
+            assert!(fan(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -41,9 +41,11 @@ pub fn of_keywords<R: Args>(
     let mut words = Vec::new();
     for (key, values) in given {
         let option = key.replace('_', "-");
-        let argument = command
-            .get_arguments()
-            .find(|one| one.get_long() == Some(&option));
+        let is_named = |one: &&clap::Arg| {
+            let aliases = one.get_all_aliases().unwrap_or_default();
+            one.get_long() == Some(&option) || aliases.contains(&&option[..])
+        };
+        let argument = command.get_arguments().find(is_named);
         let Some(argument) = argument else {
             return Err(Misused::Unknown(key, known));
         };

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use tilebind::dynamics::Fan;
+use tilebind::docking::Request;
 use tilebind::dynamics::docking::{
     self, Docking as Found, DockingError, DockingMap, DockingSettings, Trap,
 };
@@ -16,59 +16,12 @@ use tilebind::report::plots::{Sheet, dock as picture};
 use tilebind::report::release;
 
 use crate::design::{Content, Design};
-use crate::keywords::Keywords;
+use crate::request::request;
 use crate::table::{self, Named, Values};
 use crate::{convert, fault, job, pickle};
 
 fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
-    let given = Keywords::new(given);
-    let mut settings = DockingSettings::default();
-    settings.runs = given.or("runs", settings.runs)?;
-    settings.seed = given.or("seed", settings.seed)?;
-    settings.duration = given.or("duration", settings.duration)?;
-    settings.threshold = given.get("threshold")?;
-    let motion = &mut settings.motion;
-    motion.drag = given.or("drag", motion.drag)?;
-    motion.friction = given.or("friction", motion.friction)?;
-    motion.restitution = given.or("restitution", motion.restitution)?;
-    motion.walls = given.or("walls", motion.walls)?;
-    motion.shaking = given.get("shaking")?;
-    for [x, y, energy, width] in given.or::<Vec<[f64; 4]>>("fans", Vec::new())? {
-        motion.fans.push(Fan::steady([x, y], energy, width));
-    }
-    let starts = &mut settings.starts;
-    starts.distance = given.or("distance", starts.distance)?;
-    starts.direction = given.or("direction", starts.direction)?;
-    starts.orientation = given.or("orientation", starts.orientation)?;
-    starts.speed = given.or("speed", starts.speed)?;
-    starts.aim = given.or("aim", starts.aim)?;
-    starts.spin = given.or("spin", starts.spin)?;
-    given.finish()?;
-    fault::count("runs", settings.runs)?;
-    fault::positive("duration", Some(settings.duration))?;
-    fault::positive("threshold", settings.threshold)?;
-    for (name, [low, high]) in [
-        ("distance", settings.starts.distance),
-        ("speed", settings.starts.speed),
-    ] {
-        if !(0.0 <= low && low <= high && high.is_finite()) {
-            return Err(fault::value(format!(
-                "{name} = ({low}, {high}): a range runs from the lower end to the higher, from 0 on"
-            )));
-        }
-    }
-    for (name, number) in [
-        ("direction", settings.starts.direction),
-        ("orientation", settings.starts.orientation),
-        ("aim", settings.starts.aim),
-        ("spin", settings.starts.spin),
-    ] {
-        fault::not_negative(name, Some(number))?;
-        if number.is_infinite() {
-            return Err(fault::value(format!("{name} must be finite")));
-        }
-    }
-    Ok(settings)
+    Ok(request::<Request>(given)?.settings())
 }
 
 /// Send the moving tile towards the fixed one many times and count how it ends.
@@ -84,12 +37,13 @@ fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
 /// drag, friction, restitution : float, optional
 ///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
 ///     back.
-/// walls : bool, optional
-///     Whether the table has a rim.
+/// no_walls : bool, optional
+///     Let tiles leave the table.
 /// shaking : float, optional
 ///     Effective energy kT (J) of a random force.
-/// fans : sequence, optional
-///     Of (x, y, energy, width) in m, m, J and m.
+/// fan : sequence, optional
+///     Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and how
+///     often a second.
 /// threshold : float, optional
 ///     Distance (m) within which magnets match.
 /// distance, speed : tuple of float, optional
@@ -135,9 +89,9 @@ pub fn released<'py>(
     given: Option<&Bound<'_, PyDict>>,
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    fault::positive("shaking", Some(shaking))?;
-    let mut settings = settings(given)?;
-    settings.motion.shaking = Some(shaking);
+    let given = given.cloned().unwrap_or_else(|| PyDict::new(py));
+    given.set_item("shaking", shaking)?;
+    let settings = settings(Some(&given))?;
     let found = run(py, progress, settings.runs, |step| {
         docking::releases(content.problem(None), &settings, step)
     })?;
