@@ -7,25 +7,17 @@ use serde_json::{Value, json};
 use tilebind::budget::Ended;
 use tilebind::landscape::certificate::End;
 use tilebind::output::Command;
-use tilebind::query::{self, Answer, Query, QueryError};
+use tilebind::query::{self, Answer, QueryError, Request};
 use tilebind::report::states::barriers;
 use tilebind::report::{csv, json};
-use tilebind::request;
-use tilebind::{Configuration, Design, Settings};
 
-use super::options::{CertifyOptions, DesignOptions, ForceOption, WorkOptions};
+use super::options::{DesignOptions, ForceOption, ThreadOption};
 use super::progress::Progress;
 use super::{Failure, input, interrupt, memory, print, workload};
-
-const WORK: &str = "\
-Work given to the bounds, as what takes about so many seconds of a core; it is counted. 0 for no \
-bounds [default: 180]";
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
 #[command(
-    mut_arg("certify_work", |work| work.help(WORK)),
-    mut_arg("seed", |seed| seed.help("Seed of all random numbers")),
     mut_arg("threads", |threads| threads.help("Threads [default: all cores]")),
     after_help = "\
 The barrier is the lowest possible value of the highest energy on the way, over all ways.
@@ -38,24 +30,8 @@ pub struct Barrier {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// Pose at which the way starts (m, m, rad)
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
-    from: Configuration,
-
-    /// Pose at which it ends, or `free`: anywhere with the tiles far apart
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = end)]
-    to: End,
-
-    /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
-    tolerance: Option<f64>,
-
     #[command(flatten)]
-    certify: CertifyOptions,
-
-    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    milestones: Option<usize>,
+    request: Request,
 
     /// File for the pathway (CSV); from line to line the motion is straight in x, y and theta, the
     /// shorter way round
@@ -66,7 +42,7 @@ pub struct Barrier {
     force: ForceOption,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     /// Print no progress
     #[arg(long)]
@@ -79,18 +55,18 @@ impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
         let design = self.design.load()?;
-        input::doubt_pose(&design, &self.from);
-        if let End::At(to) = &self.to {
-            input::doubt_pose(&design, to);
+        input::doubt_pose(&design, &self.request.from);
+        if let End::At(to) = &self.request.to {
+            input::doubt_pose(&design, &to);
         }
         let output = self.pathway.as_ref().map(|file| {
             let inputs = self.design.inputs(&design);
             self.force.file(&BARRIER, file, inputs)
         });
         let output = output.transpose()?;
-        let query = self.query(&design);
+        let query = self.request.query(&design);
         memory::check(query.settings.milestones, None, 1)?;
-        self.work.use_threads()?;
+        self.threads.use_threads()?;
         workload::tell_of(&design, &query.settings);
         let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &query, &progress).map_err(|error| {
@@ -108,28 +84,11 @@ impl Barrier {
         print(&json::text(&self.entry(&answer)))
     }
 
-    fn query(&self, design: &Design) -> Query {
-        let default = Settings::of([design]);
-        Query {
-            from: self.from,
-            to: self.to,
-            settings: Settings {
-                seed: self.work.seed,
-                milestones: self.milestones.unwrap_or(default.milestones),
-                far_starts: 0,
-                most_kinds: None,
-                certify: self.certify.allowed(Settings::default().certify),
-                ..default
-            },
-            tolerance: self.tolerance,
-        }
-    }
-
     /// The barrier as in report.json, its ends given by their poses.
     fn entry(&self, answer: &Answer) -> Value {
         let mut entry = barriers([&answer.barrier]).json()[0].take();
-        entry["from"] = json!(self.from.to_array());
-        if let End::At(pose) = self.to {
+        entry["from"] = json!(self.request.from.to_array());
+        if let End::At(pose) = self.request.to {
             entry["to"] = json!(pose.to_array());
         }
         // Why the bounds are null, where they are.
@@ -140,15 +99,5 @@ impl Barrier {
         let pathway = self.pathway.as_ref();
         entry["pathway"] = json!(pathway.map(|file| file.to_string_lossy()));
         entry
-    }
-}
-
-/// A pose or `free`.
-fn end(text: &str) -> Result<End, String> {
-    match text {
-        "free" => Ok(End::Free),
-        _ => request::pose(text)
-            .map(End::At)
-            .map_err(|error| format!("{error}; or `free`")),
     }
 }

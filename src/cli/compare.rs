@@ -5,15 +5,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{self, Assessment, Quantity};
+use tilebind::comparison::{self, Assessment, Quantity, Request};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
 use tilebind::report::files::COMPARE;
 
-use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
-use super::options::WorkOptions;
+use super::options::ThreadOption;
 use super::progress::Progress;
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt, memory, workload};
@@ -41,10 +40,10 @@ pub struct Compare {
     by: &'static Quantity,
 
     #[command(flatten)]
-    options: AssessmentOptions,
+    request: Request,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -57,11 +56,11 @@ impl Compare {
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
         let output = self.results.output(&COMPARE, inputs.collect())?;
-        let settings = self.options.settings(&designs);
+        let settings = self.request.settings(&designs);
         memory::check(settings.milestones, settings.neighbours, 1)?;
-        self.work.use_threads()?;
+        self.threads.use_threads()?;
         for design in &designs {
-            workload::tell_of(design, &settings.settings(self.work.seed));
+            workload::tell_of(design, &settings.settings(self.request.seed));
         }
 
         let progress = self.results.progress();
@@ -74,7 +73,7 @@ impl Compare {
                     done: k,
                     count: designs.len(),
                 };
-                comparison::assess(design, &settings, self.work.seed, &observer)
+                comparison::assess(design, &settings, self.request.seed, &observer)
             })
             .collect();
         let comparison = Comparison::new(&assessments, self.by, settings);

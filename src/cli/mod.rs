@@ -2,7 +2,6 @@
 
 pub mod analyse;
 pub mod assemble;
-mod assessment;
 pub mod barrier;
 pub mod bond;
 pub mod calibrate;

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::Settings;
-use tilebind::budget::Allowance;
 use tilebind::design::{Design, MagnetModel};
 use tilebind::output::{Command, Output};
 use tilebind::request;
@@ -88,69 +87,6 @@ impl ForceOption {
     }
 }
 
-/// How thoroughly the landscape is surveyed.
-#[derive(Args)]
-pub struct SurveyOptions {
-    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub milestones: Option<usize>,
-
-    /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
-    #[arg(long, value_name = "K", value_parser = request::count)]
-    pub neighbours: Option<usize>,
-
-    /// A barrier is settled when it moves by less than this fraction
-    #[arg(long, value_name = "F", default_value_t = Settings::default().settled,
-          value_parser = request::fraction)]
-    pub settled: f64,
-
-    /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
-    /// fewer]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub kinds: Option<usize>,
-
-    /// Far starts from which capture shares are counted [default: 1000; of very many magnets fewer]
-    #[arg(long, value_name = "N", value_parser = request::runs_or_none)]
-    pub far_starts: Option<usize>,
-
-    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
-    #[arg(long, value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = request::runs)]
-    dynamics: Option<usize>,
-}
-
-impl SurveyOptions {
-    /// Trajectories below each barrier; 0 for no check.
-    pub fn dynamics_runs(&self) -> usize {
-        self.dynamics.unwrap_or(0)
-    }
-}
-
-/// What the certificate is worth.
-#[derive(Args)]
-pub struct CertifyOptions {
-    /// Work given to the certified bounds of barriers, as what takes about so many seconds of a core; it
-    /// is counted. 0 for no bounds [default: 180; of very many magnets 0]
-    #[arg(long, value_name = "W", value_parser = request::not_negative)]
-    certify_work: Option<f64>,
-
-    /// Seconds by the clock after which the bounds stay as they are, so that another run may differ; 0
-    /// for no bounds [default: no limit]
-    #[arg(long, value_name = "S", value_parser = request::not_negative)]
-    certify_seconds: Option<f64>,
-}
-
-impl CertifyOptions {
-    /// What is asked for in place of a default.
-    pub fn allowed(&self, default: Allowance) -> Allowance {
-        default.or(
-            self.certify_work,
-            self.certify_seconds,
-            Settings::default().certify,
-        )
-    }
-}
-
 /// What the work starts from, and on how many threads it is done.
 #[derive(Args)]
 pub struct WorkOptions {
@@ -164,11 +100,6 @@ pub struct WorkOptions {
 }
 
 impl WorkOptions {
-    /// The number of threads asked for, or else that of cores.
-    pub fn threads(&self) -> usize {
-        self.threads.threads.map_or_else(cores, useful)
-    }
-
     /// Has the library work on the number of threads asked for.
     pub fn use_threads(&self) -> Result<(), Failure> {
         self.threads.use_threads()
@@ -184,6 +115,11 @@ pub struct ThreadOption {
 }
 
 impl ThreadOption {
+    /// The number of threads asked for, or else that of cores.
+    pub fn count(&self) -> usize {
+        self.threads.map_or_else(cores, useful)
+    }
+
     /// Has the library work on the number of threads asked for.
     pub fn use_threads(&self) -> Result<(), Failure> {
         use_threads(self.threads)

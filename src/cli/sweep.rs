@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 use tilebind::Design;
+use tilebind::comparison::Request;
 use tilebind::output::{Output, OutputError};
 use tilebind::report::files::{REPORT, SWEEP};
 use tilebind::report::json;
@@ -16,10 +17,9 @@ use tilebind::sweep::{
     self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Source, Store,
 };
 
-use super::assessment::AssessmentOptions;
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
-use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::options::{ForceOption, PrintOptions, ThreadOption};
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, memory, print, style};
 
@@ -85,7 +85,7 @@ pub struct Sweep {
     force: ForceOption,
 
     #[command(flatten)]
-    options: AssessmentOptions,
+    request: Request,
 
     /// Only write the manifest [default file: plan.json in the folder of --out]
     #[arg(long, value_name = "PLAN", num_args = 0..=1, conflicts_with_all = ["run", "merge", "status"])]
@@ -109,7 +109,7 @@ pub struct Sweep {
     status: Option<PathBuf>,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     #[command(flatten)]
     figures: FigureOptions,
@@ -149,8 +149,8 @@ impl Sweep {
         let plan = Plan::new(
             &self.designs,
             self.vary.clone(),
-            self.options.settings(&designs),
-            self.work.seed,
+            self.request.settings(&designs),
+            self.request.seed,
         )
         .map_err(usage)?;
         let plan = match &self.baseline {
@@ -221,7 +221,7 @@ impl Sweep {
 
     /// Refuses points for which the machine has not the memory, as many as are worked on at once.
     fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
-        let at_once = self.work.threads().min(plan.points().len());
+        let at_once = self.threads.count().min(plan.points().len());
         let settings = &plan.settings;
         memory::check(settings.milestones, settings.neighbours, at_once)
     }
@@ -232,7 +232,7 @@ impl Sweep {
         let (known, missing): (Vec<Point>, Vec<Point>) =
             mine.partition(|point| store.load(point).is_some());
         let bar = PointBar::new(known.len(), missing.len(), self.print.quiet);
-        sweep::run(plan, &missing, self.work.threads(), |point, outcome| {
+        sweep::run(plan, &missing, self.threads.count(), |point, outcome| {
             interrupt::without(|| store.save(point, outcome))?;
             bar.finished_one();
             Ok(())

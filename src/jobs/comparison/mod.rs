@@ -16,6 +16,7 @@
 pub mod capture_range;
 pub mod quantity;
 pub mod ranking;
+mod request;
 
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,7 @@ use physics::potential::MagnetModel;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
+pub use request::Request;
 
 /// How designs are assessed: all that decides an assessment besides the design and the seed.
 ///

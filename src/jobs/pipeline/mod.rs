@@ -2,9 +2,11 @@
 
 mod analysis;
 mod clock;
+mod request;
 mod settings;
 
 pub use analysis::{Analysis, Counts, Stage};
+pub use request::{Certify, Request, Thoroughness};
 pub use settings::Settings;
 
 pub(crate) use clock::Clock;

@@ -1,7 +1,10 @@
 //! One barrier, asked for: from a pose of the moving tile to another, or to anywhere far apart.
 
 pub mod poses;
+mod request;
 mod ways;
+
+pub use request::Request;
 
 use crate::design::Design;
 use crate::pipeline::Settings;

@@ -3,12 +3,12 @@
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
+use tilebind::Configuration;
 use tilebind::budget::Ended;
 use tilebind::design::Design;
-use tilebind::landscape::certificate::End;
-use tilebind::query::{self, Query, QueryError};
-use tilebind::{Configuration, Settings};
+use tilebind::query::{self, Query, QueryError, Request};
 
+use crate::request::request;
 use crate::{convert, fault, job, table};
 
 /// One pose.
@@ -29,44 +29,22 @@ pub fn pose(value: &Bound<'_, PyAny>) -> PyResult<Configuration> {
 
 /// What is asked.
 pub fn query(
+    py: Python<'_>,
     [start, end]: [Option<&Bound<'_, PyAny>>; 2],
-    tolerance: Option<f64>,
-    [certify_work, certify_seconds]: [Option<f64>; 2],
-    milestones: Option<usize>,
-    seed: Option<u64>,
+    given: Option<&Bound<'_, PyDict>>,
     design: &tilebind::Design,
 ) -> PyResult<Query> {
-    let default = Settings::of([design]);
-    let to = match end {
-        None => End::Free,
-        Some(end) if end.is_instance_of::<PyString>() => match end.extract::<String>()?.as_str() {
-            "free" => End::Free,
-            word => return Err(fault::value(format!("end = {word:?}: a pose, or \"free\""))),
-        },
-        Some(end) => End::At(pose(end)?),
-    };
-    let from = match start {
-        Some(start) => pose(start)?,
-        None => return Err(fault::value("a way needs a start")),
-    };
-    let usual = Settings::default().certify;
-    let milestones = milestones.unwrap_or(default.milestones);
-    fault::positive("tolerance", tolerance)?;
-    fault::not_negative("certify_work", certify_work)?;
-    fault::not_negative("certify_seconds", certify_seconds)?;
-    fault::count("milestones", milestones)?;
-    Ok(Query {
-        from,
-        to,
-        settings: Settings {
-            seed: seed.unwrap_or(default.seed),
-            milestones,
-            most_kinds: None,
-            certify: usual.or(certify_work, certify_seconds, usual),
-            ..default
-        },
-        tolerance,
-    })
+    let given = given.cloned().unwrap_or_else(|| PyDict::new(py));
+    let start = start.ok_or_else(|| fault::value("a way needs a start"))?;
+    given.set_item("from", pose(start)?.to_array().to_vec())?;
+    match end {
+        Some(end) if !end.is_instance_of::<PyString>() => {
+            given.set_item("to", pose(end)?.to_array().to_vec())?;
+        }
+        Some(end) => given.set_item("to", end)?,
+        None => given.set_item("to", "free")?,
+    }
+    Ok(request::<Request>(Some(&given))?.query(design))
 }
 
 /// The answer, as a named tuple.

@@ -3,14 +3,14 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity};
+use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity, Request};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison as Compared;
 use tilebind::report::plots::{Sheet, ranking};
 
 use crate::design::Design;
 use crate::job::Told;
-use crate::keywords::Keywords;
+use crate::request::request;
 use crate::table;
 use crate::{convert, fault, job, pickle};
 
@@ -19,28 +19,10 @@ pub fn settings<'a>(
     given: Option<&Bound<'_, PyDict>>,
     designs: impl IntoIterator<Item = &'a tilebind::Design>,
 ) -> PyResult<(AssessmentSettings, u64)> {
-    let given = Keywords::new(given);
-    let default = AssessmentSettings::of(designs);
-    let settings = AssessmentSettings {
-        milestones: given.or("milestones", default.milestones)?,
-        neighbours: given.get("neighbours")?,
-        settled: given.or("settled", default.settled)?,
-        far_starts: given.or("far_starts", default.far_starts)?,
-        most_kinds: given.get("kinds")?.or(default.most_kinds),
-        tolerance: given.get("tolerance")?,
-        certify_cells: given.or("certify_cells", default.certify_cells)?,
-        complete_cells: given.or("complete_cells", default.complete_cells)?,
-        dynamics_runs: given.or("dynamics_runs", default.dynamics_runs)?,
-    };
-    let seed = given.or("seed", 1)?;
-    given.finish()?;
-    fault::count("milestones", settings.milestones)?;
-    fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
-    fault::count("kinds", settings.most_kinds.unwrap_or(1))?;
-    fault::fraction("settled", settings.settled)?;
-    fault::positive("tolerance", settings.tolerance)?;
+    let request = request::<Request>(given)?;
+    let settings = request.settings(designs);
     job::check_memory(settings.milestones, settings.neighbours)?;
-    Ok((settings, seed))
+    Ok((settings, request.seed))
 }
 
 fn quantity(key: &str) -> PyResult<&'static Quantity> {

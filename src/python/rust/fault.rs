@@ -59,16 +59,6 @@ pub fn positive(name: &str, number: Option<f64>) -> PyResult<()> {
     }
 }
 
-/// A `ValueError` where a number is negative or none.
-pub fn not_negative(name: &str, number: Option<f64>) -> PyResult<()> {
-    match number {
-        Some(number) if number.is_nan() || number < 0.0 => {
-            Err(value(format!("{name} must be 0 or more, not {number}")))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// A `ValueError` unless a share is above 0 and below 1.
 pub fn fraction(name: &str, number: f64) -> PyResult<()> {
     if number > 0.0 && number < 1.0 {
@@ -77,12 +67,4 @@ pub fn fraction(name: &str, number: f64) -> PyResult<()> {
     Err(value(format!(
         "{name} must be between 0 and 1, not {number}"
     )))
-}
-
-/// A `ValueError` unless there is at least one.
-pub fn count(name: &str, number: usize) -> PyResult<()> {
-    if number > 0 {
-        return Ok(());
-    }
-    Err(value(format!("{name} must be at least 1")))
 }

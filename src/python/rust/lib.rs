@@ -16,7 +16,6 @@ mod design;
 mod dock;
 mod fault;
 mod job;
-mod keywords;
 mod kinetics;
 mod pickle;
 mod poses;

@@ -9,71 +9,21 @@ use std::time::Instant;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
-use tilebind::budget::Allowance;
-use tilebind::landscape::{Barrier, CompletenessSettings, Place, pathway};
-use tilebind::pipeline;
+use tilebind::landscape::{Barrier, Place, pathway};
+use tilebind::pipeline::{self, Request};
 use tilebind::report::analysis::{Extent, document};
 use tilebind::report::document::Document;
 use tilebind::report::plots::{self, Scene, Sheet};
 use tilebind::{Analysis as Found, Settings};
 
 use crate::design::{Content, Design};
-use crate::keywords::Keywords;
+use crate::request::request;
 use crate::table::FREE;
 use crate::{fault, job};
 
 /// The library's settings.
 fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyResult<Settings> {
-    let given = Keywords::new(given);
-    let default = Settings::of([design]);
-    let (complete, usual) = (default.completeness, Settings::default());
-    let settings = Settings {
-        seed: given.or("seed", default.seed)?,
-        milestones: given.or("milestones", default.milestones)?,
-        neighbours: given.get("neighbours")?,
-        boltzmann: given.get("boltzmann")?,
-        thermal_energy: given.get("thermal_energy")?,
-        settled: given.or("settled", default.settled)?,
-        far_starts: given.or("far_starts", default.far_starts)?,
-        most_kinds: given.get("kinds")?.or(default.most_kinds),
-        repeats: given.or("repeats", default.repeats)?,
-        tolerance: given.get("tolerance")?,
-        certify: default.certify.or(
-            given.get("certify_work")?,
-            given.get("certify_seconds")?,
-            usual.certify,
-        ),
-        certify_cells: given.or("certify_cells", default.certify_cells)?,
-        completeness: CompletenessSettings {
-            allowed: complete.allowed.or(
-                given.get("complete_work")?,
-                given.get("complete_seconds")?,
-                usual.completeness.allowed,
-            ),
-            cells: given.or("complete_cells", complete.cells)?,
-            below: given.or("complete_below", complete.below)?,
-            escape: given.or("complete_escape", complete.escape)?,
-        },
-        dynamics_runs: given.or("dynamics_runs", default.dynamics_runs)?,
-        ..default
-    };
-    given.finish()?;
-    fault::count("milestones", settings.milestones)?;
-    fault::count("neighbours", settings.neighbours.unwrap_or(1))?;
-    fault::count("kinds", settings.most_kinds.unwrap_or(1))?;
-    fault::count("repeats", settings.repeats)?;
-    fault::positive("boltzmann", settings.boltzmann)?;
-    fault::positive("thermal_energy", settings.thermal_energy)?;
-    fault::positive("tolerance", settings.tolerance)?;
-    fault::fraction("settled", settings.settled)?;
-    fault::fraction("complete_below", settings.completeness.below)?;
-    fault::fraction("complete_escape", settings.completeness.escape)?;
-    let Allowance { work, seconds } = settings.certify;
-    fault::not_negative("certify_work", work)?;
-    fault::not_negative("certify_seconds", seconds)?;
-    let Allowance { work, seconds } = settings.completeness.allowed;
-    fault::not_negative("complete_work", work)?;
-    fault::not_negative("complete_seconds", seconds)?;
+    let settings = request::<Request>(given)?.settings(design);
     job::check_memory(settings.milestones, settings.neighbours)?;
     Ok(settings)
 }

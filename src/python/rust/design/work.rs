@@ -89,29 +89,16 @@ impl Design {
     ///     A named tuple: `lower`, `upper` (J, bounds of the saddle's energy), `path` (structured
     ///     array), `saddle_energy` (J), `saddle_pose`, `forward`, `reverse` (J), `caged`,
     ///     `uncertified`, `ended_by` ("work" or "clock" where one of these ended the narrowing).
-    #[pyo3(signature = (start, end = None, *, tolerance = None, certify_work = None,
-                        certify_seconds = None, milestones = None, seed = None, progress = None))]
-    #[allow(clippy::too_many_arguments)]
+    #[pyo3(signature = (start, end = None, *, progress = None, **settings))]
     fn barrier<'py>(
         &self,
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: Option<&Bound<'py, PyAny>>,
-        tolerance: Option<f64>,
-        certify_work: Option<f64>,
-        certify_seconds: Option<f64>,
-        milestones: Option<usize>,
-        seed: Option<u64>,
         progress: Option<bool>,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let query = barrier::query(
-            [Some(start), end],
-            tolerance,
-            [certify_work, certify_seconds],
-            milestones,
-            seed,
-            &self.content.design,
-        )?;
+        let query = barrier::query(py, [Some(start), end], settings, &self.content.design)?;
         barrier::ask(py, &self.content.design, &query, progress)
     }
 

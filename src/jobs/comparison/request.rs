@@ -1,11 +1,11 @@
-//! Options of the commands that assess designs.
+//! What is asked of an assessment.
 
 use clap::Args;
-use tilebind::Design;
-use tilebind::comparison::AssessmentSettings;
-use tilebind::request;
 
-use super::options::SurveyOptions;
+use super::AssessmentSettings;
+use crate::design::Design;
+use crate::pipeline::{Settings, Thoroughness};
+use crate::request;
 
 const DYNAMICS: &str = "\
 Check the way out of the bond and the deepest trap's escape by moving tiles, with RUNS \
@@ -13,29 +13,35 @@ trajectories below each [default: 1000]; a contradiction ends the command with s
 results are written. 1000 take a second of a core and, for curved shapes, up to five";
 
 /// How much work a design is worth.
-#[derive(Args)]
+#[derive(Clone, Debug, PartialEq, Args)]
 #[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS)))]
-pub struct AssessmentOptions {
+pub struct Request {
+    /// How thoroughly landscapes are surveyed.
     #[command(flatten)]
-    survey: SurveyOptions,
+    pub survey: Thoroughness,
 
     /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the
     /// bond or a twentieth of the barrier, whichever is less]
     #[arg(long, value_name = "E_J", value_parser = request::positive)]
-    tolerance: Option<f64>,
+    pub tolerance: Option<f64>,
 
     /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds [default: 200000; of
     /// very many magnets 0]
     #[arg(long, value_name = "N", value_parser = request::count_or_none)]
-    certify_cells: Option<usize>,
+    pub certify_cells: Option<usize>,
 
     /// Cells spent on the search for states that the survey missed, at most; 0 for no search
     /// [default: 300000; of very many magnets 0]
     #[arg(long, value_name = "N", value_parser = request::count_or_none)]
-    complete_cells: Option<usize>,
+    pub complete_cells: Option<usize>,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+          value_parser = request::seed)]
+    pub seed: u64,
 }
 
-impl AssessmentOptions {
+impl Request {
     /// The settings for designs, the same for all.
     pub fn settings<'a>(
         &self,

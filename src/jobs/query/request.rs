@@ -1,0 +1,74 @@
+//! What is asked of a barrier.
+
+use clap::Args;
+
+use super::Query;
+use crate::design::Design;
+use crate::pipeline::{Certify, Settings};
+use crate::request;
+use physics::configuration::Configuration;
+use physics::landscape::certificate::End;
+
+const WORK: &str = "\
+Work given to the bounds, as what takes about so many seconds of a core; it is counted. 0 for no \
+bounds [default: 180]";
+
+/// Between which poses a barrier is asked for, and how closely.
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("certify_work", |work| work.help(WORK)))]
+pub struct Request {
+    /// Pose at which the way starts (m, m, rad)
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
+    pub from: Configuration,
+
+    /// Pose at which it ends, or `free`: anywhere with the tiles far apart
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = end)]
+    pub to: End,
+
+    /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
+    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    pub tolerance: Option<f64>,
+
+    /// What its bounds are worth.
+    #[command(flatten)]
+    pub certify: Certify,
+
+    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
+    #[arg(long, value_name = "N", value_parser = request::count)]
+    pub milestones: Option<usize>,
+
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+          value_parser = request::seed)]
+    pub seed: u64,
+}
+
+impl Request {
+    /// The query about a design.
+    pub fn query(&self, design: &Design) -> Query {
+        let default = Settings::of([design]);
+        Query {
+            from: self.from,
+            to: self.to,
+            settings: Settings {
+                seed: self.seed,
+                milestones: self.milestones.unwrap_or(default.milestones),
+                far_starts: 0,
+                most_kinds: None,
+                certify: self.certify.allowed(Settings::default().certify),
+                ..default
+            },
+            tolerance: self.tolerance,
+        }
+    }
+}
+
+/// A pose or `free`.
+fn end(text: &str) -> Result<End, String> {
+    match text {
+        "free" => Ok(End::Free),
+        _ => request::pose(text)
+            .map(End::At)
+            .map_err(|error| format!("{error}; or `free`")),
+    }
+}
