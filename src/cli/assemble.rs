@@ -3,16 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::assembly::{Built, TileSet, Wiring, WordSearch, lattice, proofread, square};
+use tilebind::assembly::{
+    Assembly, Built, TileSet, Wiring, WordSearch, lattice, proofread, square,
+};
 use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::kinetics::bond::Shaking;
-use tilebind::report::assembly::{self as report, Assembly};
+use tilebind::report::assembly::document;
 use tilebind::report::files::ASSEMBLE;
 use tilebind::request;
 use tilebind::words::{Rules, Shape};
 
-use super::figures::command_line;
-use super::options::{ForceOption, PrintOptions, WorkOptions};
+use super::options::WorkOptions;
+use super::results::ResultOptions;
 use super::words::values;
 use super::{Failure, input, interrupt};
 
@@ -97,18 +99,11 @@ pub struct Assemble {
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
     seconds: f64,
 
-    /// Folder for the files
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    force: ForceOption,
-
     #[command(flatten)]
     work: WorkOptions,
 
     #[command(flatten)]
-    print: PrintOptions,
+    results: ResultOptions,
 }
 
 /// Tiles cannot cover more than the table.
@@ -143,8 +138,9 @@ impl Assemble {
         let set = proofread::blocks(&tiles, usize::from(self.proofread));
         let wiring = Wiring::new(&set).map_err(|error| Failure::Usage(error.to_string()))?;
         let inputs = self.inputs(design.as_ref());
-        let output = self.force.folder(&ASSEMBLE, &self.out, inputs)?;
+        let output = self.results.output(&ASSEMBLE, inputs)?;
         self.work.use_threads()?;
+        let progress = self.results.progress();
         let (text, tried) = match &self.words {
             Some(_) => (String::new(), Vec::new()),
             None => self
@@ -176,17 +172,8 @@ impl Assemble {
             proofread: self.proofread.into(),
             seed: self.work.seed,
         };
-        let files = report::files(&assembly, &command_line());
-        interrupt::without(|| output.write(&files))?;
-        let json = report::json(&assembly);
-        self.print.results(&json, || {
-            let summary = report::summary(&assembly);
-            format!(
-                "{summary}results in {}: {}\n",
-                self.out.display(),
-                report::FILES
-            )
-        })
+        self.results
+            .deliver(&document(&assembly), output, &progress)
     }
 
     /// The files that are read.

@@ -252,6 +252,52 @@ impl Built {
         sum / self.grown.order.len().max(1) as f64
     }
 
+    /// The kT (J) between which bonds of strength tau hold a tile and weaker ones do not; Z0 is taken to
+    /// grow as kT^(5/2), as at a flush edge.
+    pub fn window(&self) -> Option<[f64; 2]> {
+        let tau = self.set.tau();
+        let less = self.wiring.least_strength();
+        // ln K of bonds of a strength; it falls with kT.
+        let ln_k = |strength: f64, kt: f64| {
+            let gmc = self.gmc - 2.5 * libm::log(kt / self.shaking.kt);
+            strength * self.unit / kt - gmc
+        };
+        let end = |strength: f64| {
+            let (mut low, mut high) = (
+                libm::log(self.unit / 400.0),
+                libm::log(self.unit * tau.max(1.0)),
+            );
+            if ln_k(strength, libm::exp(low)) < 0.0 {
+                return None;
+            }
+            for _ in 0..80 {
+                let middle = (low + high) / 2.0;
+                if ln_k(strength, libm::exp(middle)) > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            Some(libm::exp(low))
+        };
+        let lower = if tau > less { end(tau - less)? } else { 0.0 };
+        Some([lower, end(tau)?])
+    }
+
+    /// By which share of its depth a bond is deeper in whole tiles than of two faces: the least and the
+    /// most of all pairs.
+    pub fn deeper(&self) -> Option<[f64; 2]> {
+        let met = self.grown.meetings().into_keys();
+        let shares = met.filter_map(|met| {
+            let (bond, rest) = self.whole(&met)?;
+            Some(-rest / self.matrix.bond(bond))
+        });
+        shares.fold(None, |range, share| {
+            let [low, high] = range.unwrap_or([share; 2]);
+            Some([share.min(low), share.max(high)])
+        })
+    }
+
     /// Energies of magnets by how many places lie between them; `None` of words whose places are
     /// not a pitch apart.
     pub fn lags(words: &WordSet) -> Option<Lags> {

@@ -16,12 +16,15 @@
 //! - [`growth`] - what grows without errors;
 //! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
 //!   other faces add; [`slides`] - what engines leave out;
-//! - [`built`] - all of it for one shaking and one coverage of the table.
+//! - [`built`] - all of it for one shaking and one coverage of the table; [`Assembly`] - with what
+//!   reproduces it; [`designs`] - of every two tiles that meet.
 
+mod assembled;
 mod assignment;
 pub mod built;
 pub mod choice;
 mod depths;
+pub mod designs;
 pub mod growth;
 pub mod lattice;
 pub mod matrix;
@@ -41,6 +44,7 @@ use std::path::Path;
 
 use crate::design::{DesignError, Place};
 
+pub use assembled::Assembly;
 pub use built::Built;
 pub use search::WordSearch;
 pub use wiring::{Axis, Wiring};

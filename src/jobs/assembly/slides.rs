@@ -4,6 +4,7 @@
 //! runs, flush and overdamped, down to the nearest slide at which it holds. Of all slides by whole
 //! places this counts how many lead to the aligned meeting and how many to a slid one.
 
+use super::Built;
 use physics::words::{Lags, Rules, Word};
 
 /// Where two faces hold, slid.
@@ -57,4 +58,37 @@ fn profile(lags: &Lags, rules: &Rules, first: Word, second: Word) -> Vec<f64> {
     let slides = if rules.slides() { last } else { 0 };
     let energy = |slide: i32| rules.energy_at(lags, first, second, slide);
     (-slides..=slides).map(energy).collect()
+}
+
+/// What may be asked of slid meetings.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary {
+    /// The deepest of them (J).
+    pub deepest: f64,
+    /// Pairs of faces that one slid meeting holds against Gmc, of so many.
+    pub holding: usize,
+    /// See there.
+    pub pairs: usize,
+    /// Of a word and its mate: the mean share of slides that lead to slid meetings among those that
+    /// lead anywhere.
+    pub share: f64,
+}
+
+/// What there is to know of all pairs of faces, slid.
+pub fn summary(built: &Built, slides: &[(usize, usize, Slid)]) -> Option<Summary> {
+    let n = built.matrix.words.len();
+    let depth = |slid: &Slid| slid.deepest.map_or(0.0, |it| it.1);
+    let deepest = slides
+        .iter()
+        .map(|(_, _, slid)| depth(slid))
+        .reduce(f64::min)?;
+    let holds = |slid: &Slid| -depth(slid) / built.shaking.kt > built.gmc;
+    let own = slides.iter().filter(|(i, j, _)| j - i == n);
+    let shares = own.map(|(_, _, it)| it.captured[1] / (it.captured[0] + it.captured[1]));
+    Some(Summary {
+        deepest,
+        holding: slides.iter().filter(|it| holds(&it.2)).count(),
+        pairs: slides.len(),
+        share: shares.sum::<f64>() / n as f64,
+    })
 }

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::assembly::{Built, TileSet, Wiring, WordSearch, proofread};
+use tilebind::assembly::{Assembly, Built, TileSet, Wiring, WordSearch, proofread};
 use tilebind::design::WordSet;
 use tilebind::kinetics::bond::Shaking;
-use tilebind::report::assembly::{self as report, Assembly};
+use tilebind::report::assembly::document;
+use tilebind::report::plots::Sheet;
 use tilebind::words::Rules;
 
 use crate::design::Design;
@@ -145,8 +146,9 @@ pub fn assemble<'py>(
                 proofread,
                 seed,
             };
-            report::files(&assembly, "tilebind assemble")
+            document(&assembly).files(&Sheet::SCREEN, "tilebind assemble")
         })
     })?;
-    convert::files(py, files.map_err(fault::value)?)
+    let files = files.map_err(fault::value)?.map_err(fault::value)?;
+    convert::files(py, files)
 }

@@ -1,213 +1,68 @@
 //! Tile sets whose glues are words: what engines read, designs of all pairs that meet, the sheet for
-//! the workshop, and what is known of them in words.
+//! the workshop, and what is known of them.
 
-mod designs;
-mod pairs;
 mod picture;
+mod sheet;
 mod text;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-pub(crate) use pairs::deeper;
-pub use text::{headline, summary};
-
-use super::csv::table;
-use super::files::{Files, PICTURES, with_report};
-use super::json as layout;
-use super::page::Page;
+use super::csv;
+use super::document::{Document, Drawing, Entries, Table, rows};
+use super::files::Files;
 use super::values::positive_zero;
-use jobs::assembly::built::face_name;
 use jobs::assembly::choice::{Choice, Verdict};
-use jobs::assembly::slides::Slid;
-use jobs::assembly::{Axis, Built, SIDES, rgrow, xgrow};
-use jobs::design::{Design, WordSet};
-use physics::tile::Magnet;
-use physics::words::{Rules, Word};
+use jobs::assembly::slides::{self, Slid};
+use jobs::assembly::wiring::Bond;
+use jobs::assembly::{Assembly, Axis, SIDES, TileType, designs, rgrow, xgrow};
+use physics::order::Order;
+use physics::units::{plain, si};
 
-/// What is written, for the terminal.
-pub const FILES: &str = "report.html to look at; assembly.yaml (rgrow), assembly.tiles (xgrow), \
-                         designs/, sheet.md, matrix.csv, pairs.csv, slides.csv, words.toml, \
-                         report.json";
+/// Slid meetings that people see, the deepest.
+const SHOWN: usize = 40;
+/// Rows that a terminal has.
+const LISTED: usize = 5;
 
-/// A tile set that was built, and all that reproduces it.
-pub struct Assembly<'a> {
-    /// It.
-    pub built: &'a Built,
-    /// Where its words come from.
-    pub words: &'a WordSet,
-    /// The text of `words.toml`.
-    pub words_toml: String,
-    /// The design of which thickness, mass and table are taken, if one was given.
-    pub design: Option<&'a Design>,
-    /// What was tried to find words; empty where they were given.
-    pub tried: Vec<Choice>,
-    /// Rows and columns, if it is a lattice.
-    pub lattice: Option<[usize; 2]>,
-    /// Which meetings are wrong.
-    pub rules: Rules,
-    /// Tiles along a block's edge.
-    pub proofread: usize,
-    /// Of all random numbers.
-    pub seed: u64,
-}
-
-impl Assembly<'_> {
-    pub(super) fn face(&self, face: usize) -> String {
-        face_name(face, self.built.matrix.words.len())
-    }
-
-    /// Where a word's magnets lie along the face (m), and their poles.
-    pub(super) fn magnets(&self, word: Word) -> Vec<(f64, char)> {
-        let pitch = self.words.stage.pitch.unwrap_or_default();
-        let middle = (word.places() as f64 - 1.0) / 2.0;
-        let at = |k: usize| match &self.words.places {
-            Some(places) => places[k],
-            None => (k as f64 - middle) * pitch,
-        };
-        let pole = |k: usize| match word.at(k) {
-            1 => Some('N'),
-            -1 => Some('S'),
-            _ => None,
-        };
-        (0..word.places())
-            .filter_map(|k| Some((at(k), pole(k)?)))
-            .collect()
-    }
-
-    /// From the face to the magnets' outer pole faces (m).
-    pub(super) fn inset(&self) -> f64 {
-        let (tile, magnet) = (&self.words.stage.pair.fixed, self.magnet());
-        let face = &tile.faces[magnet.face];
-        let depth = -(magnet.position - face.middle()).dot(&face.normal());
-        let inset = depth - magnet.size[0] / 2.0;
-        // What rounding leaves.
-        if inset.abs() < 1e-9 {
-            0.0
-        } else {
-            (inset * 1e12).round() / 1e12
-        }
-    }
-
-    /// A magnet like all of them.
-    pub(super) fn magnet(&self) -> &Magnet {
-        &self.words.stage.pair.fixed.magnets[0]
-    }
-
-    /// Of every two faces what holds them slid, where words have a pitch.
-    pub(super) fn slides(&self) -> Vec<(usize, usize, Slid)> {
-        let lags = Built::lags(self.words).filter(|_| self.rules.slides());
-        let Some(lags) = lags else {
-            return Vec::new();
-        };
-        let matrix = &self.built.matrix;
-        let faces = matrix.energies.len();
-        let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| (i, j)));
-        let of = |(i, j)| {
-            let slid = Slid::of(&lags, &self.rules, matrix.code(i), matrix.code(j));
-            (i, j, slid)
-        };
-        pairs.map(of).collect()
-    }
-}
-
-/// All files, made by `command`.
-pub fn files(assembly: &Assembly, command: &str) -> Files {
-    let mut files = Files::new();
-    let mut add = |name: &str, text: String| {
-        files.insert(name.to_owned(), text.into_bytes());
-    };
-    let engine = assembly.built.engine();
-    let remarks = text::remarks(assembly);
-    add("assembly.yaml", rgrow::write(&engine, &remarks));
-    add(
-        "assembly.tiles",
-        xgrow::write(&engine.without_repulsion(), &remarks),
-    );
-    add("tileset.yaml", rgrow::write(&assembly.built.set, &[]));
-    add("matrix.csv", matrix_csv(assembly));
-    add("pairs.csv", pairs::csv(assembly));
+/// What there is to know of a tile set that was built.
+pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
     let slides = assembly.slides();
-    add("slides.csv", slides_csv(assembly, &slides));
-    add("words.toml", assembly.words_toml.clone());
-    add("sheet.md", designs::sheet(assembly));
-    for (name, text) in designs::all(assembly) {
-        add(&format!("designs/{name}.toml"), text);
+    let title = "What grows without errors";
+    Document {
+        title: format!("Assembly {}", assembly.built.set.name),
+        answer: text::headline(assembly),
+        remarks: text::known(assembly, &slides),
+        entries: entries(assembly, &slides),
+        pictures: vec![Drawing::new(title, |sheet| {
+            picture::grown(assembly, title, sheet)
+        })],
+        beside: beside(assembly),
+        origin: format!("seed {}", assembly.seed),
+        ..Document::default()
     }
-    let svg = picture::grown(assembly);
-    add(&format!("{PICTURES}/grown.svg"), svg.clone());
-    let page = Page::of_assembly(assembly, &slides, svg);
-    with_report(files, Some(page), &value(assembly, &slides), command)
 }
 
-/// `report.json`, and what `--json` prints.
-pub fn json(assembly: &Assembly) -> String {
-    layout::text(&value(assembly, &assembly.slides()))
-}
-
-fn matrix_csv(assembly: &Assembly) -> String {
-    let matrix = &assembly.built.matrix;
-    let faces = matrix.energies.len();
-    let header = ["face".to_owned(), "code".to_owned()];
-    let header = header
-        .into_iter()
-        .chain((0..faces).map(|face| assembly.face(face) + "_J"));
-    let rows = (0..faces).map(|i| {
-        let energies = matrix.energies[i]
-            .iter()
-            .map(|energy| positive_zero(*energy).to_string());
-        [assembly.face(i), matrix.code(i).to_string()]
-            .into_iter()
-            .chain(energies)
-            .collect::<Vec<_>>()
-    });
-    table(header.collect::<Vec<_>>(), rows)
-}
-
-fn slides_csv(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> String {
+// One line an entry.
+#[rustfmt::skip]
+fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
     let built = assembly.built;
-    let pitch = assembly.words.stage.pitch.unwrap_or_default();
-    let rows = slides.iter().filter_map(|(i, j, slid)| {
-        let (slide, energy) = slid.deepest?;
-        Some(vec![
-            assembly.face(*i),
-            assembly.face(*j),
-            slide.to_string(),
-            positive_zero(f64::from(slide) * pitch).to_string(),
-            energy.to_string(),
-            (energy / built.shaking.kt).to_string(),
-            (-energy / built.shaking.kt > built.gmc).to_string(),
-            slid.captured[0].to_string(),
-            slid.captured[1].to_string(),
-        ])
-    });
-    let header = [
-        "first",
-        "second",
-        "slide",
-        "slide_m",
-        "energy_J",
-        "energy_kT",
-        "holds_alone",
-        "slides_to_aligned",
-        "slides_to_slid",
-    ];
-    table(header.map(str::to_owned), rows)
-}
-
-fn value(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Value {
-    let built = assembly.built;
-    let (set, matrix) = (&built.set, &built.matrix);
-    let codes = |faces: std::ops::Range<usize>| -> Vec<String> {
+    let (set, matrix, grown) = (&built.set, &built.matrix, &built.grown);
+    let codes = |faces: std::ops::Range<usize>| -> Value {
         faces.map(|face| matrix.code(face).to_string()).collect()
     };
     let n = matrix.words.len();
-    let mismatch = matrix.strongest_wrong().map(|(i, j, energy)| {
+    let wrong = matrix.strongest_wrong();
+    let mismatch = wrong.map(|(i, j, energy)| {
         json!({"first": assembly.face(i), "second": assembly.face(j), "energy_J": energy})
     });
-    let window = text::window(built);
-    json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "tile_set": {
+    let deeper = built.deeper();
+    let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
+    let mut deepest: Vec<_> = slides.iter().filter(|it| it.2.deepest.is_some()).collect();
+    let all = slid(assembly, deepest.clone());
+    deepest.order_by(|a, b| energy(a).total_cmp(&energy(b)));
+    deepest.truncate(SHOWN);
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("tile_set", json!({
             "name": set.name,
             "tiles": set.tiles.len(),
             "glues": set.glues.len(),
@@ -215,76 +70,207 @@ fn value(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Value {
             "tau": set.tau(),
             "proofread": assembly.proofread,
             "lattice": assembly.lattice,
-        },
-        "kt_J": built.shaking.kt,
-        "coverage": built.shaking.coverage,
-        "Gse": built.gse(),
-        "Gmc": built.gmc,
-        "bond_J": built.unit,
-        "bond_volume_m2_rad": built.volume,
-        "docking_cost_kT": built.docking_cost,
-        "tau_effective": built.gmc / built.gse(),
-        "window_kt_J": window,
-        "errors_at_standstill": built.errors_at_standstill(),
-        "words": codes(0..n),
-        "mates": codes(n..2 * n),
-        "bonds": built.wiring.bonds.iter().enumerate().map(|(word, bond)| json!({
-            "word": assembly.face(word),
-            "axis": axis(bond.axis),
-            "strength": bond.strength,
-            "energy_J": -matrix.bond(word),
-            "glues": bond.glues.each_ref().map(|glues| glues.iter().map(|glue| &set.glues[*glue].name).collect::<Vec<_>>()),
-        })).collect::<Value>(),
-        "matrix_J": matrix.energies.iter()
-            .map(|row| row.iter().map(|energy| positive_zero(*energy)).collect::<Value>())
-            .collect::<Value>(),
-        "strongest_mismatch": mismatch,
-        "deeper_in_whole_tiles": deeper(assembly),
-        "slides": text::slid(assembly, slides).map(|slid| json!({
-            "deepest_J": slid.deepest,
-            "pairs_that_hold_alone": slid.holding,
-            "pairs": slid.pairs,
-            "bonds_slid_share": slid.share,
-        })),
-        "grown": {
-            "tiles": built.grown.tiles.len(),
-            "complete": built.grown.complete,
-            "choices": built.grown.choices,
-            "of_each": set.tiles.iter().zip(built.grown.counts(set.tiles.len()))
+        }))
+        .fact("tiles", "tiles", set.tiles.len()).in_view()
+        .fact("words", "words", built.wiring.bonds.len()).in_view().noted("one a glue and axis")
+        .fact("kt_J", "kT", built.shaking.kt)
+        .fact("coverage", "covered", built.shaking.coverage).share().noted("of the table")
+        .fact("Gse", "Gse", built.gse()).viewed(kt(built.gse())).noted("weakest bond of strength 1")
+        .fact("Gmc", "Gmc", built.gmc).viewed(kt(built.gmc)).noted("cost of docking, of a kind of tile")
+        .data("bond_J", built.unit)
+        .data("bond_volume_m2_rad", built.volume)
+        .data("docking_cost_kT", built.docking_cost)
+        .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("below tau it grows")
+        .data("window_kt_J", built.window().map(|ends| json!(ends)))
+        .fact("errors_at_standstill", "errors a tile", built.errors_at_standstill())
+            .viewed(format!("{:.1e}", built.errors_at_standstill())).noted("just above standstill")
+        .data("words", codes(0..n))
+        .data("mates", codes(n..2 * n))
+        .table(bonds(assembly))
+        .table(slid(assembly, deepest).titled("Slid traps", format!(
+            "the {SHOWN} deepest; the engines do not know them: what exceeds Gmc holds a tile by itself"
+        )).listing(LISTED).in_view())
+        .table(all.in_csv("slides"))
+        .data("matrix_J", matrix.energies.iter().map(|row| row.iter().copied().map(positive_zero).collect()).collect::<Vec<Value>>())
+        .fact("strongest_mismatch", "strongest mismatch", mismatch)
+            .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
+        .fact("deeper_in_whole_tiles", "bonds in whole tiles", deeper.map(|ends| json!(ends)))
+            .viewed(deeper.map_or(String::new(), told)).noted("deeper than of two faces")
+        .data("slides", slides::summary(built, slides).map(|it| json!({
+            "deepest_J": it.deepest,
+            "pairs_that_hold_alone": it.holding,
+            "pairs": it.pairs,
+            "bonds_slid_share": it.share,
+        })))
+        .data("grown", json!({
+            "tiles": grown.tiles.len(),
+            "complete": grown.complete,
+            "choices": grown.choices,
+            "of_each": set.tiles.iter().zip(grown.counts(set.tiles.len()))
                 .map(|(tile, count)| json!([tile.name, count])).collect::<Value>(),
+        }))
+        .table(tiles(assembly))
+        .table(pairs(assembly).in_file("pairs").in_data())
+        .data("faces_tried", assembly.tried.iter().map(tried).collect::<Value>())
+        .data("seed", assembly.seed)
+}
+
+fn kt(energy: f64) -> String {
+    match energy {
+        ..1e4 => format!("{energy:.3} kT"),
+        _ => format!("{} kT", plain(energy, 3)),
+    }
+}
+
+fn tried(choice: &Choice) -> Value {
+    let classes = choice.classes.iter().map(|class| {
+        json!({
+            "magnets": class.magnets,
+            "needed": class.needed,
+            "found": class.found,
+            "at_most": (class.upper < usize::MAX).then_some(class.upper),
+        })
+    });
+    json!({
+        "places": choice.places,
+        "gap": choice.gap,
+        "verdict": match choice.verdict {
+            Verdict::Found => "found",
+            Verdict::Refuted => "proved impossible",
+            Verdict::Open => "open",
         },
-        "tiles": set.tiles.iter().enumerate().map(|(number, tile)| {
-            let face = |side: usize| built.face(number, side).map(|face| assembly.face(face));
-            let faces = (0..4).map(|side| (SIDES[side].to_owned(), json!(face(side))));
-            json!({"name": tile.name, "faces": faces.collect::<serde_json::Map<_, _>>()})
-        }).collect::<Value>(),
-        "faces_tried": assembly.tried.iter().map(|it| json!({
-            "places": it.places,
-            "gap": it.gap,
-            "verdict": verdict(it.verdict),
-            "words": it.words.len(),
-            "classes": it.classes.iter().map(|class| json!({
-                "magnets": class.magnets,
-                "needed": class.needed,
-                "found": class.found,
-                "at_most": (class.upper < usize::MAX).then_some(class.upper),
-            })).collect::<Value>(),
-        })).collect::<Value>(),
-        "seed": assembly.seed,
+        "words": choice.words.len(),
+        "classes": classes.collect::<Value>(),
     })
 }
 
-fn axis(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Horizontal => "west-east",
-        Axis::Vertical => "south-north",
-    }
+// One line a column.
+#[rustfmt::skip]
+fn tiles(assembly: &Assembly) -> Table {
+    type Row<'a> = (usize, &'a TileType);
+    let built = assembly.built;
+    let counts = built.grown.counts(built.set.tiles.len());
+    let faces = |it: &Row| -> Value {
+        let face = |side: usize| built.face(it.0, side).map(|face| assembly.face(face));
+        (0..4).map(|side| (SIDES[side].to_owned(), json!(face(side)))).collect::<Map<_, _>>().into()
+    };
+    let face = |side: usize| move |it: &Row| {
+        let face = built.face(it.0, side)?;
+        Some(format!("{} {}", assembly.face(face), built.matrix.code(face)))
+    };
+    rows(built.set.tiles.iter().enumerate())
+        .column("name", "tile", "", |it: &Row| it.1.name.clone())
+        .column("faces", "", "", faces)
+        .column("grown", "grown", "how many are in what grows without errors", move |it| counts[it.0]).in_view()
+        .column("north", "north", "the word of the face, read counter-clockwise", face(0)).in_view()
+        .column("east", "east", "the word of the face, read counter-clockwise", face(1)).in_view()
+        .column("south", "south", "the word of the face, read counter-clockwise", face(2)).in_view()
+        .column("west", "west", "the word of the face, read counter-clockwise", face(3)).in_view()
+        .table("tiles")
+        .titled("Tiles", "")
+        .listing(LISTED)
 }
 
-pub(super) fn verdict(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Found => "found",
-        Verdict::Refuted => "proved impossible",
-        Verdict::Open => "open",
-    }
+#[rustfmt::skip]
+fn bonds(assembly: &Assembly) -> Table {
+    type Row<'a> = (usize, &'a Bond);
+    let built = assembly.built;
+    let glues = |it: &Row| json!(it.1.glues.each_ref().map(|glues| {
+        glues.iter().map(|glue| &built.set.glues[*glue].name).collect::<Vec<_>>()
+    }));
+    let axis = |it: &Row| match it.1.axis {
+        Axis::Horizontal => "west-east",
+        Axis::Vertical => "south-north",
+    };
+    rows(built.wiring.bonds.iter().enumerate())
+        .column("word", "word", "on east or north faces; its mate is on west or south ones", |it: &Row| assembly.face(it.0))
+        .column("code", "code", "read counter-clockwise", |it| built.matrix.words[it.0].to_string()).in_view()
+        .column("axis", "axis", "on which the tiles meet", axis)
+        .column("strength", "strength", "of the glue", |it| it.1.strength)
+        .column("energy_J", "bond", "energy, flush and aligned, as the engines have it", |it| -built.matrix.bond(it.0)).digits(4)
+        .column("depth_kT", "depth", "of the bond, over kT", |it| built.matrix.bond(it.0) / built.shaking.kt)
+        .column("glues", "", "", glues)
+        .table("bonds")
+        .titled("Bonds", "")
+        .listing(LISTED)
+}
+
+fn energy(slid: &(usize, usize, Slid)) -> f64 {
+    slid.2.deepest.map_or(0.0, |it| it.1)
+}
+
+/// The deepest slid meetings of faces.
+#[rustfmt::skip]
+fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a (usize, usize, Slid)>) -> Table {
+    let built = assembly.built;
+    let pitch = assembly.words.stage.pitch.unwrap_or_default();
+    let slide = |it: &(usize, usize, Slid)| it.2.deepest.map_or(0, |it| it.0);
+    let depth = |it: &(usize, usize, Slid)| energy(it) / built.shaking.kt;
+    rows(all)
+        .column("first", "first", "a face", |it| assembly.face(it.0))
+        .column("second", "second", "the face that it meets", |it| assembly.face(it.1))
+        .column("slide", "slid by", "places", move |it| slide(it))
+        .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
+        .column("energy_J", "energy", "of the deepest slid meeting that holds", |it| energy(it)).digits(4)
+        .column("energy_kT", "depth", "over kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
+        .column("holds_alone", "holds alone", "whether it holds a tile by itself, against Gmc", move |it| -depth(it) > built.gmc)
+        .column("slides_to_aligned", "", "", |it| it.2.captured[0])
+        .column("slides_to_slid", "", "", |it| it.2.captured[1])
+        .table("slid")
+}
+
+/// A row a pair of tiles that meet: its design, the word of its bond, the energy of the two faces
+/// that meet (the matrix's), of all other faces, and of the whole tiles, which `tilebind energy` has
+/// of the design.
+#[rustfmt::skip]
+fn pairs(assembly: &Assembly) -> Table {
+    let built = assembly.built;
+    let met = designs::named(assembly).into_iter().filter_map(|(name, met)| {
+        let (bond, rest) = built.whole(&met)?;
+        Some((name, bond, -built.matrix.bond(bond), rest))
+    });
+    rows(met)
+        .column("design", "", "", |it| format!("designs/{}.toml", it.0))
+        .column("word", "", "", |it| assembly.face(it.1))
+        .column("faces_J", "", "", |it| it.2)
+        .column("other_faces_J", "", "", |it| it.3)
+        .column("tiles_J", "", "", |it| it.2 + it.3)
+        .column("tiles_kT", "", "", |it| (it.2 + it.3) / built.shaking.kt)
+        .table("pairs")
+}
+
+/// What engines and other commands read.
+fn beside(assembly: &Assembly) -> Files {
+    let engine = assembly.built.engine();
+    let remarks = text::for_engines(assembly);
+    let files = [
+        ("assembly.yaml", rgrow::write(&engine, &remarks)),
+        (
+            "assembly.tiles",
+            xgrow::write(&engine.without_repulsion(), &remarks),
+        ),
+        ("tileset.yaml", rgrow::write(&assembly.built.set, &[])),
+        ("matrix.csv", matrix(assembly)),
+        ("words.toml", assembly.words_toml.clone()),
+        ("sheet.md", sheet::sheet(assembly)),
+    ];
+    let files = files.map(|(name, text)| (name.to_owned(), text));
+    let designs = designs::all(assembly).into_iter();
+    let designs = designs.map(|(name, text)| (format!("designs/{name}.toml"), text));
+    let all = files.into_iter().chain(designs);
+    all.map(|(name, text)| (name, text.into_bytes())).collect()
+}
+
+/// The energies of all faces with all.
+fn matrix(assembly: &Assembly) -> String {
+    let matrix = &assembly.built.matrix;
+    let faces = || 0..matrix.energies.len();
+    let header = ["face".to_owned(), "code".to_owned()].into_iter();
+    let header = header.chain(faces().map(|face| assembly.face(face) + "_J"));
+    let rows = faces().map(|i| {
+        let energies = matrix.energies[i].iter().copied().map(csv::number);
+        let head = [assembly.face(i), matrix.code(i).to_string()];
+        head.into_iter().chain(energies).collect::<Vec<_>>()
+    });
+    csv::table(header, rows)
 }

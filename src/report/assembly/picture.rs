@@ -1,10 +1,15 @@
 //! What grows without errors, drawn tile by tile.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
-use super::Assembly;
-use jobs::assembly::TileSet;
+use plotters::style::RGBColor;
+
+use crate::document::rows;
+use crate::plots::chart::{Look, names_of_series};
+use crate::plots::composition::{Composition, Panel};
+use crate::plots::marks::polygon;
+use crate::plots::{Figure, PictureError, Sheet};
+use jobs::assembly::{Assembly, TileSet};
 
 /// Colours that colour-blind people tell apart (Okabe and Ito), and two greys.
 const COLOURS: [&str; 8] = [
@@ -12,6 +17,9 @@ const COLOURS: [&str; 8] = [
 ];
 /// Pixels along the longer side.
 const SIDE: f64 = 640.0;
+/// Greatest side of a tile, and space around them all (pixels).
+const MOST_CELL: f64 = 40.0;
+const SPACE: f64 = 22.0;
 /// Of more kinds of tiles the key names colours, with the kinds that have them.
 const MOST_NAMED: usize = 16;
 /// Letters of such names at most.
@@ -72,45 +80,50 @@ fn key(kinds: &[(&str, String)]) -> Vec<(String, String)> {
     colours.iter().take(2 * MOST_NAMED).map(one).collect()
 }
 
-/// The picture, as an SVG document.
-pub(super) fn grown(assembly: &Assembly) -> String {
+/// A colour as tile sets name it, such as `#0072B2`.
+fn colour(hex: &str) -> RGBColor {
+    let part = |k: usize| u8::from_str_radix(&hex[k..k + 2], 16).unwrap_or(0);
+    RGBColor(part(1), part(3), part(5))
+}
+
+/// Draws it.
+pub(super) fn grown(
+    assembly: &Assembly,
+    title: &str,
+    sheet: &Sheet,
+) -> Result<Figure, PictureError> {
     let (set, grown) = (&assembly.built.set, &assembly.built.grown);
     let [low, high] = grown.extent();
-    let (columns, rows) = (f64::from(high.0 - low.0 + 1), f64::from(high.1 - low.1 + 1));
-    let cell = (SIDE / columns.max(rows)).min(40.0);
+    let [columns, lines] = [high.0 - low.0, high.1 - low.1].map(|last| f64::from(last + 1));
     let (kinds, of_tile) = kinds(set);
-    let key = key(&kinds);
-    let letters = key.iter().map(|it| it.1.chars().count()).max();
-    let (width, height) = (
-        cell * columns + 50.0 + 7.5 * letters.unwrap_or(0) as f64,
-        (cell * rows).max(26.0 * key.len() as f64 + 16.0),
-    );
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-         viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"Noto Sans, Helvetica, Arial, \
-         sans-serif\" font-size=\"13\">\n"
-    );
-    for ((x, y), tile) in &grown.tiles {
-        let (left, top) = (f64::from(x - low.0) * cell, f64::from(high.1 - y) * cell);
-        let _ = writeln!(
-            text,
-            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{}\"/>",
-            cell * 0.94,
-            cell * 0.94,
-            kinds[of_tile[*tile]].1
-        );
-    }
-    let left = cell * columns + 14.0;
-    for (number, (colour, name)) in key.iter().enumerate() {
-        let top = 8.0 + 26.0 * number as f64;
-        let name = name.replace('&', "&amp;").replace('<', "&lt;");
-        let _ = writeln!(
-            text,
-            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"16\" height=\"16\" fill=\"{colour}\"/>\
-             <text x=\"{:.2}\" y=\"{:.2}\" fill=\"#222222\">{name}</text>",
-            left + 24.0,
-            top + 13.0
-        );
-    }
-    text + "</svg>\n"
+    let cell = move |width: f64| {
+        let most = (SIDE / columns.max(lines)).min(MOST_CELL);
+        most.min((width - 2.0 * SPACE) / columns)
+    };
+    let height = move |width| cell(width) * lines + SPACE;
+    let panel = Panel::new("", 0.0, height, |root, _, [left, top, right, _]| {
+        let side = cell(right - left);
+        grown.tiles.iter().try_for_each(|((x, y), tile)| {
+            let left = left + SPACE + f64::from(x - low.0) * side;
+            let top = top + f64::from(high.1 - y) * side;
+            let (right, bottom) = (left + 0.94 * side, top + 0.94 * side);
+            let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+            polygon(root, &corners, colour(&kinds[of_tile[*tile]].1), None)
+        })
+    });
+    let names = key(&kinds).into_iter();
+    let names = names.map(|(hex, name)| (name, colour(&hex), Look::Bars));
+    let numbers = rows(&grown.tiles)
+        .column("x", "", "", |it| it.0.0)
+        .column("y", "", "", |it| it.0.1)
+        .column("tile", "", "", |it| set.tiles[*it.1].name.clone());
+    let composition = Composition {
+        name: "grown".to_owned(),
+        title: title.to_owned(),
+        note: None,
+        width: SIDE + 2.0 * SPACE,
+        panels: vec![panel],
+        key: Some(names_of_series(names.collect())),
+    };
+    Figure::new(&composition, sheet, numbers.table("grown").csv())
 }

@@ -1,79 +1,12 @@
 //! What is told of an assembly in words.
 
-use std::fmt::Write;
-
-use super::Assembly;
-use jobs::assembly::Built;
 use jobs::assembly::choice::{Choice, Verdict};
-use jobs::assembly::slides::Slid;
+use jobs::assembly::slides::{self, Slid};
+use jobs::assembly::{Assembly, lattice};
 use physics::units::{plain, si, si_range};
 
-/// What may be asked of slid meetings.
-pub(crate) struct SlidFacts {
-    /// J.
-    pub deepest: f64,
-    /// Pairs of faces that one slid meeting holds against Gmc, of so many.
-    pub holding: usize,
-    /// See there.
-    pub pairs: usize,
-    /// Of a word and its mate: the mean share of slides that lead to slid meetings among those that
-    /// lead anywhere.
-    pub share: f64,
-}
-
-pub(crate) fn slid(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Option<SlidFacts> {
-    let built = assembly.built;
-    let n = built.matrix.words.len();
-    let depth = |slid: &Slid| slid.deepest.map_or(0.0, |it| it.1);
-    let deepest = slides
-        .iter()
-        .map(|(_, _, slid)| depth(slid))
-        .reduce(f64::min)?;
-    let holds = |slid: &Slid| -depth(slid) / built.shaking.kt > built.gmc;
-    let own = slides.iter().filter(|(i, j, _)| j - i == n);
-    let shares = own.map(|(_, _, it)| it.captured[1] / (it.captured[0] + it.captured[1]));
-    Some(SlidFacts {
-        deepest,
-        holding: slides.iter().filter(|it| holds(&it.2)).count(),
-        pairs: slides.len(),
-        share: shares.sum::<f64>() / n as f64,
-    })
-}
-
-/// The kT (J) between which bonds of strength tau hold a tile and weaker ones do not; Z0 is taken to
-/// grow as kT^(5/2), as at a flush edge.
-pub fn window(built: &Built) -> Option<[f64; 2]> {
-    let tau = built.set.tau();
-    let less = built.wiring.least_strength();
-    // ln K of bonds of a strength; it falls with kT.
-    let ln_k = |strength: f64, kt: f64| {
-        let gmc = built.gmc - 2.5 * libm::log(kt / built.shaking.kt);
-        strength * built.unit / kt - gmc
-    };
-    let end = |strength: f64| {
-        let (mut low, mut high) = (
-            libm::log(built.unit / 400.0),
-            libm::log(built.unit * tau.max(1.0)),
-        );
-        if ln_k(strength, libm::exp(low)) < 0.0 {
-            return None;
-        }
-        for _ in 0..80 {
-            let middle = (low + high) / 2.0;
-            if ln_k(strength, libm::exp(middle)) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        Some(libm::exp(low))
-    };
-    let lower = if tau > less { end(tau - less)? } else { 0.0 };
-    Some([lower, end(tau)?])
-}
-
 /// One sentence that answers whether it can be built.
-pub fn headline(assembly: &Assembly) -> String {
+pub(super) fn headline(assembly: &Assembly) -> String {
     let built = assembly.built;
     let (set, n) = (&built.set, built.wiring.bonds.len());
     let (gse, gmc, tau) = (built.gse(), built.gmc, set.tau());
@@ -115,7 +48,7 @@ pub fn headline(assembly: &Assembly) -> String {
 }
 
 /// What files of engines say above the set.
-pub(super) fn remarks(assembly: &Assembly) -> Vec<String> {
+pub(super) fn for_engines(assembly: &Assembly) -> Vec<String> {
     let built = assembly.built;
     vec![
         format!(
@@ -132,14 +65,12 @@ pub(super) fn remarks(assembly: &Assembly) -> Vec<String> {
     ]
 }
 
-/// For the terminal.
-pub fn summary(assembly: &Assembly) -> String {
+/// What else to know of it.
+pub(super) fn known(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Vec<String> {
     let built = assembly.built;
-    let mut text = headline(assembly) + ".\n";
-    let mut line = |words: String| {
-        let _ = writeln!(text, "{words}");
-    };
-    if let Some([low, high]) = window(built) {
+    let mut lines = Vec::new();
+    let mut line = |words: String| lines.push(words);
+    if let Some([low, high]) = built.window() {
         line(match low > 0.0 {
             true => format!(
                 "it grows between kT {} at this coverage",
@@ -149,7 +80,7 @@ pub fn summary(assembly: &Assembly) -> String {
         });
     }
     if let Some([rows, columns]) = assembly.lattice {
-        let needed = jobs::assembly::lattice::words(rows, columns);
+        let needed = lattice::words(rows, columns);
         line(format!(
             "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
         ));
@@ -167,18 +98,18 @@ pub fn summary(assembly: &Assembly) -> String {
         )),
         None => line("no aligned mismatch attracts".to_owned()),
     }
-    if let Some(whole) = super::pairs::sentence(assembly) {
+    if let Some(whole) = whole(assembly) {
         line(whole);
     }
     line(format!(
         "errors a tile, grown just above standstill: {:.2e}; faster growth makes more of them",
         built.errors_at_standstill()
     ));
-    if let Some(slid) = slid(assembly, &assembly.slides()) {
+    if let Some(slid) = slides::summary(built, slides) {
         line(format!(
             "outside of the model: slid by whole places faces hold with up to {} ({:.1} kT, Gmc \
-             {:.1});\n{} of {} pairs of faces would so hold a tile alone, and of a word's slides along \
-             its mate {:.0} %\nof those that hold end slid",
+             {:.1}); {} of {} pairs of faces would so hold a tile alone, and of a word's slides along \
+             its mate {:.0} % of those that hold end slid",
             si(slid.deepest, "J", 4),
             -slid.deepest / built.shaking.kt,
             built.gmc,
@@ -201,7 +132,7 @@ pub fn summary(assembly: &Assembly) -> String {
             grown.choices
         ));
     }
-    text
+    lines
 }
 
 /// What the search for words says, if there was one.
@@ -230,5 +161,25 @@ fn found(assembly: &Assembly) -> Option<String> {
     Some(format!(
         "words found with a gap of {:.3} on {} places{shorter}{wider}",
         last.gap, last.places
+    ))
+}
+
+/// How much deeper bonds are in whole tiles.
+fn whole(assembly: &Assembly) -> Option<String> {
+    let [least, most] = assembly.built.deeper()?;
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share.abs());
+    // Less than a tenth of a percent is neither.
+    let told = match (least < -5e-4, most > 5e-4) {
+        (true, true) => format!(
+            "from {} shallower to {} deeper",
+            percent(least),
+            percent(most)
+        ),
+        (true, false) => format!("up to {} shallower and none deeper", percent(least)),
+        (false, true) => format!("up to {} deeper and none shallower", percent(most)),
+        (false, false) => "as deep".to_owned(),
+    };
+    Some(format!(
+        "in whole tiles bonds are {told} than of two faces, as engines have them"
     ))
 }

@@ -5,7 +5,6 @@
 //! policy lets the page run its own script and style, known by their SHA-256, and load nothing at
 //! all; it opens from disk. The same page comes out as the same bytes.
 
-mod assembly;
 mod charts;
 mod html;
 pub(super) mod landscape;

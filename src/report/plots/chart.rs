@@ -470,7 +470,17 @@ pub fn names_of_series<'a>(series: Vec<(String, RGBColor, Look)>) -> Panel<'a> {
                     };
                     dot(root, &placed, *colour, *look)?;
                 }
-                Look::Line | Look::Steps | Look::Bars => polyline(root, &line, *colour, 2.4)?,
+                Look::Bars => {
+                    let (right, [above, below]) = (x + 20.0, [y - 8.0, y + 8.0]);
+                    let corners = [
+                        (x + 4.0, above),
+                        (right, above),
+                        (right, below),
+                        (x + 4.0, below),
+                    ];
+                    polygon(root, &corners, *colour, None)?;
+                }
+                Look::Line | Look::Steps => polyline(root, &line, *colour, 2.4)?,
             }
             font.write(root, name, (x + 31.0, y), (HPos::Left, VPos::Center))?;
         }

@@ -17,7 +17,7 @@ mod approach;
 mod canvas;
 pub mod chart;
 pub(crate) mod committor;
-mod composition;
+pub(crate) mod composition;
 mod contour;
 mod curve;
 pub mod curve_data;
@@ -33,7 +33,7 @@ mod heat;
 mod key;
 mod labels;
 mod map_marks;
-mod marks;
+pub(crate) mod marks;
 pub mod matrix;
 pub(crate) mod merge_tree;
 mod models;
@@ -74,7 +74,11 @@ pub struct Figure {
 }
 
 impl Figure {
-    fn new(composition: &Composition, sheet: &Sheet, data: String) -> Result<Self, PictureError> {
+    pub(crate) fn new(
+        composition: &Composition,
+        sheet: &Sheet,
+        data: String,
+    ) -> Result<Self, PictureError> {
         Ok(Self {
             name: composition.name.clone(),
             pictures: composition.draw(sheet)?,
