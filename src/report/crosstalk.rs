@@ -11,8 +11,7 @@ use jobs::design::WordSet;
 use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::units::si;
-use physics::words::Word;
-use physics::words::crosstalk::Crosstalk;
+use physics::words::crosstalk::{Crosstalk, Kind, Meeting};
 use physics::words::set::name;
 
 /// Meetings that people see, the strongest, and those of them that a terminal has.
@@ -53,7 +52,7 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
         .data("words", found.words.iter().map(ToString::to_string).collect::<Vec<_>>())
         .fact("count", "words", found.words.len())
         // Rows and columns: words, then their mates.
-        .data("faces", faces(found).map(|word| word.to_string()).collect::<Vec<_>>())
+        .data("faces", found.faces().map(|word| word.to_string()).collect::<Vec<_>>())
         // Where the places of the words lie along the face, if not a pitch apart.
         .data("places_m", set.places.clone())
         .data("strongest_J", numbers(&found.strongest))
@@ -64,8 +63,8 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
         .data("trap_poses", found.traps.iter().map(|it| json!(it.map(|it| pose(&it.1)))).collect::<Value>())
         .fact("bond_J", "weakest bond", found.weakest_bond().map(|bond| -bond.1)).digits(4).noted("depth")
         .fact("gap", "gap", found.gap()).digits(4).noted("over sampled poses")
-        .fact("worst_J", "strongest wrong meeting", worst.map(|it| it.1)).digits(4)
-            .noted(worst.map_or(String::new(), |([i, j], ..)| met(set, found, i, j)))
+        .fact("worst_J", "strongest wrong meeting", worst.map(|it| it.energy)).digits(4)
+            .noted(worst.map_or(String::new(), |it| met(set, found, &it)))
         .table(strongest)
         .table(all)
         .data("model", set.stage.interaction.model.name())
@@ -77,71 +76,32 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
 
 /// All meetings, traps last, for programs; and for people the strongest wrong ones.
 pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> [Table; 2] {
-    let n = found.words.len();
-    let bound = |i: usize, j: usize| found.lower.as_ref().map(|lower| lower[i][j]);
-    let pairs = pairs(found).map(|(i, j)| Row {
-        faces: [i, j],
-        lower: bound(i, j),
-        energy: found.strongest[i][j],
-        pose: found.poses[i][j],
-        meeting: if is_bond(found, i, j) {
-            "bond"
-        } else {
-            "wrong"
-        },
-    });
-    let traps = found.traps.iter().enumerate().filter_map(|(i, trap)| {
-        let (energy, pose) = (*trap)?;
-        Some(Row {
-            faces: [i, i + n],
-            lower: None,
-            energy,
-            pose,
-            meeting: "trap",
-        })
-    });
-    let all: Vec<Row> = pairs.chain(traps).collect();
-    let mut wrong: Vec<Row> = all
-        .iter()
-        .filter(|it| it.meeting != "bond")
-        .cloned()
-        .collect();
+    let mut wrong: Vec<Meeting> = found.wrong().collect();
     wrong.order_by(|a, b| a.energy.total_cmp(&b.energy));
-    let more = wrong.len().saturating_sub(SHOWN);
-    wrong.truncate(SHOWN);
-    let note = if more > 0 {
-        format!("{more} weaker ones are in crosstalk.csv")
-    } else {
-        String::new()
+    let note = match wrong.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!("{more} weaker ones are in crosstalk.csv"),
     };
+    wrong.truncate(SHOWN);
+    let strongest = table(set, found, wrong).titled("Strongest wrong meetings", note);
     [
-        table(set, found, all).in_csv("crosstalk"),
-        table(set, found, wrong)
-            .titled("Strongest wrong meetings", note)
-            .listing(LISTED)
-            .in_view(),
+        table(set, found, found.meetings().collect()).in_csv("crosstalk"),
+        strongest.listing(LISTED).in_view(),
     ]
-}
-
-/// Two faces that meet.
-#[derive(Clone)]
-struct Row {
-    faces: [usize; 2],
-    /// What their energy does not fall below (J).
-    lower: Option<f64>,
-    /// J.
-    energy: f64,
-    pose: Configuration,
-    meeting: &'static str,
 }
 
 // One line a column.
 #[rustfmt::skip]
-fn table(set: &WordSet, found: &Crosstalk, all: Vec<Row>) -> Table {
-    let codes: Vec<String> = faces(found).map(|word| word.to_string()).collect();
-    let face = |it: &Row, k: usize| face_name(set, found, it.faces[k]);
+fn table(set: &WordSet, found: &Crosstalk, all: Vec<Meeting>) -> Table {
+    let codes: Vec<String> = found.faces().map(|word| word.to_string()).collect();
+    let face = |it: &Meeting, k: usize| face_name(set, found, it.faces[k]);
+    let kind = |it: &Meeting| match it.kind {
+        Kind::Bond => "bond",
+        Kind::Wrong => "wrong",
+        Kind::Trap => "trap",
+    };
     rows(all)
-        .column("faces", "faces", "which ones meet", |it| met(set, found, it.faces[0], it.faces[1])).in_view()
+        .column("faces", "faces", "which ones meet", |it| met(set, found, it)).in_view()
         .column("first", "", "", |it| face(it, 0))
         .column("second", "", "", |it| face(it, 1))
         .column("first_code", "", "", |it| codes[it.faces[0]].clone())
@@ -149,7 +109,7 @@ fn table(set: &WordSet, found: &Crosstalk, all: Vec<Row>) -> Table {
         .column("lower_J", "no lower than", "proved", |it| it.lower).digits(4)
         .column("upper_J", "energy", "the lowest that was found", |it| positive_zero(it.energy)).digits(4)
         .column("pose", "x, y (mm), angle", "of the second face's tile, as the first one's sees it", |it| it.pose)
-        .column("meeting", "", "", |it| it.meeting)
+        .column("meeting", "", "", kind)
         .table("meetings")
 }
 
@@ -162,25 +122,16 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     let places = magnets.iter().map(|magnet| place(magnet.position));
     let carrier = Carrier::of_magnets(face.length(), face.normal(), magnets, places.collect());
     let m = found.words.len();
-    let named = faces(found).enumerate();
+    let named = found.faces().enumerate();
     let faces: Vec<_> = named
         .map(|(k, word)| (face_name(set, found, k), word))
         .collect();
     let met = |i: usize, j: usize| {
-        let (energy, lower, pose) = match is_bond(found, i, j) {
-            true => {
-                let (energy, pose) = found.traps[i.min(j)]?;
-                (energy, None, found.seen_from(&pose, i < m))
-            }
-            false => {
-                let lower = found.lower.as_ref().map(|lower| lower[i][j]);
-                (found.strongest[i][j], lower, found.poses[i][j])
-            }
-        };
+        let worst = found.worst(i, j)?;
         Some(Met {
-            energy,
-            lower,
-            pose,
+            energy: worst.energy,
+            lower: worst.lower,
+            pose: worst.pose,
             over: false,
         })
     };
@@ -198,38 +149,20 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
 
 /// The map as a picture, and how many pairs have which gap.
 pub(super) fn pictures(map: Option<&Meetings>, found: &Crosstalk) -> Vec<Drawing<'static>> {
-    let gaps = histogram("Gaps of all pairs of faces", gaps(found));
+    let gaps = histogram("Gaps of all pairs of faces", found.gaps());
     let map = map.map(|map| map.picture().off_page());
     map.into_iter().chain([gaps.into()]).collect()
 }
 
-/// 1 less the share of the weakest bond of every two faces that are no word and its own mate, and of
-/// traps.
-fn gaps(found: &Crosstalk) -> impl Iterator<Item = f64> {
-    let bond = found.weakest_bond().map_or(-1.0, |bond| bond.1);
-    let others = pairs(found).filter(|(i, j)| !is_bond(found, *i, *j));
-    let others = others.map(|(i, j)| found.strongest[i][j]);
-    let traps = found.traps.iter().flatten().map(|trap| trap.0);
-    others
-        .chain(traps)
-        .map(move |energy| 1.0 - energy.min(0.0) / bond)
-}
-
 /// `A on B*`; of a word and its own mate a trap.
-fn met(set: &WordSet, found: &Crosstalk, first: usize, second: usize) -> String {
-    let [a, b] = [first, second].map(|face| face_name(set, found, face));
-    let trap = if is_bond(found, first, second) {
+pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &Meeting) -> String {
+    let [a, b] = meeting.faces.map(|face| face_name(set, found, face));
+    let trap = if meeting.kind == Kind::Trap {
         ", a trap"
     } else {
         ""
     };
     format!("{a} on {b}{trap}")
-}
-
-/// All faces, in the order of rows and columns.
-fn faces(found: &Crosstalk) -> impl Iterator<Item = Word> {
-    let words = found.words.iter().copied();
-    words.clone().chain(words.map(|word| word.mate()))
 }
 
 /// The name of a face: `A`, or `A*` of a mate.
@@ -239,17 +172,6 @@ pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String
         Some(mate) => word(mate) + "*",
         None => word(face),
     }
-}
-
-/// Whether two faces are a word and its own mate.
-fn is_bond(found: &Crosstalk, first: usize, second: usize) -> bool {
-    first.abs_diff(second) == found.words.len()
-}
-
-/// Every two faces.
-fn pairs(found: &Crosstalk) -> impl Iterator<Item = (usize, usize)> {
-    let n = found.strongest.len();
-    (0..n).flat_map(move |i| (i..n).map(move |j| (i, j)))
 }
 
 /// The first sentence: the gap over all poses, how sure, the weakest bond and the strongest wrong
@@ -262,22 +184,16 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
     let (Some((weakest, bond)), Some(gap)) = (found.weakest_bond(), found.gap()) else {
         return format!("{many}, of which one does not bind its mate");
     };
-    let proof = match &found.lower {
-        Some(lower) => {
-            let others = pairs(found).filter(|(i, j)| !is_bond(found, *i, *j));
-            let deepest = others.map(|(i, j)| lower[i][j]).fold(0.0, f64::min);
-            let proved = 1.0 - deepest / bond;
-            format!("; proved at least {proved:.4} but for words on their own mates")
-        }
-        None => String::new(),
-    };
+    let proof = found.proved_gap().map_or(String::new(), |proved| {
+        format!("; proved at least {proved:.4} but for words on their own mates")
+    });
     let wrong = match found.strongest_wrong() {
-        Some(([i, j], energy, q)) if energy < 0.0 => format!(
+        Some(worst) if worst.energy < 0.0 => format!(
             "strongest wrong meeting {}: {}{} at {}",
-            si(-energy, "J", 4),
-            met(set, found, i, j),
-            if is_bond(found, i, j) { "," } else { "" },
-            told(&q)
+            si(-worst.energy, "J", 4),
+            met(set, found, &worst),
+            if worst.kind == Kind::Trap { "," } else { "" },
+            told(&worst.pose)
         ),
         _ => "nothing wrong attracts".to_owned(),
     };

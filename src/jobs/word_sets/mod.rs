@@ -51,6 +51,18 @@ impl Request {
         let all = set.iter().filter_map(|other| self.strongest(word, *other));
         all.min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
+
+    /// 1 less the share of the weakest bond of the strongest wrong meeting of every two words.
+    pub fn gaps(&self, set: &[Word]) -> impl Iterator<Item = f64> {
+        let bonds = set.iter();
+        let bonds = bonds.map(|word| self.task.rules.bond(&self.energies, *word));
+        let weakest = bonds.fold(f64::INFINITY, f64::min);
+        let pairs = (0..set.len()).flat_map(|i| (i..set.len()).map(move |j| (i, j)));
+        pairs.map(move |(i, j)| {
+            let worst = self.strongest(set[i], set[j]);
+            1.0 - worst.map_or(0.0, |it| (-it.energy / weakest).max(0.0))
+        })
+    }
 }
 
 /// Length (m) of a face with so many places.

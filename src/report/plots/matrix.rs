@@ -73,17 +73,18 @@ impl Matrix {
 
     fn cells(&self, root: &Area, (left, top): (f64, f64), side: f64) -> Result<(), PictureError> {
         let middle = (HPos::Center, VPos::Center);
-        let every = (16.0 / side).ceil() as usize;
         let at = |k: usize| (k as f64 + 0.5) * side;
-        for (k, name) in self.names.iter().enumerate().step_by(every) {
-            let font = Text::new(SMALL);
-            font.write(
-                root,
-                name,
-                (left - 6.0, top + at(k)),
-                (HPos::Right, VPos::Center),
-            )?;
-            font.write(root, name, (left + at(k), top - 12.0), middle)?;
+        // Names with room for each.
+        let [lines, columns] = [16.0, self.widest()].map(|room| (room / side).ceil() as usize);
+        let font = Text::new(SMALL);
+        for (k, name) in self.names.iter().enumerate() {
+            if k % lines == 0 {
+                let place = (left - 6.0, top + at(k));
+                font.write(root, name, place, (HPos::Right, VPos::Center))?;
+            }
+            if k % columns == 0 {
+                font.write(root, name, (left + at(k), top - 12.0), middle)?;
+            }
         }
         let places = |row: usize, column: usize, less: f64| {
             let (x, y) = (left + at(column), top + at(row));

@@ -36,7 +36,7 @@ pub fn document<'a>(request: &'a Request, answer: &'a Answer) -> Document<'a> {
     let mut pictures = Vec::new();
     if let Some(map) = &map {
         pictures.push(map.picture().off_page());
-        pictures.push(histogram("Gaps of all pairs of words", gaps(request, answer)).into());
+        pictures.push(histogram("Gaps of all pairs of words", request.gaps(words)).into());
     }
     if !answer.frontier.is_empty() {
         pictures.push(frontier_chart(answer).into());
@@ -224,19 +224,6 @@ fn pairs(request: &Request, words: &[Word]) -> Table {
         .column("flipped", "", "", |it| it.2.flipped)
         .column("pose", "", "", move |it| Configuration::new(request.side(), slide(&it.2), 0.0))
         .table("crosstalk")
-}
-
-/// 1 less the share of the weakest bond of every two words.
-fn gaps<'a>(request: &'a Request, answer: &'a Answer) -> impl Iterator<Item = f64> + 'a {
-    let words = &answer.words;
-    let bonds = words.iter();
-    let bonds = bonds.map(|word| request.task.rules.bond(&request.energies, *word));
-    let weakest = bonds.fold(f64::INFINITY, f64::min);
-    let pairs = (0..words.len()).flat_map(|i| (i..words.len()).map(move |j| (i, j)));
-    pairs.map(move |(i, j)| {
-        let worst = request.strongest(words[i], words[j]);
-        1.0 - worst.map_or(0.0, |it| (-it.energy / weakest).max(0.0))
-    })
 }
 
 /// How many pairs have which gap.

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::crosstalk;
-use crate::document::{Cell, Document, Entries, Part, Table, rows};
+use crate::document::{Document, Entries, Part, Table, rows};
 use crate::values::{pose, positive_zero};
 use jobs::word_sets::{Spaced, file};
 use physics::units::si;
@@ -57,12 +57,15 @@ fn entries(spaced: &Spaced) -> Entries {
         Question::Count(count) => (None, Some(count)),
         Question::Frontier => (None, None),
     };
-    let judged = spaced.judged.as_ref();
-    let found = judged.map(|it| &it.1);
-    let worst = judged.and_then(|(set, found)| {
-        let ([i, j], energy, q) = found.strongest_wrong()?;
-        let [first, second] = [i, j].map(|k| crosstalk::face_name(set, found, k));
-        Some((first, second, energy, q))
+    let judged = spaced.judged.as_ref().map(|(set, found)| (set, found));
+    let found = judged.map(|it| it.1);
+    let worst = judged.and_then(|(set, found)| Some((set, found, found.strongest_wrong()?)));
+    let told = worst.map(|(set, found, it)| {
+        let [first, second] = it.faces.map(|face| crosstalk::face_name(set, found, face));
+        json!({
+            "first": first, "second": second, "pose": pose(&it.pose),
+            "slide_m": positive_zero(it.pose.y), "energy_J": positive_zero(it.energy),
+        })
     });
     let entries = Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
@@ -75,11 +78,9 @@ fn entries(spaced: &Spaced) -> Entries {
         .data("proved", false)
         .fact("gap", "gap", found.and_then(Crosstalk::gap)).digits(4).noted("over sampled poses")
         .fact("bond_J", "weakest bond", found.and_then(|it| it.weakest_bond()).map(|bond| -bond.1)).digits(4)
-        .fact("worst", "strongest wrong meeting", worst.as_ref().map(|(first, second, energy, q)| Cell::Data(json!({
-                "first": first, "second": second, "pose": pose(q),
-                "slide_m": positive_zero(q.y), "energy_J": positive_zero(*energy),
-            })))).viewed(worst.as_ref().map_or(String::new(), |it| si(it.2, "J", 4)))
-            .noted(worst.as_ref().map_or(String::new(), |it| format!("{} on {}", it.0, it.1)))
+        .fact("worst", "strongest wrong meeting", told)
+            .viewed(worst.map_or(String::new(), |it| si(it.2.energy, "J", 4)))
+            .noted(worst.map_or(String::new(), |(set, found, it)| crosstalk::met(set, found, &it)))
         .table(words(&spaced.words).in_view())
         .data("seed", spaced.seed)
         .data("settings", json!({

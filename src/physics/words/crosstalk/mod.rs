@@ -62,6 +62,32 @@ pub struct Crosstalk {
     pub cells: usize,
 }
 
+/// What a meeting of two faces is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A word on its own mate.
+    Bond,
+    /// They are no word and its own mate.
+    Wrong,
+    /// A word and its own mate, beside the bond.
+    Trap,
+}
+
+/// The strongest meeting of two faces of its kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting {
+    /// Row and column.
+    pub faces: [usize; 2],
+    /// What it is.
+    pub kind: Kind,
+    /// The lowest energy (J) found.
+    pub energy: f64,
+    /// What it does not fall below (J).
+    pub lower: Option<f64>,
+    /// Of the tile with the second face, in the frame of that with the first.
+    pub pose: Configuration,
+}
+
 /// Two words as two tiles carry them.
 #[derive(Clone, Copy, Debug)]
 struct Couple {
@@ -200,30 +226,89 @@ impl Crosstalk {
         bonds.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The strongest wrong attraction: rows and columns of two faces that are no word and its own
-    /// mate, or of a trap; its energy (J) and pose.
-    pub fn strongest_wrong(&self) -> Option<([usize; 2], f64, Configuration)> {
-        let (m, n) = (self.words.len(), self.strongest.len());
-        let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-        let others = pairs
-            .filter(|(i, j)| i.abs_diff(*j) != m)
-            .map(|(i, j)| ([i, j], self.strongest[i][j], self.poses[i][j]));
-        let traps = self.traps.iter().enumerate();
-        let traps = traps.filter_map(|(i, trap)| trap.map(|(energy, q)| ([i, m + i], energy, q)));
-        others.chain(traps).min_by(|a, b| a.1.total_cmp(&b.1))
+    /// All faces, in the order of rows and columns.
+    pub fn faces(&self) -> impl Iterator<Item = Word> {
+        let mates = self.words.iter().map(|word| word.mate());
+        self.words.iter().copied().chain(mates)
     }
 
-    /// The pose of a word and its mate as it is where the word's tile is the first, or else the
-    /// mate's.
-    pub fn seen_from(&self, pose: &Configuration, word_first: bool) -> Configuration {
-        if word_first { *pose } else { exchanged(pose) }
+    /// Of every two faces, and of traps behind them.
+    pub fn meetings(&self) -> impl Iterator<Item = Meeting> {
+        let (m, n) = (self.words.len(), self.strongest.len());
+        let pairs = (0..n).flat_map(move |i| (i..n).map(move |j| [i, j]));
+        let pairs = pairs.map(move |[i, j]| Meeting {
+            faces: [i, j],
+            kind: if j - i == m { Kind::Bond } else { Kind::Wrong },
+            energy: self.strongest[i][j],
+            lower: self.lower.as_ref().map(|lower| lower[i][j]),
+            pose: self.poses[i][j],
+        });
+        let traps = self.traps.iter().enumerate().filter_map(move |(i, trap)| {
+            trap.map(|(energy, pose)| Meeting {
+                faces: [i, m + i],
+                kind: Kind::Trap,
+                energy,
+                lower: None,
+                pose,
+            })
+        });
+        pairs.chain(traps)
+    }
+
+    /// Meetings that are no bonds: of two faces that are no word and its own mate, and traps.
+    pub fn wrong(&self) -> impl Iterator<Item = Meeting> {
+        self.meetings().filter(|it| it.kind != Kind::Bond)
+    }
+
+    /// The wrong meeting that attracts most.
+    pub fn strongest_wrong(&self) -> Option<Meeting> {
+        self.wrong().min_by(|a, b| a.energy.total_cmp(&b.energy))
+    }
+
+    /// The worst wrong meeting of two faces as rows and columns have them: of a word and its own mate
+    /// a trap, if one was found.
+    pub fn worst(&self, row: usize, column: usize) -> Option<Meeting> {
+        let m = self.words.len();
+        let (kind, energy, pose) = match row.abs_diff(column) == m {
+            true => {
+                let (energy, pose) = self.traps[row.min(column)]?;
+                let pose = if row < m { pose } else { exchanged(&pose) };
+                (Kind::Trap, energy, pose)
+            }
+            false => {
+                let (energy, pose) = (self.strongest[row][column], self.poses[row][column]);
+                (Kind::Wrong, energy, pose)
+            }
+        };
+        let lower = self.lower.as_ref().filter(|_| kind == Kind::Wrong);
+        Some(Meeting {
+            faces: [row, column],
+            kind,
+            energy,
+            lower: lower.map(|lower| lower[row][column]),
+            pose,
+        })
     }
 
     /// 1 less the strongest wrong attraction found over the weakest bond.
     pub fn gap(&self) -> Option<f64> {
         let bond = self.weakest_bond()?.1;
-        let wrong = self.strongest_wrong().map_or(0.0, |wrong| wrong.1.min(0.0));
-        (bond < 0.0).then(|| 1.0 - wrong / bond)
+        let wrong = self.strongest_wrong().map_or(0.0, |wrong| wrong.energy);
+        (bond < 0.0).then(|| 1.0 - wrong.min(0.0) / bond)
+    }
+
+    /// The same where all faces but words and their own mates attract as much as is not refuted.
+    pub fn proved_gap(&self) -> Option<f64> {
+        let lower = self.wrong().filter_map(|it| it.lower);
+        let deepest = lower.fold(0.0, f64::min);
+        self.lower.as_ref()?;
+        Some(1.0 - deepest / self.weakest_bond()?.1)
+    }
+
+    /// 1 less the share of the weakest bond of every wrong meeting.
+    pub fn gaps(&self) -> impl Iterator<Item = f64> {
+        let bond = self.weakest_bond().map_or(-1.0, |bond| bond.1);
+        self.wrong().map(move |it| 1.0 - it.energy.min(0.0) / bond)
     }
 }
 
