@@ -71,18 +71,12 @@ impl Bracket {
             field, nodes, pins, ..
         } = *asked;
         let mesh = &field.mesh;
-        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-        let system = System::new(mesh, nodes, &pinned);
-        let none = vec![0.0; nodes.len()];
+        let system = System::new(mesh, nodes, pins);
         let loads = loads(mesh, nodes, asked.left_out);
         // The last is the mean time.
-        let values = parallel::map(0..count + 1, |place| {
-            let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
-            let given: Vec<f64> = pins.iter().map(one).collect();
-            match place == count {
-                true => system.solve(&none, &loads, &none),
-                false => system.solve(&given, &none, &none),
-            }
+        let values = parallel::map(0..count + 1, |place| match place == count {
+            true => system.loaded(&loads, None),
+            false => system.committor(place, None),
         });
         let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
         let network = field.network(nodes, pins, asked.rim).ok_or(Unsolved)?;

@@ -28,14 +28,12 @@ pub(super) struct Ends {
     limits: [f64; 3],
 }
 
-/// Why the value at a corner is given.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Pin {
-    None,
-    Well,
-    Bound,
-    Free,
-}
+/// Where the value at a corner is given: in the well, ...
+const WELL: usize = 0;
+/// ... where the tile is bound, ...
+const BOUND: usize = 1;
+/// ... or free.
+const FREE: usize = 2;
 
 impl Ends {
     pub fn new(
@@ -117,24 +115,15 @@ impl Ends {
         Rims::new(field, &limits)
     }
 
-    /// For each corner whether its value is given. Where ends meet, which they do on coarse meshes
-    /// only, being free comes first.
-    fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Pin> {
-        let mut pins = vec![Pin::None; nodes.len()];
-        for (id, leaf, _) in field.mesh.live() {
-            let in_well = well.is_some_and(|well| well[id]);
-            for (number, &node) in nodes.corners[id].iter().enumerate() {
-                let pin = &mut pins[node as usize];
-                if field.mesh.chart.is_outer(leaf.corner(number)) {
-                    *pin = Pin::Free;
-                } else if self.bound[id] {
-                    *pin = Pin::Bound;
-                } else if in_well && *pin == Pin::None {
-                    *pin = Pin::Well;
-                }
-            }
-        }
-        pins
+    /// For each corner in which place its value is given. Where ends meet, which they do on coarse
+    /// meshes only, being free comes first, then being bound.
+    fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Option<usize>> {
+        let of = |place: usize, cells: Option<&Vec<bool>>| {
+            let is_inside = |id: usize| cells.is_some_and(|cells| cells[id]);
+            nodes.pins(&field.mesh, FREE, |id| is_inside(id).then_some(place))
+        };
+        let pins = of(BOUND, Some(&self.bound)).into_iter().zip(of(WELL, well));
+        pins.map(|(bound, well)| bound.or(well)).collect()
     }
 
     /// The exit on a mesh, and the functions it was found from.
@@ -151,18 +140,9 @@ impl Ends {
         earlier: Option<&Earlier>,
     ) -> Result<(MeshExit, Vec<Vec<f64>>), Unsolved> {
         let pins = self.pins(field, nodes, self.well.as_ref());
-        let pinned: Vec<bool> = pins.iter().map(|pin| *pin != Pin::None).collect();
-        let system = System::new(&field.mesh, nodes, &pinned);
-        let none = vec![0.0; nodes.len()];
+        let system = System::new(&field.mesh, nodes, &pins);
         let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
-        let guess = |i: usize| {
-            let known = guesses.as_ref().and_then(|guesses| guesses.get(i));
-            known.unwrap_or(&none)
-        };
-        let one_on = |end: Pin| -> Vec<f64> {
-            let one = |pin: &Pin| if *pin == end { 1.0 } else { 0.0 };
-            pins.iter().map(one).collect()
-        };
+        let guess = |i: usize| guesses.as_ref().and_then(|guesses| guesses.get(i));
         let loads = loads(&field.mesh, nodes, &self.bound);
         let exit = |time: f64, bound: f64| MeshExit {
             time: time * libm::exp((field.level() - field.ground()) / field.kt),
@@ -172,18 +152,18 @@ impl Ends {
             of_rims: f64::INFINITY,
         };
         if self.well.is_none() {
-            let committor = system.solve(&one_on(Pin::Bound), &none, guess(0))?;
-            let time = system.solve(&none, &loads, guess(1))?;
+            let committor = system.committor(BOUND, guess(0))?;
+            let time = system.loaded(&loads, guess(1))?;
             let at = |values: &[f64]| nodes.at(&field.mesh, values, start).unwrap_or(f64::NAN);
             return Ok((exit(at(&time), at(&committor)), vec![committor, time]));
         }
-        let back = system.solve(&one_on(Pin::Well), &none, guess(0))?;
+        let back = system.committor(WELL, guess(0))?;
         let flux = system.fluxes(&back);
-        let into = |end: Pin| {
-            let ends = pins.iter().zip(&flux).filter(|(pin, _)| **pin == end);
+        let into = |end: usize| {
+            let ends = pins.iter().zip(&flux).filter(|(pin, _)| **pin == Some(end));
             -ends.map(|(_, flux)| flux).sum::<f64>()
         };
-        let (bound, free) = (into(Pin::Bound), into(Pin::Free));
+        let (bound, free) = (into(BOUND), into(FREE));
         let products = loads.iter().zip(&back).map(|(load, value)| load * value);
         let time = products.sum::<f64>() / (bound + free);
         Ok((exit(time, bound / (bound + free)), vec![back]))
@@ -196,11 +176,7 @@ impl Ends {
             return Ok(None);
         };
         let pins = self.pins(field, nodes, Some(near));
-        let pinned: Vec<bool> = pins.iter().map(|pin| *pin != Pin::None).collect();
-        let one = |pin: &Pin| if *pin == Pin::Well { 1.0 } else { 0.0 };
-        let given: Vec<f64> = pins.iter().map(one).collect();
-        let none = vec![0.0; nodes.len()];
-        let trial = System::new(&field.mesh, nodes, &pinned).solve(&given, &none, &none)?;
+        let trial = System::new(&field.mesh, nodes, &pins).committor(WELL, None)?;
         let own = field.mesh.live().filter(|(id, ..)| near[*id]);
         let held: f64 = own
             .map(|(.., element)| element.load.iter().sum::<f64>())
@@ -216,18 +192,11 @@ impl Ends {
         let Some(near) = &self.near else {
             return Ok(None);
         };
-        let place = |pin: &Pin| match pin {
-            Pin::None => None,
-            Pin::Well => Some(0),
-            Pin::Bound => Some(1),
-            Pin::Free => Some(2),
-        };
-        let pins = self.pins(field, nodes, Some(near));
         let asked = Asked {
             field,
             nodes,
-            pins: &pins.iter().map(place).collect::<Vec<_>>(),
-            rim: 2,
+            pins: &self.pins(field, nodes, Some(near)),
+            rim: FREE,
             // It is the same whatever the well.
             rims: &self.rims_with(field, None, 0.0),
             left_out: &self.bound,

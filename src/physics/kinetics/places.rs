@@ -109,17 +109,11 @@ impl Places {
         earlier: Option<&Earlier>,
     ) -> Result<(MeshRates, Vec<Vec<f64>>), Unsolved> {
         let pins = self.pins(field, nodes);
-        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-        let system = System::new(&field.mesh, nodes, &pinned);
-        let none = vec![0.0; nodes.len()];
+        let system = System::new(&field.mesh, nodes, &pins);
         let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
+        let guess = |place: usize| guesses.as_ref().map(|guesses| &guesses[place]);
         let committors: Vec<Vec<f64>> = (0..self.count - 1)
-            .map(|place| {
-                let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
-                let given: Vec<f64> = pins.iter().map(one).collect();
-                let guess = guesses.as_ref().map_or(&none, |guesses| &guesses[place]);
-                system.solve(&given, &none, guess)
-            })
+            .map(|place| system.committor(place, guess(place)))
             .collect::<Result<_, _>>()?;
         let copies = field.mesh.chart.copies() as f64;
         let occupied = |place: usize| -> f64 {
@@ -194,11 +188,7 @@ impl Places {
         for pin in &mut pins {
             *pin = pin.filter(|place| *place == 0 || *place + 1 == self.count);
         }
-        let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-        let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = pins.iter().map(one).collect();
-        let none = vec![0.0; nodes.len()];
-        System::new(&field.mesh, nodes, &pinned).solve(&given, &none, &none)
+        System::new(&field.mesh, nodes, &pins).committor(0, None)
     }
 
     /// Bounds from above of the rates out of each place, then of those from each place to each other,

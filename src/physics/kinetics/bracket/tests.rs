@@ -18,11 +18,9 @@ fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
     let left_out = vec![false; mesh.leaves.len()];
     let network = field.network(&nodes, &pins, 1).unwrap();
     let fluxes = network.fluxes();
-    let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-    let none = vec![0.0; nodes.len()];
     let loads = loads(mesh, &nodes, &left_out);
-    let system = System::new(mesh, &nodes, &pinned);
-    let time = system.solve(&none, &loads, &none).unwrap();
+    let system = System::new(mesh, &nodes, &pins);
+    let time = system.loaded(&loads, None).unwrap();
     let source = |cell: usize| {
         let element = mesh.leaves[cell].element.as_ref();
         element.map_or(0.0, |element| element.load.iter().sum())

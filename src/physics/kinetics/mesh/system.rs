@@ -7,16 +7,18 @@ use super::octree::Octree;
 /// The stiffness of the corners whose values are to be found.
 pub(in crate::kinetics) struct System<'a> {
     nodes: &'a Nodes,
+    pins: &'a [Option<usize>],
     equations: Equations<'a>,
 }
 
 impl<'a> System<'a> {
-    /// With the values at `pinned` corners given.
-    pub fn new(mesh: &'a Octree, nodes: &'a Nodes, pinned: &[bool]) -> Self {
-        let is_asked = |node: usize| !nodes.is_hanging(node) && !pinned[node];
+    /// With the values given at corners that belong to a place.
+    pub fn new(mesh: &'a Octree, nodes: &'a Nodes, pins: &'a [Option<usize>]) -> Self {
+        let is_asked = |node: usize| !nodes.is_hanging(node) && pins[node].is_none();
         let entries = move |call: &mut dyn FnMut(usize, usize, f64)| each_entry(mesh, nodes, call);
         Self {
             nodes,
+            pins,
             equations: Equations::new(nodes.len(), &is_asked, Box::new(entries)),
         }
     }
@@ -26,13 +28,33 @@ impl<'a> System<'a> {
         self.equations.len()
     }
 
-    /// The function with these values at the pinned corners and this load at each corner, found
-    /// from a guess.
+    /// The function that is 1 in a place and 0 in the others, found from a guess, if there is one.
     ///
     /// # Errors
     /// Where it is not found.
-    pub fn solve(&self, pinned: &[f64], load: &[f64], guess: &[f64]) -> Result<Vec<f64>, Unsolved> {
-        let mut values = self.equations.solve(pinned, load, guess)?;
+    pub fn committor(&self, place: usize, guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
+        let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
+        let given: Vec<f64> = self.pins.iter().map(one).collect();
+        self.solve(&given, &vec![0.0; self.pins.len()], guess)
+    }
+
+    /// The function that is 0 in all places, with this load at each corner.
+    ///
+    /// # Errors
+    /// Where it is not found.
+    pub fn loaded(&self, load: &[f64], guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
+        self.solve(&vec![0.0; self.pins.len()], load, guess)
+    }
+
+    fn solve(
+        &self,
+        given: &[f64],
+        load: &[f64],
+        guess: Option<&Vec<f64>>,
+    ) -> Result<Vec<f64>, Unsolved> {
+        let none = vec![0.0; self.pins.len()];
+        let guess = guess.unwrap_or(&none);
+        let mut values = self.equations.solve(given, load, guess)?;
         self.nodes.interpolate(&mut values);
         Ok(values)
     }

@@ -192,12 +192,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
             }
         }
     }
-    let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-    let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
-    let given: Vec<f64> = pins.iter().map(one).collect();
-    let none = vec![0.0; nodes.len()];
-    let system = System::new(mesh, nodes, &pinned);
-    let trial = system.solve(&given, &none, &none).ok()?;
+    let trial = System::new(mesh, nodes, &pins).committor(0, None).ok()?;
     // Thomson's.
     let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
     let (network, profile) =

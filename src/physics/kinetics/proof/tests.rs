@@ -191,12 +191,7 @@ fn enclosed_sums_hold_what_gauss_rule_gives() {
     let nodes = Nodes::new(mesh);
     let held = mesh.holding(&trap);
     let pins = nodes.pins(mesh, 1, |id| held.contains(&id).then_some(0));
-    let pinned: Vec<bool> = pins.iter().map(Option::is_some).collect();
-    let one = |pin: &Option<usize>| if *pin == Some(0) { 1.0 } else { 0.0 };
-    let given: Vec<f64> = pins.iter().map(one).collect();
-    let none = vec![0.0; nodes.len()];
-    let trial = System::new(mesh, &nodes, &pinned);
-    let trial = trial.solve(&given, &none, &none).unwrap();
+    let trial = System::new(mesh, &nodes, &pins).committor(0, None).unwrap();
     let inside = |id: usize| held.contains(&id).then_some(0);
     let (network, profile) = field
         .network_between(&nodes, &inside, &|_| false, 1, &trial)
