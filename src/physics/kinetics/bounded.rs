@@ -4,64 +4,10 @@ use super::certify::narrowed;
 use super::field::Field;
 use super::mesh::Nodes;
 use super::places::{DEEP, Places};
-use super::proof::{self, Capacity, Set};
-use super::rates::{Basin, MeshRates, RateSettings, RatesError};
+use super::proof::{self, Set};
+use super::results::{Basin, Leaving, MeshRates, RateBounds, RateSettings, RatesError};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-
-/// What is proved of how a basin is left for any other or free tiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leaving {
-    /// Its capacity against the others and free tiles.
-    pub capacity: Capacity,
-    /// Where the others' proofs say that this basin is reached: it lies below this (J).
-    pub end_below: f64,
-}
-
-/// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
-/// over cells are off by. Where rays may leave contact more than once, those from below are 0: fluxes
-/// that contact lets through are laid along rays, see [`crate::contact::Contact::least_lever`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateBounds {
-    /// Out of each place.
-    pub leaving: Vec<[f64; 2]>,
-    /// From place i (row) to place j; of no meaning on the diagonal.
-    pub rates: Vec<Vec<[f64; 2]>>,
-}
-
-impl RateBounds {
-    /// Whether a mesh's rates lie between them, those out of places as well.
-    pub(super) fn hold(&self, mesh: &MeshRates) -> bool {
-        let lies = |rate: f64, [lower, upper]: [f64; 2]| lower <= rate && rate <= upper;
-        let mut places = mesh.rates.iter().enumerate();
-        places.all(|(from, rates)| {
-            let mut others = rates.iter().enumerate().filter(|(to, _)| *to != from);
-            lies(rates.iter().sum(), self.leaving[from])
-                && others.all(|(to, rate)| lies(*rate, self.rates[from][to]))
-        })
-    }
-
-    /// The same, where they say nothing from above with what others say, which hold as well.
-    pub(super) fn or_below(mut self, others: &Self) -> Self {
-        let lower = |own: &mut [f64; 2], other: &[f64; 2]| {
-            if !own[1].is_finite() {
-                own[1] = other[1];
-            }
-        };
-        for (from, rates) in self.rates.iter_mut().enumerate() {
-            lower(&mut self.leaving[from], &others.leaving[from]);
-            for (own, other) in rates.iter_mut().zip(&others.rates[from]) {
-                lower(own, other);
-            }
-        }
-        self
-    }
-
-    /// Whether there are bounds from above only.
-    pub fn are_one_sided(&self) -> bool {
-        self.leaving.iter().all(|[lower, _]| *lower == 0.0)
-    }
-}
 
 /// What a mesh with bounds says, these, and what is proved on it.
 pub(super) type Certified = (Option<MeshRates>, Option<RateBounds>, Vec<Option<Leaving>>);

@@ -3,10 +3,10 @@
 use super::bracket::{Asked, Bracket};
 use super::certify::Step;
 use super::corridor::Way;
-use super::exit::{ExitError, ExitSettings, MeshExit};
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
 use super::proof::Set;
+use super::results::{ExitError, ExitSettings, MeshExit};
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
 use crate::configuration::Configuration;

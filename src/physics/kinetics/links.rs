@@ -1,7 +1,7 @@
 //! What is known of ways between places.
 
 use super::corridor::Way;
-use super::rates::{RateBounds, Rates};
+use super::results::{RateBounds, Rates};
 
 /// What is known of ways between every two places, the last of which is `free`: from which basins a
 /// way leads there, which the mesh has no way out of, and what contact blocks.
@@ -60,7 +60,6 @@ impl Rates {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rates::RateBounds;
     use super::*;
 
     /// Three basins: one with a way out, one that contact shuts in, one without a known way.

@@ -67,6 +67,7 @@ pub mod corner;
 mod corridor;
 pub mod distance;
 mod ends;
+mod errors;
 pub mod exit;
 mod field;
 mod frame;
@@ -80,15 +81,17 @@ mod places;
 pub mod population;
 mod proof;
 pub mod rates;
+mod results;
 mod rim;
 mod root;
 mod sets;
 pub mod well;
 
 pub use bond::{Bond, BondError, Hold, Trap};
-pub use certify::{Certify, why_unprovable};
+pub use certify::why_unprovable;
 pub use corridor::{NARROW, Way};
 pub use proof::Capacity;
+pub use results::Certify;
 pub use well::{Estimate, Well};
 
 /// Drag rate (1/s) from which on tiles move as if they had no inertia, as far as means over times tell.

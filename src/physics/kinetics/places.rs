@@ -4,7 +4,7 @@ use super::bracket::{Asked, Bounded, Bracket};
 use super::certify::Step;
 use super::field::{Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
-use super::rates::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
+use super::results::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, is_at_the_rim, pass, reaching};
 

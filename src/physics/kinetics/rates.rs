@@ -3,192 +3,19 @@
 use std::f64::consts::{PI, TAU};
 
 use super::bounded::bounded;
-pub use super::bounded::{Leaving, RateBounds};
-use super::certify::Certify;
 use super::corridor::Way;
-use super::exit::half_bond;
 use super::field::{DIVIDED, Earlier, Field};
 use super::links::links;
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
+pub use super::results::{Basin, Leaving, MeshRates, RateBounds, RateSettings, Rates, RatesError};
+use super::results::{DEEPEST, enough, half_bond};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-use crate::units::si;
 
 /// Meshes at least: from the last two the error is told.
 const MESHES: usize = 3;
-
-/// A basin: where U is below a limit, joined to a configuration by such configurations; with its
-/// copies under the pair's symmetries.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Basin {
-    /// One of its configurations.
-    pub at: Configuration,
-    /// The limit (J).
-    pub below: f64,
-}
-
-impl Basin {
-    /// Part of the way up to its lowest barrier to which the basin of a state reaches; or to free
-    /// tiles, where that is lower.
-    const PART: f64 = 0.5;
-    /// Barriers of traps with rates are at least so many kT high.
-    const LEAST_BARRIER: f64 = 2.0;
-
-    /// The basin of a state of this energy (J), `height` (J) below its lowest way out.
-    pub fn of_state(at: Configuration, energy: f64, height: f64) -> Self {
-        let below = (energy + Self::PART * height).min(Self::PART * energy);
-        Self { at, below }
-    }
-
-    /// Whether a trap whose lowest way out is so high (J) has rates at kT (J).
-    pub fn holds(height: f64, kt: f64) -> bool {
-        height >= Self::LEAST_BARRIER * kt
-    }
-}
-
-/// What is asked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateSettings {
-    /// Effective energy of shaking (J).
-    pub kt: f64,
-    /// The wells.
-    pub basins: Vec<Basin>,
-    /// The tile is free where the reference points are so far apart (m).
-    pub free_at: f64,
-    /// Estimated relative error of the committors' energies at which the mesh is fine enough.
-    pub tolerance: f64,
-    /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
-    /// mesh's or more.
-    pub unknowns: usize,
-    /// Relative distance that is asked for of the bounds of the rates out of the basins, and of those
-    /// between two places that make up a tenth of what leaves the first or more; without it none are
-    /// found.
-    pub certify: Option<Certify>,
-    /// Squares along x and y of a map of the committor from `free` to the first basin, if one is
-    /// asked for.
-    pub map: Option<usize>,
-}
-
-impl RateSettings {
-    /// Of kT (J) and the places; the mesh as fine as it is worth.
-    pub fn new(kt: f64, basins: Vec<Basin>, free_at: f64) -> Self {
-        Self {
-            kt,
-            basins,
-            free_at,
-            tolerance: 0.015,
-            unknowns: 60_000,
-            certify: Some(Certify::default()),
-            map: None,
-        }
-    }
-}
-
-/// Rates between places: the basins in their order, and last `free`.
-///
-/// For each place the committor h(i), 1 there and 0 at the others, gives the occupation Z(i), the
-/// integral of h(i) e^(-U/kT), and what flows from it into each other place, C(i, j) = C(j, i).
-/// Then k(i, j) = D C(i, j) / Z(i): rates between sets that are left much more slowly than they come
-/// to equilibrium, with k(i, j) Z(i) = k(j, i) Z(j) whatever the mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeshRates {
-    /// From place i (row) to place j, divided by D (1/m^2); 0 on the diagonal.
-    pub rates: Vec<Vec<f64>>,
-    /// Each place's share of all time, its copies and, for `free`, the whole table included. What
-    /// lies between places is shared out by their committors. These depend on the metric of motion,
-    /// which is not the same for twins by exchange of the tiles: it is about the moving one's centre.
-    pub occupation: Vec<f64>,
-    /// Each place's integral (m^2 rad) of its committor times `exp(-(U - U0) / kT)`, U0 the lowest
-    /// energy of the basins' configurations; its copies included.
-    pub volumes: Vec<f64>,
-    /// Unknowns of the mesh.
-    pub unknowns: usize,
-    /// Estimated relative error of the committors' energies; on a mesh with bounds how far those of
-    /// the rates out of the basins are apart.
-    pub error: f64,
-    /// What of it is due to the basins being made of whole cells, and on a mesh with bounds what
-    /// comes to it.
-    pub of_rims: f64,
-}
-
-/// The rates on ever finer meshes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rates {
-    /// What the meshes say, each finer than the last; but where bounds are nearer each other than
-    /// that is known, the last is the mesh that they hold on, which begins at contact.
-    pub meshes: Vec<MeshRates>,
-    /// Whether the last is that one.
-    pub is_between_bounds: bool,
-    /// Bounds, if they are asked for.
-    pub bounds: Option<RateBounds>,
-    /// The map asked for, from the last mesh without bounds.
-    pub map: Option<Map>,
-    /// The share of all time that each place is occupied itself: U below the basin's limit, or
-    /// centres farther apart than where tiles are free. Unlike [`MeshRates::occupation`] it leaves
-    /// out what lies between the places; it does not depend on how tiles move.
-    pub inside: Vec<f64>,
-    /// For each basin whether a way leads out of it to free tiles.
-    pub ways: Vec<Way>,
-    /// From each place (row) to each other what is known of ways between them.
-    pub links: Vec<Vec<Way>>,
-    /// For each basin what is proved of it, if that was asked for and can be had.
-    pub proved: Vec<Option<Leaving>>,
-}
-
-impl Rates {
-    /// What the finest mesh says.
-    pub fn finest(&self) -> &MeshRates {
-        self.meshes.last().expect("there is a mesh")
-    }
-
-    /// Estimated relative error of what flows between places, on the finest mesh without bounds.
-    pub fn error(&self) -> f64 {
-        let of_bounds = usize::from(self.is_between_bounds);
-        let meshes = &self.meshes[..self.meshes.len() - of_bounds];
-        meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
-    }
-
-    /// By how much a rate differs on the two finest meshes, relative. An estimate of the error, no
-    /// bound.
-    pub fn spread(&self, from: usize, to: usize) -> f64 {
-        let [.., before, last] = &self.meshes[..] else {
-            return f64::INFINITY;
-        };
-        (before.rates[from][to] / last.rates[from][to] - 1.0).abs()
-    }
-}
-
-/// Why there are no rates.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum RatesError {
-    /// The basins with these numbers are one.
-    #[error(
-        "two basins are joined by configurations below {}: states that shallow have no rates at \
-         this kT; ask for fewer --traps", si(*.0, "J", 4)
-    )]
-    Joined(f64),
-    /// `free` begins where the table ends, or in a basin.
-    #[error(
-        "centres {0:.4} m apart are no place for free tiles: a basin reaches as far, or the table \
-         ends before; choose another --free-at"
-    )]
-    NoFree(f64),
-    /// At this kT (J) the deepest basin is so many kT deep.
-    #[error(
-        "at kT = {} the deepest state is {:.0} kT deep, and no tile ever leaves it; rates are told up \
-         to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
-    )]
-    Cold(f64, f64),
-    /// A linear system could not be solved.
-    #[error(transparent)]
-    Unsolved(#[from] Unsolved),
-}
-
-/// Wells deeper than this, in kT, have no rates: weights that far apart are lost to rounding in sums
-/// over a mesh, and the times are many powers of ten of any table's life.
-pub(super) const DEEPEST: f64 = 300.0;
 
 /// The rates between basins and `free`.
 ///
@@ -340,9 +167,4 @@ impl Loosening {
             in_well: self.in_well * diffusion,
         }
     }
-}
-
-/// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.
-pub(super) fn enough(asked: usize, first: usize) -> usize {
-    asked.max(first + first / 2)
 }

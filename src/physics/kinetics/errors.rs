@@ -1,0 +1,85 @@
+//! What functions on a mesh are off by, as far as the mesh tells.
+
+use nalgebra::Vector3;
+
+use super::field::Field;
+use super::mesh::{Element, Nodes, gradients};
+use super::rim::Rims;
+
+/// Estimated errors of functions' energies, relative to them.
+pub(super) struct Errors {
+    /// By cells, added up.
+    pub shares: Vec<f64>,
+    /// The largest of all functions, ...
+    pub largest: f64,
+    /// ... and what of one is due to basins' being made of cells.
+    pub of_rims: f64,
+}
+
+impl Field<'_> {
+    /// The estimated errors of functions' energies by cells, each relative to the function's energy
+    /// and added up. Functions without energy have none.
+    ///
+    /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient against
+    /// the continuous one that comes of averaging it at the corners; to it comes what it matters
+    /// that basins are made of cells.
+    pub fn errors(&self, nodes: &Nodes, rims: &Rims, functions: &[&Vec<f64>]) -> Errors {
+        let mut shares = vec![0.0; self.mesh.leaves.len()];
+        let (mut largest, mut of_rims) = (0.0_f64, 0.0_f64);
+        for values in functions {
+            let energy = self.energy(nodes, values).max(f64::MIN_POSITIVE);
+            let (at_rims, mut sum) = rims.errors(self, nodes, values);
+            of_rims = of_rims.max(sum);
+            for (id, error) in at_rims {
+                shares[id] += error;
+            }
+            for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.doubt > 0.0) {
+                let error = leaf.doubt * element.energy(&nodes.of(id, values)).max(0.0);
+                shares[id] += error / energy;
+                sum += error / energy;
+            }
+            for (id, error) in self.gradient_errors(nodes, values) {
+                shares[id] += error / energy;
+                sum += error / energy;
+            }
+            largest = largest.max(sum);
+        }
+        Errors {
+            shares,
+            largest,
+            of_rims,
+        }
+    }
+
+    fn gradient_errors(&self, nodes: &Nodes, values: &[f64]) -> Vec<(usize, f64)> {
+        let mut averages = vec![(Vector3::zeros(), 0.0); nodes.len()];
+        for (id, _, element) in self.mesh.live() {
+            for (corner, &node) in nodes.corners[id].iter().enumerate() {
+                let (sum, weight) = &mut averages[node as usize];
+                *sum += self.slope(nodes, values, id, corner) * element.weight;
+                *weight += element.weight;
+            }
+        }
+        let error = |(id, _, element): (usize, _, &Element)| {
+            let corners = nodes.corners[id].iter().enumerate();
+            let squares = corners.map(|(corner, &node)| {
+                let (sum, weight) = averages[node as usize];
+                (self.slope(nodes, values, id, corner) - sum / weight).norm_squared()
+            });
+            (id, element.weight * squares.sum::<f64>() / 8.0)
+        };
+        self.mesh.live().map(error).collect()
+    }
+
+    /// The gradient (1/m) at a corner of a cell.
+    fn slope(&self, nodes: &Nodes, values: &[f64], id: usize, corner: usize) -> Vector3<f64> {
+        let leaf = &self.mesh.leaves[id];
+        let part = std::array::from_fn(|i| (corner >> i & 1) as f64);
+        let values = nodes.of(id, values);
+        let slopes = gradients(part).into_iter().zip(values);
+        let by: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
+        let element = leaf.element.as_ref();
+        let by = element.map_or(by, |element| element.gradients * by);
+        by.component_div(&Vector3::new(1.0, 1.0, self.mesh.rho))
+    }
+}
