@@ -57,7 +57,7 @@ impl Barrier {
         let design = self.design.load()?;
         input::doubt_pose(&design, &self.request.from);
         if let End::At(to) = &self.request.to {
-            input::doubt_pose(&design, &to);
+            input::doubt_pose(&design, to);
         }
         let output = self.pathway.as_ref().map(|file| {
             let inputs = self.design.inputs(&design);
