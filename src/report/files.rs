@@ -1,9 +1,5 @@
 //! The files of results by their names: which ones each command writes.
 
-use serde_json::Value;
-
-use super::json as layout;
-use super::page::Page;
 use jobs::output::Command;
 pub use jobs::output::{Files, PICTURES};
 
@@ -157,19 +153,3 @@ pub const MAKE: Command = Command {
     ],
     pictures: &[],
 };
-
-/// Tables with the page that shows them, if any, made by `command`, and with the report.
-pub fn with_report(tables: Files, page: Option<Page>, report: &Value, command: &str) -> Files {
-    let mut files = tables;
-    files.insert(REPORT.to_owned(), layout::text(report).into_bytes());
-    with_page(files, page, command)
-}
-
-/// Files with the page that shows them, if any, made by `command`.
-pub fn with_page(mut files: Files, page: Option<Page>, command: &str) -> Files {
-    if let Some(page) = page {
-        let page = page.made_by(command).beside(files.keys()).to_html();
-        files.insert(PAGE.to_owned(), page.into_bytes());
-    }
-    files
-}

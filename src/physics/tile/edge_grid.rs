@@ -80,11 +80,6 @@ impl EdgeGrid {
         rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
     }
 
-    /// Lowest and highest coordinates of the polygon.
-    pub fn bounding_box(&self) -> (Vector2<f64>, Vector2<f64>) {
-        (self.low, self.high)
-    }
-
     /// Writes into `found` all edges that may come within `margin` (m) of a point, ascending.
     pub fn near(&self, p: Vector2<f64>, margin: f64, found: &mut Vec<u32>) {
         found.clear();

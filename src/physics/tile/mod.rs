@@ -15,7 +15,7 @@ pub use magnet::Magnet;
 pub use outline::Outline;
 pub use pair::{Pair, face_to_face};
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
 /// A face of a tile: the straight base line between two corners of the tile. A profile may
 /// replace the base line in the outline; the face's frame (s along it, h outwards) stays.
@@ -83,22 +83,5 @@ impl Tile {
     pub fn radius_of_gyration(&self) -> f64 {
         let c = self.outline.centroid();
         (self.inertia() / self.mass + c.norm_squared()).sqrt()
-    }
-
-    /// The velocity (dx, dy, dtheta) of the reference point that a generalised force
-    /// (Fx, Fy, torque about the reference point) gives per unit of time in overdamped motion
-    /// with the tile's mass matrix as mobility: `M^-1 F`, where `rotation` turns the tile's frame
-    /// into the world's. Accelerations of a body at rest come out of the same product.
-    pub fn inverse_mass_times(&self, force: Vector3<f64>, theta: f64) -> Vector3<f64> {
-        let (sin, cos) = libm::sincos(theta);
-        let local = self.outline.centroid();
-        let c = Vector2::new(cos * local.x - sin * local.y, sin * local.x + cos * local.y);
-        let torque = force.z - (c.x * force.y - c.y * force.x);
-        let turn = torque / self.inertia();
-        Vector3::new(
-            force.x / self.mass + turn * c.y,
-            force.y / self.mass - turn * c.x,
-            turn,
-        )
     }
 }

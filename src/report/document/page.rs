@@ -122,7 +122,6 @@ impl Table {
     fn shown(&self) -> page::Table {
         let columns = self.viewed().map(|k| page::Column {
             name: self.heads[k].name.to_string(),
-            unit: "",
             meaning: self.heads[k].meaning,
         });
         let cell = |row: usize, k: usize| -> Value {

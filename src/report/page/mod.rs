@@ -118,39 +118,27 @@ pub struct Table {
 pub struct Column {
     /// The heading.
     pub name: String,
-    /// SI unit of its numbers, to which the page adds a prefix; `rad` is shown in degrees, `%` for
-    /// a share. Empty for counts and texts.
-    pub unit: &'static str,
     /// What it means, told under the pointer; may be empty.
     pub meaning: &'static str,
 }
 
 impl Table {
-    /// What reproduces a result: quantities by their names.
-    pub(super) fn of_settings<N: Into<String>>(
-        settings: impl IntoIterator<Item = (N, Value)>,
-    ) -> Self {
+    /// What reproduces a result: settings by their names.
+    pub(super) fn of_settings(settings: Vec<(String, Value)>) -> Self {
+        let column = |name: &str| Column {
+            name: name.to_owned(),
+            meaning: "",
+        };
+        let rows = settings.into_iter();
         Self {
             title: "How it was computed".to_owned(),
             note: String::new(),
-            columns: vec![Column::new("quantity", ""), Column::new("value", "")],
-            rows: settings
-                .into_iter()
-                .map(|(name, value)| vec![Value::from(name.into()), value])
+            columns: vec![column("setting"), column("value")],
+            rows: rows
+                .map(|(name, value)| vec![Value::from(name), value])
                 .collect(),
             states: Vec::new(),
             paths: Vec::new(),
-        }
-    }
-}
-
-impl Column {
-    /// A column with this heading and SI unit, without a hint.
-    pub fn new(name: &str, unit: &'static str) -> Self {
-        Self {
-            name: name.to_owned(),
-            unit,
-            meaning: "",
         }
     }
 }

@@ -1,22 +1,5 @@
 // Tables that sort.
 
-/** A number with so many decimals, without the sign of a zero. */
-const decimal = (value, decimals) => minus(value.toFixed(decimals)).replace(/^\u2212(?=[0.]*$)/, "");
-
-/** How a column's numbers are shown, and the unit with its prefix, which columns of one unit share.
-    Lengths and angles have a fixed number of decimals, other quantities four significant digits. */
-function columnFormat(column, table) {
-  if (column.unit === "rad") return { show: (v) => decimal(v * 180 / Math.PI, 2), unit: "°" };
-  if (column.unit === "%") return { show: (v) => decimal(100 * v, 1), unit: "%" };
-  if (!column.unit) return { show: (v) => minus(String(v)), unit: "" };
-  const alike = table.columns.flatMap((other, k) => other.unit === column.unit ? table.rows.map((row) => row[k]) : []);
-  const digits = column.unit === "m" ? 5 : 4;
-  const [scale, prefix] = prefixOf(Math.max(1e-12, ...alike.map(Math.abs)), digits);
-  const significant = (v) => decimal(v, Math.min(6, decimalsOf(v, digits)));
-  const places = scale < 1 ? 2 : 3;
-  return { show: (v) => column.unit === "m" ? decimal(v / scale, places) : significant(v / scale), unit: prefix + column.unit };
-}
-
 /** What a cell sorts by: a pair is that and what is shown. */
 const valueOf = (cell) => Array.isArray(cell) ? cell[0] : cell;
 
@@ -60,11 +43,10 @@ function choosable(row, chosen) {
 
 function buildTable(table, choose, choosePath) {
   const numeric = table.columns.map((_, k) => isNumeric(table.rows, k));
-  const formats = table.columns.map((column) => columnFormat(column, table));
   const rows = table.rows.map((cells, index) => {
     const row = make("tr");
     cells.forEach((value, k) => {
-      const shown = Array.isArray(value) ? value[1] : value === null ? "\u2013" : typeof value === "number" ? formats[k].show(value) : String(value);
+      const shown = Array.isArray(value) ? value[1] : value === null ? "\u2013" : String(value);
       row.append(make("td", shown, numeric[k] ? "" : "text"));
     });
     const state = table.states[index];
@@ -84,7 +66,7 @@ function buildTable(table, choose, choosePath) {
   table.columns.forEach((column, k) => {
     const cell = make("th", "", numeric[k] ? "" : "text");
     cell.scope = "col";
-    const button = make("button", formats[k].unit ? `${column.name} (${formats[k].unit})` : column.name);
+    const button = make("button", column.name);
     button.type = "button";
     button.title = column.meaning;
     button.addEventListener("click", () => sort(k));
