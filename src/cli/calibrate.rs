@@ -7,14 +7,17 @@ use tilebind::Settings;
 use tilebind::calibration::bonds::PairTimes;
 use tilebind::calibration::distances::PairDistances;
 use tilebind::calibration::{self, Specimen};
-use tilebind::design::{Design, MagnetModel};
+use tilebind::design::MagnetModel;
 use tilebind::kinetics::Bond;
 use tilebind::observer::Silent;
 use tilebind::pipeline;
 use tilebind::report::calibration as report;
+use tilebind::report::files::CALIBRATE;
 use tilebind::request;
 
-use super::{Failure, input, print};
+use super::progress::Progress;
+use super::results::ResultOptions;
+use super::{Failure, input};
 
 /// Fit the constants of soft-iron shields to measured forces, or kT to pairs that bind and part
 #[derive(Args)]
@@ -71,59 +74,45 @@ pub struct Calibrate {
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
     hold_out: u16,
 
-    /// Print JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    results: ResultOptions,
 }
 
 impl Calibrate {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load_as(&self.design, self.model)?;
-        let (None, Some(table)) = (&self.bonds, &self.table) else {
-            return self.fit_kt(&design);
-        };
-        let wrong =
-            |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", table.display()));
-        let text = input::text(table).map_err(|error| wrong(&error))?;
-        let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
-        let (specimen, settings) = Specimen::of(&design, self.hold_out.into());
-        let found =
-            calibration::calibrate(&specimen, &rows, &settings).map_err(|error| wrong(&error))?;
-        print(&if self.json {
-            report::json(&design, &found)
-        } else {
-            report::summary(&design, &found)
-        })
-    }
-
-    /// The kT at which pairs bind and part as measured.
-    fn fit_kt(&self, design: &Design) -> Result<(), Failure> {
-        let file = self.bonds.as_deref().unwrap_or(Path::new(""));
+        let file = self.bonds.as_ref().or(self.table.as_ref());
+        let file = file.map_or(Path::new(""), PathBuf::as_path);
+        let mut inputs = input::files_of(&self.design, &design);
+        inputs.push(file.to_owned());
+        let output = self.results.output(&CALIBRATE, inputs)?;
         let wrong =
             |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", file.display()));
         let text = input::text(file).map_err(|error| wrong(&error))?;
-        if PairDistances::is_named_in(&text) {
-            let within = self.within.unwrap_or(design.space().free_distance);
-            let fit = PairDistances::read(&text)
-                .and_then(|read| read.fit(&design.problem(), &design.pair.bound, within));
-            let found = fit.map_err(|error| wrong(&error))?;
-            return print(&if self.json {
-                report::distances_json(design, &found)
-            } else {
-                report::distances_summary(design, &found)
-            });
-        }
-        let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
-        let settings = Settings::without_proofs(Settings::default().seed);
-        let analysis = pipeline::analyse(design, &settings, &Silent);
-        let bond = Bond::new(&analysis.problem, &analysis.inventory)
-            .map_err(|error| Failure::Run(error.to_string()))?;
-        let area = self.area.unwrap_or(design.table[0] * design.table[1]);
-        let found = report::KtFit::new(&times, &bond, area);
-        print(&if self.json {
-            found.json(design)
-        } else {
-            found.summary(design)
-        })
+        let document = match () {
+            () if self.bonds.is_none() => {
+                let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
+                let (specimen, settings) = Specimen::of(&design, self.hold_out.into());
+                let found = calibration::calibrate(&specimen, &rows, &settings);
+                report::shields(&design, &found.map_err(|error| wrong(&error))?)
+            }
+            () if PairDistances::is_named_in(&text) => {
+                let within = self.within.unwrap_or(design.space().free_distance);
+                let fit = PairDistances::read(&text)
+                    .and_then(|read| read.fit(&design.problem(), &design.pair.bound, within));
+                report::distances(&design, &fit.map_err(|error| wrong(&error))?)
+            }
+            () => {
+                let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
+                let settings = Settings::without_proofs(Settings::default().seed);
+                let analysis = pipeline::analyse(&design, &settings, &Silent);
+                let bond = Bond::new(&analysis.problem, &analysis.inventory)
+                    .map_err(|error| Failure::Run(error.to_string()))?;
+                let area = self.area.unwrap_or(design.table[0] * design.table[1]);
+                report::intervals(&design, &times, &bond, area)
+            }
+        };
+        self.results
+            .deliver(&document, output, &Progress::new(true))
     }
 }

@@ -141,6 +141,13 @@ pub const RATES: Command = Command {
     pictures: &["committor", "rates", "meshes"],
 };
 
+/// `tilebind calibrate`.
+pub const CALIBRATE: Command = Command {
+    name: "calibrate",
+    files: &[REPORT, PAGE],
+    pictures: &[],
+};
+
 /// `tilebind make`.
 pub const MAKE: Command = Command {
     name: "make",

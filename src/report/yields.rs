@@ -150,7 +150,7 @@ fn states(outcome: &Outcome) -> Table {
         .column("state", "state", "a kind of state", |it| it.name.clone())
         .column("attachments", "attached", "docking runs that ended in it", |it| it.attachments).viewed(|it| attached(it))
         .column("on_m2_per_s", "on", "how often a pair falls into it, times the table's area", |it| it.on)
-            .viewed(|it| format!("{:.1e} m2/s", it.on))
+            .viewed(|it| format!("{:.1e} m²/s", it.on))
         .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
         .column("off_per_s", "off", "how often it is left", |it| it.off).digits(2)
         .column("depth_kT", "depth", "its energy over kT", |it| it.depth)

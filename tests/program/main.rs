@@ -6,6 +6,7 @@ mod cli;
 mod compare;
 #[path = "../shared/designs.rs"]
 mod designs;
+mod documents;
 mod faults;
 #[path = "../shared/folder.rs"]
 mod folder;

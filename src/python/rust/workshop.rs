@@ -49,7 +49,7 @@ pub fn calibrated<'py>(
         calibration::calibrate(&specimen, &rows, &settings)
     })?;
     let found = found.map_err(fault::value)?;
-    convert::json(py, &report::calibration::json(design, &found))
+    convert::json(py, &report::calibration::shields(design, &found).report())
 }
 
 /// The kT at which pairs bind and part as in a table of intervals.
@@ -68,7 +68,7 @@ pub fn kt_of_bonds<'py>(
         let within = within.unwrap_or(design.space().free_distance);
         let found = job::quietly(py, || {
             read.fit(&design.problem(), &design.pair.bound, within)
-                .map(|found| report::calibration::distances_json(design, &found))
+                .map(|found| report::calibration::distances(design, &found).report())
         })?;
         return convert::json(py, &found.map_err(fault::value)?);
     }
@@ -78,7 +78,7 @@ pub fn kt_of_bonds<'py>(
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, &Silent);
         let bond = Bond::new(&analysis.problem, &analysis.inventory);
-        bond.map(|bond| report::calibration::KtFit::new(&times, &bond, area).json(design))
+        bond.map(|bond| report::calibration::intervals(design, &times, &bond, area).report())
     })?;
     convert::json(py, &found.map_err(fault::run)?)
 }

@@ -94,7 +94,9 @@ fn the_constants_behind_a_table_are_found_and_may_be_pasted_into_a_design() {
     let output = tilebind(&arguments);
     let summary = stdout(&output);
     assert!(
-        summary.contains("remanence or moment by 1.0200"),
+        summary
+            .replace('\n', " ")
+            .contains("remanence or moment by 1.0200"),
         "{summary}"
     );
     let pasted: Vec<&str> = summary

@@ -1,0 +1,215 @@
+//! Every job's document says the same in all its forms.
+
+use std::collections::{HashMap, HashSet};
+
+use serde_json::Value;
+use tilebind::comparison::quantity::QUANTITIES;
+use tilebind::comparison::{self, Assessment};
+use tilebind::docking::Paths;
+use tilebind::dynamics::docking::{DockingSettings, dock};
+use tilebind::observer::Silent;
+use tilebind::report::analysis::{self, Extent};
+use tilebind::report::comparison::Comparison;
+use tilebind::report::document::{Document, Table, Unit};
+use tilebind::report::plots::{Scene, Sheet};
+use tilebind::report::{docking, yields as of_yields};
+use tilebind::request::of_keywords;
+use tilebind::yields::{Question, yields};
+use tilebind::{Design, Settings, pipeline};
+
+fn design() -> Design {
+    Design::load("shapes/tab-20mm.toml".as_ref()).unwrap()
+}
+
+fn few() -> Settings {
+    Settings {
+        milestones: 500,
+        far_starts: 20,
+        ..Settings::without_proofs(1)
+    }
+}
+
+fn keywords(words: &[(&str, &str)]) -> Vec<(String, Vec<String>)> {
+    let owned = |(key, value): &(&str, &str)| ((*key).to_owned(), vec![(*value).to_owned()]);
+    words.iter().map(owned).collect()
+}
+
+/// Two numbers that are the same to the ten digits of a file.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(f64::MIN_POSITIVE)
+}
+
+/// The numbers of a table's file are those of the report.
+fn numbers_agree(table: &Table, rows: &Value) {
+    let text = table.csv();
+    let mut lines = text.lines();
+    let keys: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(lines.clone().count(), rows.as_array().unwrap().len());
+    for (line, row) in lines.zip(rows.as_array().unwrap()) {
+        // Texts may hold commas in quotes; those of these tables do not.
+        for (key, cell) in keys.iter().zip(line.split(',')) {
+            match row.get(*key) {
+                Some(Value::Number(number)) => {
+                    let told: f64 = cell.parse().unwrap();
+                    assert!(
+                        same(told, number.as_f64().unwrap()),
+                        "{key}: {cell} {number}"
+                    );
+                }
+                Some(Value::Null) => assert_eq!(cell, "", "{key}"),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// What must hold of any document.
+fn check(document: &Document) {
+    assert!(!document.title.is_empty() && document.answer.contains(char::is_alphabetic));
+    let report: Value = serde_json::from_str(&document.report()).unwrap();
+    let (text, markdown) = (document.text(None), document.markdown());
+    let html = document.html("tilebind").unwrap();
+    assert!(
+        text.starts_with(
+            document
+                .answer
+                .lines()
+                .next()
+                .unwrap()
+                .split("  ")
+                .next()
+                .unwrap()
+        )
+    );
+    assert!(!document.facts().is_empty() || !document.tables().is_empty());
+    let mut files = HashSet::new();
+    for table in document.tables() {
+        let mut keys = HashSet::new();
+        for head in table
+            .heads
+            .iter()
+            .filter(|head| head.is_csv && table.file.is_some())
+        {
+            assert!(
+                !head.key.is_empty() && keys.insert(head.key.clone()),
+                "{}",
+                head.key
+            );
+        }
+        for (k, head) in table.heads.iter().enumerate() {
+            let unit = Unit::of_key(&head.key);
+            assert!(
+                head.unit == unit || head.unit == Unit::Share,
+                "{}",
+                head.key
+            );
+            // What people see carries its unit.
+            let shown = head.is_viewed && table.is_viewed;
+            for row in (0..table.rows.len()).filter(|_| shown) {
+                let cell = table.text(row, k);
+                let symbol = head.unit.symbol();
+                let has_unit = match symbol {
+                    "" | "s" | "rad" => true,
+                    symbol => {
+                        cell.ends_with(symbol) || !cell.contains(|c: char| c.is_ascii_digit())
+                    }
+                };
+                assert!(has_unit, "{}: {cell}", head.name);
+            }
+        }
+        for row in (0..table.rows.len()).filter(|_| table.is_viewed) {
+            for k in table.viewed().collect::<Vec<_>>() {
+                let cell = table.text(row, k);
+                let plain: String = cell.chars().filter(|c| !"<>&|\"".contains(*c)).collect();
+                if plain != cell || cell.is_empty() {
+                    continue;
+                }
+                if table.is_paged && cell != "-" {
+                    assert!(html.contains(&cell), "{cell}");
+                }
+                if table.is_printed && table.heads[k].is_printed && row < table.listed {
+                    assert!(text.contains(&cell), "{cell}\n{text}");
+                    assert!(markdown.contains(&cell), "{cell}");
+                }
+            }
+        }
+        if let Some(file) = table.file {
+            assert!(files.insert(file), "{file} is there twice");
+            if table.is_data {
+                numbers_agree(table, &report[table.key]);
+            }
+        }
+    }
+    // Pictures have all their forms, and numbers.
+    let sheet = Sheet::for_print(120.0, 7.0).unwrap();
+    let drawn = document.files(&sheet, "tilebind").unwrap();
+    let mut forms: HashMap<&str, Vec<&str>> = HashMap::new();
+    for name in drawn
+        .keys()
+        .filter_map(|name| name.strip_prefix("pictures/"))
+    {
+        let (stem, form) = name.rsplit_once('.').unwrap();
+        forms.entry(stem).or_default().push(form);
+    }
+    for (stem, mut forms) in forms {
+        forms.sort_unstable();
+        assert_eq!(forms, ["csv", "pdf", "png", "svg"], "{stem}");
+    }
+}
+
+#[test]
+fn an_analysis_says_the_same_in_all_forms() {
+    let design = design();
+    let found = pipeline::analyse(&design, &few(), &Silent);
+    let scene = Scene::new(&design, &found.problem, &found.inventory);
+    check(&analysis::document(
+        &design,
+        &found,
+        &scene,
+        Extent::Full,
+        1.0,
+    ));
+}
+
+#[test]
+fn a_comparison_says_the_same_in_all_forms() {
+    let designs = ["tab-10mm", "tab-20mm"].map(|name| {
+        let design = Design::load(format!("shapes/{name}.toml").as_ref()).unwrap();
+        Assessment::new(&design, &pipeline::analyse(&design, &few(), &Silent))
+    });
+    let settings = comparison::AssessmentSettings::default();
+    check(&Comparison::new(&designs, &QUANTITIES[0], settings).document());
+}
+
+#[test]
+fn docking_says_the_same_in_all_forms() {
+    let (design, problem) = (design(), design().problem());
+    let settings = DockingSettings {
+        runs: 20,
+        duration: 1.0,
+        ..DockingSettings::default()
+    };
+    let found = dock(&problem, &settings, &|| ()).unwrap();
+    let paths = Paths::new(&problem, &found, None).unwrap();
+    check(&docking::document(
+        (&design, &problem),
+        &found,
+        Some(&paths),
+    ));
+}
+
+#[test]
+fn a_yield_says_the_same_in_all_forms() {
+    let design = design();
+    let asked = [
+        ("kt", "3e-3,4e-3"),
+        ("tiles", "4"),
+        ("time", "60"),
+        ("runs", "20"),
+        ("duration", "2"),
+        ("simulations", "20"),
+    ];
+    let question: Question = of_keywords(keywords(&asked)).unwrap();
+    let found = yields(&design, &question, &Silent).unwrap();
+    check(&of_yields::document(&design, &question, &found));
+}
