@@ -132,7 +132,7 @@ fn states(held: &Held) -> Table {
         .column("docking_cost_half_depth_kT", "", "", |it| it.inner.cost)
         .column("closed_form_Z0_m2_rad", "", "", |it| it.closed.map(|it| it.volume.value))
         .column("closed_form_error", "closed form", "how far the corner formula is off", HeldState::closed_error).viewed(closed)
-        .table("states").titled("states", "").in_view().in_file("states")
+        .table("states").titled("States", "").in_view().in_file("states")
 }
 
 /// How states hold over kT.

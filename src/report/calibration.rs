@@ -115,7 +115,7 @@ fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
         .table("")
         .in_view()
         .titled(
-            "root mean square of measured minus modelled, and relative to that of the measured",
+            "Root mean square of measured minus modelled, and relative to that of the measured",
             "",
         )
 }

@@ -189,7 +189,7 @@ impl Comparison {
             .in_view()
             .table("")
             .titled(
-                "certified order",
+                "Certified order",
                 "> proved for the stated model, ~ undecided: bounds overlap",
             )
             .in_view()

@@ -175,7 +175,7 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
         .in_view()
         .table("traps")
         .titled(
-            "where tiles are caught without a match",
+            "Where tiles are caught without a match",
             "the minimum below where they ended, symmetric copies taken together",
         )
         .listing(LISTED)

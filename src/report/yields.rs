@@ -68,7 +68,7 @@ fn answer(design: &Design, question: &Question, found: &Yields) -> String {
 fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entries {
     let (best, effort) = (found.best(), &question.effort);
     let motion = effort.motion();
-    let at_best = format!("states at kT = {}", si(best.kt, "J", 3));
+    let at_best = format!("States at kT = {}", si(best.kt, "J", 3));
     entries(design)
         .data("seed", question.seed)
         .fact("tiles", "", question.tiles)

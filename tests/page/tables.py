@@ -41,7 +41,7 @@ def check_comparison(check, program, folder):
         upwards = browser.run(depths)
         browser.run(click)
         check.that(browser.run(depths) == upwards[::-1] and "mJ" in upwards[0], "designs sort by their bond")
-        check.that(browser.run(column(0, 1)[0])[:1] == ["unbinding barrier"], "the certified order is told")
+        check.that(browser.run(column(0, 2)[0])[:1] == ["unbinding barrier"], "the certified order is told")
         check.that("not head-on" in browser.run("document.querySelector('#tables table').textContent"),
                    "what has no capture range says why")
 

@@ -100,7 +100,7 @@ fn meshes(exit: &PoseExit) -> Table {
         .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| percent(mesh.error))
         .column("of_basins", "of basins", "what of it is due to the basin being made of whole cells", |mesh| mesh.of_rims)
             .viewed(|mesh| percent(mesh.of_rims))
-        .table("meshes").titled("meshes", "").in_file("meshes")
+        .table("meshes").titled("Meshes", "").in_file("meshes")
 }
 
 /// The mean exit time over the meshes' unknowns, with its bounds.

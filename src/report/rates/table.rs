@@ -184,7 +184,7 @@ fn places(found: &StateRates) -> Table {
         .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
         .column("bounds", "bounds", "between which that rate lies", |k| told_bounds(found, *k)).in_view()
         .column("proved", "", "", proved).in_json()
-        .table("places").titled("places", "").in_file("occupation")
+        .table("places").titled("Places", "").in_file("occupation")
 }
 
 #[rustfmt::skip]
@@ -209,7 +209,7 @@ fn pairs(found: &StateRates) -> Table {
         .column("to_basin_J", "", "", move |(_, j)| limit(*j)).in_csv()
         .column("free_at_m", "", "", |_| found.asked.free_at).in_csv()
         .column("bounds_hold", "", "", move |_| hold).in_csv()
-        .table("rates").titled("rates", "").in_file("rates")
+        .table("rates").titled("Rates", "").in_file("rates")
 }
 
 /// What is proved of how basins are left, beside what the mesh has.
@@ -245,7 +245,7 @@ fn proofs(found: &StateRates) -> Table {
         .column("sets_out_lower_per_s", "", "", move |k| leaving(k).map(|it| it[0])).in_data()
         .column("sets_out_upper_per_s", "", "", move |k| leaving(k).map(|it| it[1])).in_data()
         .column("end", "as an end", "its set where the others' proofs end in it", move |k| proved(k).map(|it| below(it.end_below))).in_view()
-        .table("proved").titled("proved", note).in_view().in_file("proved")
+        .table("proved").titled("Proved", note).in_view().in_file("proved")
 }
 
 /// The rates out of states over kT, by the states' names.

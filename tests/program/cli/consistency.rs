@@ -98,7 +98,7 @@ impl Told {
         let listed = self.page["tables"][0]["rows"].as_array().unwrap();
         assert_eq!(listed.len(), kinds.len());
         for row in listed {
-            assert!(kinds.contains(&row[0].as_str().unwrap()), "{row}");
+            assert!(kinds.contains(&row[0][1].as_str().unwrap()), "{row}");
         }
         let barriers = self.report["barriers"].as_array().unwrap();
         assert_eq!(barriers.len() + 1, self.barriers.len());
