@@ -3,7 +3,7 @@
 use super::certify::narrowed;
 use super::field::Field;
 use super::mesh::Nodes;
-use super::places::{DEEP, Places};
+use super::places::Places;
 use super::proof::{self, Set};
 use super::results::{Basin, Leaving, MeshRates, RateBounds, RateSettings, RatesError};
 use crate::configuration::Configuration;
@@ -47,7 +47,7 @@ fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
     let Some(asked) = settings.certify.and_then(|certify| certify.proof()) else {
         return Vec::new();
     };
-    let deep = field.level() - DEEP * field.kt;
+    let deep = field.deep();
     let end = |basin: &Basin| Set {
         at: basin.at,
         below: basin.below.max(deep),

@@ -8,12 +8,9 @@ use super::mesh::{Nodes, System, Unsolved, loads};
 use super::proof::Set;
 use super::results::{ExitError, ExitSettings, MeshExit};
 use super::rim::Rims;
-use super::sets::{basin, is_at_the_rim, pass, reaching};
+use super::sets::{basin, pass, reaching, rim};
 use crate::configuration::Configuration;
 
-/// How far (in kT) below the pass an end or a start lies in equilibrium: of the flux no more than
-/// e^-12 is left there.
-const DEEP: f64 = 12.0;
 /// Bounds are of a start in the well, which reaches so many kT above the pose, or as deep as it is
 /// taken to be in equilibrium.
 const NEAR: f64 = 0.5;
@@ -35,6 +32,11 @@ const BOUND: usize = 1;
 /// ... or free.
 const FREE: usize = 2;
 
+/// Of what loads at the pass's level add up to, counted from the start's energy on.
+fn scale(field: &Field) -> f64 {
+    libm::exp((field.level() - field.ground()) / field.kt)
+}
+
 impl Ends {
     pub fn new(
         field: &mut Field,
@@ -47,10 +49,7 @@ impl Ends {
             basin(&field.mesh, &beside, &field.mesh.holding(q), limit)
         };
         let inside = around(field, bond, asked.basin_energy);
-        let leaves = field.mesh.leaves.iter();
-        let rim: Vec<bool> = leaves
-            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
-            .collect();
+        let rim = rim(&field.mesh);
         if inside.iter().zip(&rim).any(|(inside, rim)| *inside && *rim) {
             return Err(ExitError::Open(asked.basin_energy));
         }
@@ -61,7 +60,7 @@ impl Ends {
         }
         let level = pass(&field.mesh, &beside, &held, &|id| inside[id] || rim[id]);
         field.set_level(level.ok_or(ExitError::Closed(way))?);
-        let deep = field.level() - DEEP * field.kt;
+        let deep = field.deep();
         let is_deep = field.energy_at(&asked.start) < deep;
         let top = field.energy_at(&asked.start) + NEAR * field.kt;
         let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
@@ -89,7 +88,7 @@ impl Ends {
     /// The start's well, half way up to the pass, and the bond's basin, as sets whose capacity is
     /// proved.
     pub fn sets(field: &Field, bond: &Configuration, asked: &ExitSettings) -> [Set; 2] {
-        let deep = field.level() - DEEP * field.kt;
+        let deep = field.deep();
         let energy = field.energy_at(&asked.start);
         let half = 0.5 * (energy + field.level());
         let set = |at: &Configuration, below: f64| Set {
@@ -145,7 +144,7 @@ impl Ends {
         let guess = |i: usize| guesses.as_ref().and_then(|guesses| guesses.get(i));
         let loads = loads(&field.mesh, nodes, &self.bound);
         let exit = |time: f64, bound: f64| MeshExit {
-            time: time * libm::exp((field.level() - field.ground()) / field.kt),
+            time: time * scale(field),
             bound: bound.clamp(0.0, 1.0),
             unknowns: system.len(),
             error: f64::INFINITY,
@@ -181,7 +180,7 @@ impl Ends {
         let held: f64 = own
             .map(|(.., element)| element.load.iter().sum::<f64>())
             .sum();
-        let scale = libm::exp((field.level() - field.ground()) / field.kt);
+        let scale = scale(field);
         Ok(Some(scale * held / field.energy(nodes, &trial)))
     }
 
@@ -202,7 +201,7 @@ impl Ends {
             left_out: &self.bound,
         };
         let bracket = Bracket::new(&asked, 1)?;
-        let scale = libm::exp((field.level() - field.ground()) / field.kt);
+        let scale = scale(field);
         Ok(Some(Step {
             bounds: vec![bracket.ratio(0, 0.0).map(|time| scale * time)],
             deciding: vec![0],

@@ -6,13 +6,10 @@ use super::ends::Ends;
 use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::Nodes;
 use super::proof::{self, Capacity};
-use super::results::{DEEPEST, enough};
+use super::results::{DEEPEST, MESHES, enough};
 pub use super::results::{Exit, ExitError, ExitSettings, MeshExit, half_bond};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-
-/// Meshes at least: from the last two the error is told.
-const MESHES: usize = 3;
 
 /// From a start to the first of two ends: the bond's basin and where tiles are free. All that the
 /// pair's symmetries map onto each other is one.

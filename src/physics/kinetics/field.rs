@@ -25,6 +25,9 @@ const LEAST_SEED: f64 = 2e-4;
 const NEAR: f64 = 2.0;
 /// Share of the estimated error in the cells that are divided, if the goal is far.
 pub(super) const DIVIDED: f64 = 0.7;
+/// How far (in kT) below the pass a well lies in equilibrium: of the flux no more than e^-12 is left
+/// there.
+pub(super) const DEEP: f64 = 12.0;
 /// The level of the barriers is taken anew where it has moved by so many kT.
 const MOVED: f64 = 2.0;
 
@@ -135,6 +138,16 @@ impl<'a> Field<'a> {
     /// The energy (J) about which weights are kept in bounds.
     pub fn level(&self) -> f64 {
         self.integrator.level
+    }
+
+    /// The energy (J) below which wells lie in equilibrium.
+    pub fn deep(&self) -> f64 {
+        self.level() - DEEP * self.kt
+    }
+
+    /// The weight e^(-U/kT) at the level, as against that at the ground.
+    pub fn weight(&self) -> f64 {
+        libm::exp((self.ground() - self.level()) / self.kt)
     }
 
     /// What all is asked about.

@@ -2,14 +2,12 @@
 
 use super::bracket::{Asked, Bounded, Bracket};
 use super::certify::Step;
-use super::field::{Earlier, Field};
+use super::field::{DEEP, Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
 use super::results::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::rim::Rims;
-use super::sets::{basin, is_at_the_rim, pass, reaching};
+use super::sets::{basin, pass, reaching, rim};
 
-/// How far (in kT) below its lowest pass a well lies in equilibrium.
-pub(super) const DEEP: f64 = 12.0;
 /// Rates that make up this share of all that leaves a basin are bounded as closely as it is asked.
 const MATTERS: f64 = 0.1;
 
@@ -35,10 +33,7 @@ impl Places {
             let held = field.mesh.holding(&basin.at);
             self::basin(&field.mesh, &beside, &held, limit)
         };
-        let leaves = field.mesh.leaves.iter();
-        let rim: Vec<bool> = leaves
-            .map(|leaf| is_at_the_rim(&field.mesh, leaf))
-            .collect();
+        let rim = rim(&field.mesh);
         let wells: Vec<Vec<bool>> = settings
             .basins
             .iter()
@@ -150,7 +145,7 @@ impl Places {
             (false, true) => flows[i][j],
             (false, false) => 0.5 * (flows[i][j] + flows[j][i]),
         };
-        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
+        let scale = copies * field.weight();
         let rate = |from: usize, to: usize| (scale * flow(from, to) / occupations[from]).max(0.0);
         let all: f64 = occupations.iter().sum();
         let found = MeshRates {
@@ -203,7 +198,7 @@ impl Places {
         committors: &[Vec<f64>],
     ) -> RateBounds {
         let copies = field.mesh.chart.copies() as f64;
-        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
+        let scale = copies * field.weight();
         let last = self.count - 1;
         let capacity = |place: usize| match committors.get(place) {
             Some(committor) => field.energy(nodes, committor),
@@ -261,7 +256,7 @@ impl Places {
         };
         let bracket = Bracket::new(&asked, self.count)?;
         let copies = field.mesh.chart.copies() as f64;
-        let scale = copies * libm::exp((field.ground() - field.level()) / field.kt);
+        let scale = copies * field.weight();
         let places = 0..self.count;
         let held: Vec<Bounded> = places
             .clone()

@@ -10,12 +10,9 @@ use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
 pub use super::results::{Basin, Leaving, MeshRates, RateBounds, RateSettings, Rates, RatesError};
-use super::results::{DEEPEST, enough, half_bond};
+use super::results::{DEEPEST, MESHES, enough, half_bond};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-
-/// Meshes at least: from the last two the error is told.
-const MESHES: usize = 3;
 
 /// The rates between basins and `free`.
 ///

@@ -251,6 +251,9 @@ pub enum RatesError {
 /// over a mesh, and the times are many powers of ten of any table's life.
 pub(super) const DEEPEST: f64 = 300.0;
 
+/// Meshes at least: from the last two the error is told.
+pub(super) const MESHES: usize = 3;
+
 /// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.
 pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)

@@ -12,6 +12,12 @@ pub(super) fn is_at_the_rim(mesh: &Octree, leaf: &Leaf) -> bool {
     mesh.chart.is_outer(leaf.corner(7))
 }
 
+/// For each cell whether it lies along the outer end.
+pub(super) fn rim(mesh: &Octree) -> Vec<bool> {
+    let leaves = mesh.leaves.iter();
+    leaves.map(|leaf| is_at_the_rim(mesh, leaf)).collect()
+}
+
 /// The cells joined to some of `from` by cells whose mean lies below an energy (J); those of `from`
 /// that reach below it belong to them in any case. `beside` has each cell's neighbours.
 pub(super) fn basin(mesh: &Octree, beside: &[Vec<u32>], from: &[usize], limit: f64) -> Vec<bool> {
