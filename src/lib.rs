@@ -40,7 +40,7 @@
 //! let design = Design::load("shapes/paper-tile.toml".as_ref())?;
 //! let analysis = pipeline::analyse(&design, &Settings::default(), &Silent);
 //! println!("bond {}", si(analysis.bound.1, "J", 4));
-//! for kind in analysis.inventory.kinds() {
+//! for kind in analysis.catalogue.kinds() {
 //!     let state = kind.first();
 //!     let escape = analysis.escape(state.id).map(|barrier| si(barrier.forward(), "J", 4));
 //!     println!("{:?} x{} {}: {escape:?}", state.kind, kind.copies(), si(state.energy, "J", 4));

@@ -88,7 +88,7 @@ impl Analyse {
         let progress = self.print.progress();
         let analysis = pipeline::analyse(&design, &settings, &progress);
         progress.stage("pictures", 0.95);
-        let scene = Scene::new(&design, &analysis.problem, &analysis.inventory);
+        let scene = Scene::new(&design, &analysis.problem, &analysis.catalogue);
         let wall = start.elapsed().as_secs_f64();
         let document = document(&design, &analysis, &scene, extent, wall);
         let files = files(&document, extent, &sheet, &command_line())?;

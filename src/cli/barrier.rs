@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use tilebind::budget::Ended;
-use tilebind::landscape::certificate::End;
+use tilebind::landscape::minimax::End;
 use tilebind::output::Command;
 use tilebind::query::{self, Answer, QueryError, Request};
 use tilebind::report::states::barriers;

@@ -56,7 +56,7 @@ impl BondCommand {
             kt: self.kt,
             coverage: self.coverage,
         };
-        let found = (&*analysis.problem, &analysis.inventory);
+        let found = (&*analysis.problem, &analysis.catalogue);
         let held = held(&design, found, shaking, output.is_some());
         let held = held.map_err(|error| Failure::Run(error.to_string()))?;
         self.results

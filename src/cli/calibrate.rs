@@ -106,7 +106,7 @@ impl Calibrate {
                 let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
                 let settings = Settings::without_proofs(Settings::default().seed);
                 let analysis = pipeline::analyse(&design, &settings, &Silent);
-                let bond = Bond::new(&analysis.problem, &analysis.inventory)
+                let bond = Bond::new(&analysis.problem, &analysis.catalogue)
                     .map_err(|error| Failure::Run(error.to_string()))?;
                 let area = self.area.unwrap_or(design.table[0] * design.table[1]);
                 report::intervals(&design, &times, &bond, area)

@@ -3,7 +3,7 @@
 use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
-use physics::landscape::Inventory;
+use physics::landscape::Catalogue;
 use physics::parallel;
 use physics::problem::Problem;
 
@@ -81,18 +81,18 @@ impl HeldState {
     }
 }
 
-/// Integrates over the bond and the traps of an inventory; at other kT, too, if they are to be pictured.
+/// Integrates over the bond and the traps of an catalogue; at other kT, too, if they are to be pictured.
 ///
 /// # Errors
 /// Where there is no bond.
 pub fn held(
     design: &Design,
-    (problem, inventory): (&Problem, &Inventory),
+    (problem, catalogue): (&Problem, &Catalogue),
     shaking: Shaking,
     is_pictured: bool,
 ) -> Result<Held, BondError> {
-    let bond = Bond::new(problem, inventory)?;
-    let traps = traps(problem, inventory, shaking.kt);
+    let bond = Bond::new(problem, catalogue)?;
+    let traps = traps(problem, catalogue, shaking.kt);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
     let at = |share: &f64| {
         let kt = share * shaking.kt;
@@ -103,7 +103,7 @@ pub fn held(
     Ok(Held {
         shaking,
         tile_area: design.pair.moving.outline.area(),
-        shallow: inventory.kinds().count() - holds.len(),
+        shallow: catalogue.kinds().count() - holds.len(),
         states: holds
             .iter()
             .map(|hold| HeldState::new(problem, hold, &shaking))

@@ -104,7 +104,7 @@ pub fn files(
 // One line an entry.
 #[rustfmt::skip]
 pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -> Entries {
-    let (counts, inventory) = (&analysis.counts, &analysis.inventory);
+    let (counts, catalogue) = (&analysis.counts, &analysis.catalogue);
     let stages = analysis.stages.iter().map(|stage| json!({
         "name": stage.name, "wall_s": stage.wall_s, "energy_evaluations": stage.energy_evaluations,
     }));
@@ -118,7 +118,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
         .data("bound", json!({
             "pose": pose(&analysis.bound.0),
             "energy_J": positive_zero(analysis.bound.1),
-            "state": inventory.bound_state,
+            "state": catalogue.bound_state,
         }))
         .table(states::states(design, analysis, is_whole))
         .data("inventory", missing(analysis))
@@ -130,20 +130,20 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
             "at_rest": proportion(analysis.uncaptured.at_rest),
             "gone": proportion(analysis.uncaptured.gone),
         }))
-        .table(states::barriers(&inventory.barriers))
+        .table(states::barriers(&catalogue.barriers))
         // Why the bounds of all barriers are null; itself null where they are certified.
         .data("uncertified", analysis.uncertified.map(|why| why.to_string()))
         // What ended the certificate before all bounds were as narrow as was asked for: "work" or
         // "clock", of which only the latter makes another run differ; null where nothing did.
         .data("certificate_ended_by", analysis.certificate_ended.map(Ended::name))
         .data("dynamics", dynamics::json(analysis))
-        .data("alternatives", inventory.alternatives.iter().map(alternative).collect::<Value>())
+        .data("alternatives", catalogue.alternatives.iter().map(alternative).collect::<Value>())
         .data("counts", json!({
             "milestones": counts.milestones,
             "edges": counts.edges,
             "transition_states": counts.transition_states,
             // Minima left out because next to nothing keeps them.
-            "shallow_minima": inventory.shallow,
+            "shallow_minima": catalogue.shallow,
             "energy_evaluations": counts.energy_evaluations,
             // Of the certificate.
             "cells": counts.cells,
@@ -241,7 +241,7 @@ fn missing(analysis: &Analysis) -> Value {
         "lowest_J": left.lowest,
     })));
     // Estimated share of far starts that would end in a kind of state that none has ended in yet.
-    entry["unseen"] = proportion(analysis.inventory.unseen());
+    entry["unseen"] = proportion(analysis.catalogue.unseen());
     entry
 }
 
@@ -261,14 +261,14 @@ fn alternative(alternative: &Alternative) -> Value {
 
 /// Pathways, and the graph for TopSearch.
 fn beside(analysis: &Analysis, scene: &Scene, is_whole: bool) -> Files {
-    let inventory = &analysis.inventory;
-    let states = inventory.states.iter();
+    let catalogue = &analysis.catalogue;
+    let states = catalogue.states.iter();
     let states = states.filter(|state| is_whole || state.id == state.class);
     let escapes = states.filter_map(|state| analysis.escape(state.id));
-    let barriers = escapes.chain(inventory.barriers.iter().cloned());
+    let barriers = escapes.chain(catalogue.barriers.iter().cloned());
     let barriers = barriers.filter(Barrier::has_way);
     let barriers = barriers.map(|barrier| (pathway_file(&barrier), csv::pathway(&barrier.pathway)));
-    let others = inventory.alternatives.iter();
+    let others = catalogue.alternatives.iter();
     let others = others.map(|way| (alternative_file(way), csv::pathway(&way.pathway)));
     let pathways = barriers.chain(others);
     let pathways = pathways.map(|(name, text)| (name, text.into_bytes()));
@@ -279,7 +279,7 @@ fn beside(analysis: &Analysis, scene: &Scene, is_whole: bool) -> Files {
 
 /// What to know first: the bond, how often it is found, how it is left, the deepest trap.
 fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
-    let (kinds, names) = (scene.kinds(), scene.inventory.names());
+    let (kinds, names) = (scene.kinds(), scene.catalogue.names());
     let first = |is_bond| {
         let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
         Some(states::Row::of_kind(design, analysis, &names, kind))
@@ -363,7 +363,7 @@ fn list(analysis: &Analysis) -> (&'static str, String) {
             "sampled",
             format!(
                 "it may lack some: {why}; of more far starts {} would end in kinds not seen yet",
-                percent(&analysis.inventory.unseen())
+                percent(&analysis.catalogue.unseen())
             ),
         ),
         Ok(known) => {

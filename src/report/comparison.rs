@@ -10,7 +10,7 @@ use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
 use crate::plots::ranking as picture;
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
-use physics::landscape::certificate::Ordering;
+use physics::landscape::minimax::Ordering;
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]

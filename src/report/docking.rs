@@ -10,7 +10,7 @@ use jobs::docking::Paths;
 use physics::configuration::Configuration;
 use physics::dynamics::docking::{Docking, DockingMap, DockingRun, End, MatchRule, OnRate};
 use physics::dynamics::{MotionSettings, Snapshot};
-use physics::landscape::{Inventory, State, StateKind};
+use physics::landscape::{Catalogue, State, StateKind};
 use physics::order::Order;
 use physics::problem::Problem;
 use physics::units::{plain, si};
@@ -271,14 +271,14 @@ fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> V
 
 /// What the page plays.
 fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Part {
-    let inventory = Inventory {
+    let catalogue = Catalogue {
         states: states(problem, docking, design.pair.bound),
-        ..Inventory::default()
+        ..Catalogue::default()
     };
     let played = paths.played.iter();
     let played = played
         .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
-    let scene = Scene::new(design, problem, &inventory);
+    let scene = Scene::new(design, problem, &catalogue);
     Part::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
 }
 

@@ -32,7 +32,7 @@ impl<'a> Row<'a> {
         Self {
             state,
             name: &names[state.id],
-            copies: analysis.inventory.states.iter().filter(same).count(),
+            copies: analysis.catalogue.states.iter().filter(same).count(),
             faces: face_names(design, state),
             capture: state.capture,
             escape: analysis.escape(state.id),
@@ -74,7 +74,7 @@ impl<'a> Row<'a> {
 // One line a column.
 #[rustfmt::skip]
 pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
-    let names = analysis.inventory.names();
+    let names = analysis.catalogue.names();
     let escape = move |row: &Row| -> Option<Value> {
         let mut entry = barriers([row.escape.as_ref()?]).json()[0].take();
         if !is_whole && row.state.id != row.state.class {
@@ -82,7 +82,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
         }
         Some(entry)
     };
-    rows(analysis.inventory.states.iter().map(|state| Row::new(design, analysis, &names, state)))
+    rows(analysis.catalogue.states.iter().map(|state| Row::new(design, analysis, &names, state)))
         .column("id", "", "", |it| it.state.id)
         .column("kind", "", "", |it| kind(it.state.kind))
         .column("class", "", "lowest id among the states that symmetries map onto this one", |it| it.state.class)
@@ -113,7 +113,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
 // One line a column.
 #[rustfmt::skip]
 pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
-    let names = scene.inventory.names();
+    let names = scene.catalogue.names();
     let kinds = scene.kinds();
     let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
         Some((Some(why), _)) => why.to_owned(),
@@ -179,7 +179,7 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
 // One line a column.
 #[rustfmt::skip]
 pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier) -> Option<usize>) -> Table {
-    let barriers = &analysis.inventory.barriers;
+    let barriers = &analysis.catalogue.barriers;
     let name = |place: Place| scene.name_of(place);
     rows(barriers)
         .column("", "from", "", |it| name(it.from))

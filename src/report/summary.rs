@@ -15,7 +15,7 @@ use jobs::pipeline::Analysis;
 use physics::budget::{Allowance, Ended};
 use physics::configuration::Configuration;
 use physics::landscape::results::SAME_ENERGY;
-use physics::landscape::{Barrier, Inventory, Kind, LeftOut, Place, Proportion};
+use physics::landscape::{Barrier, Catalogue, Kind, LeftOut, Place, Proportion};
 use physics::order::Order;
 use physics::units::{si, si_range};
 
@@ -27,7 +27,7 @@ const DIGITS: usize = 4;
 /// The kinds of traps as they are listed, those that capture most first; the deepest is always among
 /// the first.
 fn traps<'a>(analysis: &'a Analysis) -> Vec<Kind<'a>> {
-    let kinds = analysis.inventory.kinds();
+    let kinds = analysis.catalogue.kinds();
     let mut traps: Vec<Kind> = kinds.filter(|kind| !kind.is_bond()).collect();
     traps.order_by_key(|kind| std::cmp::Reverse(kind.captured().count));
     let deepest = traps.iter().enumerate().skip(LISTED);
@@ -42,7 +42,7 @@ fn traps<'a>(analysis: &'a Analysis) -> Vec<Kind<'a>> {
 }
 
 fn bond(analysis: &Analysis) -> Option<Kind<'_>> {
-    analysis.inventory.kinds().find(Kind::is_bond)
+    analysis.catalogue.kinds().find(Kind::is_bond)
 }
 
 /// Where far starts end.
@@ -75,14 +75,14 @@ pub fn remarks(analysis: &Analysis) -> Vec<String> {
 // One line a column.
 #[rustfmt::skip]
 pub fn listed(design: &Design, analysis: &Analysis) -> Table {
-    let Analysis { problem, inventory, .. } = analysis;
-    let out = |kind: &Kind| inventory.escape_of_kind(problem, kind.first().class);
+    let Analysis { problem, catalogue, .. } = analysis;
+    let out = |kind: &Kind| catalogue.escape_of_kind(problem, kind.first().class);
     let kinds = bond(analysis).into_iter().chain(traps(analysis).into_iter().take(LISTED));
     rows(kinds)
-        .column("", "state", "", |kind| name(inventory, kind))
+        .column("", "state", "", |kind| name(catalogue, kind))
         .column("", "captures", "", |kind| kind.captured())
         .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
-        .column("", "escape barrier", "", |kind| escape(inventory, out(kind)))
+        .column("", "escape barrier", "", |kind| escape(catalogue, out(kind)))
         .column("", "certified", "", |kind| certified(kind, out(kind)))
         .column("", "x, y (mm), theta, faces", "", |kind| {
             format!("{}, {}", pose(&kind.first().configuration), faces(design, kind))
@@ -92,19 +92,19 @@ pub fn listed(design: &Design, analysis: &Analysis) -> Table {
         .on_terminal()
 }
 
-fn name(inventory: &Inventory, kind: &Kind) -> String {
-    let name = inventory.name_of(Place::State(kind.first().id));
+fn name(catalogue: &Catalogue, kind: &Kind) -> String {
+    let name = catalogue.name_of(Place::State(kind.first().id));
     match kind.copies() {
         1 => name,
         copies => format!("{name} x{copies}"),
     }
 }
 
-fn escape(inventory: &Inventory, way: Option<&Barrier>) -> String {
+fn escape(catalogue: &Catalogue, way: Option<&Barrier>) -> String {
     match way {
         Some(way) if way.bounds.caged => "caged, proved".to_owned(),
         Some(way) if way.has_way() => {
-            let to = inventory.name_of(way.to);
+            let to = catalogue.name_of(way.to);
             format!("{} to {to}", si(way.forward(), "J", DIGITS))
         }
         _ => "none found".to_owned(),
@@ -127,7 +127,7 @@ pub fn notes(analysis: &Analysis) -> Vec<String> {
         notes.push(rest(&traps[LISTED..]));
     }
     notes.push(way_in(analysis, bond.as_ref()));
-    notes.push(deepest(&analysis.inventory, bond.as_ref(), &traps));
+    notes.push(deepest(&analysis.catalogue, bond.as_ref(), &traps));
     notes.extend(completeness(analysis));
     notes.extend(dipole_error(analysis));
     let uncertified = analysis.uncertified;
@@ -160,7 +160,7 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
             notes.push(format!(
                 "the list of states is sampled and may lack some: {why};\n\
                  of more far starts {} would end in kinds not seen yet (Good-Turing estimate)",
-                percent(&analysis.inventory.unseen())
+                percent(&analysis.catalogue.unseen())
             ));
             return notes;
         }
@@ -201,7 +201,7 @@ pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String 
 
 /// How far the dipoles' energy is off at the state where it is off most.
 fn dipole_error(analysis: &Analysis) -> Option<String> {
-    let states = analysis.inventory.states.iter();
+    let states = analysis.catalogue.states.iter();
     let (state, blocks, error) = states
         .filter(|state| state.id == state.class)
         .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
@@ -209,7 +209,7 @@ fn dipole_error(analysis: &Analysis) -> Option<String> {
     Some(format!(
         "dipoles are off by up to {}: at {}, where blocks have {} (--model cuboid)",
         si(error, "J", DIGITS),
-        analysis.inventory.name_of(Place::State(state.id)),
+        analysis.catalogue.name_of(Place::State(state.id)),
         si(blocks, "J", DIGITS),
     ))
 }
@@ -234,7 +234,7 @@ fn way_in(analysis: &Analysis, bond: Option<&Kind>) -> String {
             "no bond: where the target faces coincide ({energy}) nothing holds the tile"
         );
     }
-    match analysis.inventory.way_out_of_the_bond() {
+    match analysis.catalogue.way_out_of_the_bond() {
         Some(way) if way.bounds.caged => {
             "proved: no way leads from far apart into the bond, nor out of it".to_owned()
         }
@@ -265,13 +265,13 @@ fn work_and_length(way_out: &Barrier) -> String {
     format!(": {work} of work over {length}")
 }
 
-fn deepest(inventory: &Inventory, bond: Option<&Kind>, traps: &[Kind]) -> String {
+fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String {
     let energy = |kind: &Kind| kind.first().energy;
     let lowest = traps.iter().map(energy).fold(f64::INFINITY, f64::min);
     // The first of twins, whatever rounding makes of their energies.
     let is_lowest = |kind: &&Kind| energy(kind) - lowest <= SAME_ENERGY * lowest.abs();
     let deepest = traps.iter().find(is_lowest);
-    let name = |kind: &Kind| inventory.name_of(Place::State(kind.first().id));
+    let name = |kind: &Kind| catalogue.name_of(Place::State(kind.first().id));
     match (deepest, bond) {
         (None, _) => "no traps".to_owned(),
         (Some(deepest), None) => format!("deepest: {}", name(deepest)),

@@ -16,7 +16,7 @@ use std::time::Instant;
 use tilebind::Configuration;
 use tilebind::contact::Contact;
 use tilebind::design::Design;
-use tilebind::landscape::certificate::{Certifier, Effort, End};
+use tilebind::landscape::minimax::{Certifier, Effort, End};
 use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, Shields};
 

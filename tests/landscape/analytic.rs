@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use crate::surfaces::{DoubleWell, MuellerBrown};
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
-use tilebind::landscape::survey::{Survey, SurveySettings};
+use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
@@ -52,7 +52,7 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
 /// A barrier counts as settled when it moves by less than this fraction.
 pub const SETTLED: f64 = 0.005;
 
-pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey {
+pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Exploration {
     let edge = EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -75,7 +75,7 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey 
         edges: edge,
     };
     let roadmap = Roadmap::build(problem, &roadmap, &mut |_| ());
-    let settings = SurveySettings {
+    let settings = ExplorationSettings {
         edge,
         settled: SETTLED,
         most_kinds: None,
@@ -83,11 +83,11 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Survey 
         most_rounds: 8,
         seed,
     };
-    Survey::new(problem, roadmap, &[], &settings)
+    Exploration::new(problem, roadmap, &[], &settings)
 }
 
 /// The saddle energy (J) between the states at two configurations.
-fn barrier(problem: &Problem, survey: &Survey, a: &Configuration, b: &Configuration) -> f64 {
+fn barrier(problem: &Problem, survey: &Exploration, a: &Configuration, b: &Configuration) -> f64 {
     let node = |q: &Configuration| {
         let state = survey.state_at(problem, q, 1e-3).expect("a state is here");
         survey.states[state].node

@@ -34,7 +34,7 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     let design = designs::load("shapes/paper-tile.toml");
     let analysis = analyse(&design, &Settings::default(), &Silent);
     let mut compared = 0;
-    for [first, second, direct] in triples(&analysis.inventory.barriers) {
+    for [first, second, direct] in triples(&analysis.catalogue.barriers) {
         let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
         let chain = upper(first).max(upper(second));
         // A natural way to free is not given up for one lower by a hundredth of the barrier.
@@ -60,7 +60,7 @@ fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
     let design = designs::load("shapes/arrowhead.toml");
     let analysis = analyse(&design, &settings, &Silent);
     let mut compared = 0;
-    for [first, second, direct] in triples(&analysis.inventory.barriers) {
+    for [first, second, direct] in triples(&analysis.catalogue.barriers) {
         let upper = first.bounds.upper.unwrap();
         if let Some(lower) = second.bounds.lower.filter(|lower| upper < *lower) {
             assert!(direct.bounds.least() >= lower, "{direct:?}");
@@ -86,7 +86,7 @@ fn square_teeth() -> Analysis {
 #[test]
 fn teeth_without_play_are_pulled_out_straight() {
     let analysis = square_teeth();
-    let way_out = analysis.inventory.way_out_of_the_bond().unwrap();
+    let way_out = analysis.catalogue.way_out_of_the_bond().unwrap();
     assert_eq!((way_out.from, way_out.to), (Place::State(0), Place::Free));
     // It never climbs.
     assert!(way_out.saddle_energy < 0.0, "{}", way_out.saddle_energy);
@@ -99,7 +99,7 @@ fn teeth_without_play_are_pulled_out_straight() {
 fn what_rests_beside_the_way_in_is_no_trap() {
     let analysis = square_teeth();
     let tips = Configuration::new(0.44, 0.0, 0.0);
-    for state in &analysis.inventory.states {
+    for state in &analysis.catalogue.states {
         let away = analysis.problem.space.distance(&state.configuration, &tips);
         assert!(away > 1e-3, "{:?}", state.configuration);
     }
@@ -122,7 +122,7 @@ fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
     let escape = analysis.escape(1).unwrap();
     assert_eq!((escape.from, escape.to), (Place::State(1), Place::State(0)));
     let to_free = |b: &&Barrier| (b.from, b.to) == (Place::State(1), Place::Free);
-    let to_free = analysis.inventory.barriers.iter().find(to_free).unwrap();
+    let to_free = analysis.catalogue.barriers.iter().find(to_free).unwrap();
     let upper = escape.bounds.upper.unwrap();
     assert!(
         upper < to_free.bounds.lower.unwrap(),
@@ -143,12 +143,12 @@ fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
         ..Settings::default()
     };
     let analysis = analyse(&design, &settings, &Silent);
-    let states = &analysis.inventory.states;
+    let states = &analysis.catalogue.states;
     let deepest = states.iter().map(|state| state.energy.abs());
     let least = Settings::default().least_depth * deepest.fold(0.0, f64::max);
     for (id, state) in states.iter().enumerate() {
         assert_eq!(
-            (state.id, analysis.inventory.kinds().count()),
+            (state.id, analysis.catalogue.kinds().count()),
             (id, states.len())
         );
         let escape = analysis.escape(id).unwrap();
@@ -164,7 +164,7 @@ fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
         Place::State(id) => id < states.len(),
         Place::Free => true,
     };
-    let barriers = &analysis.inventory.barriers;
+    let barriers = &analysis.catalogue.barriers;
     assert!(
         barriers
             .iter()
@@ -185,7 +185,7 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     };
     let analysis = analyse(&design, &settings, &Silent);
     let bound = analysis
-        .inventory
+        .catalogue
         .kinds()
         .find(|kind| kind.is_bond())
         .unwrap();
@@ -197,7 +197,7 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
         uncaptured.at_rest.count + uncaptured.gone.count,
         uncaptured.all().count
     );
-    let kinds = analysis.inventory.kinds();
+    let kinds = analysis.catalogue.kinds();
     let captured: usize = kinds.map(|kind| kind.captured().count).sum();
     assert_eq!(captured + uncaptured.all().count, settings.far_starts);
 }

@@ -5,7 +5,7 @@
 use crate::designs;
 use tilebind::Configuration;
 use tilebind::design::Design;
-use tilebind::landscape::certificate::{Certifier, Effort, End};
+use tilebind::landscape::minimax::{Certifier, Effort, End};
 use tilebind::landscape::minimum::descend;
 use tilebind::potential::DipolePotential;
 use tilebind::potential::bounds::DipoleBounds;

@@ -5,17 +5,16 @@
 
 mod analytic;
 mod barriers;
-mod certificate;
-mod completeness;
+mod catalogue;
 mod counts;
 #[path = "../shared/designs.rs"]
 mod designs;
-mod inventory;
 mod many_magnets;
 mod meetings;
+mod minimax;
 mod minimum;
+mod missing_states;
 mod neighbours;
-mod network;
 mod pathways;
 mod queries;
 mod ranking;
@@ -23,5 +22,6 @@ mod roadmap;
 mod seam;
 mod surfaces;
 mod symmetry;
+mod transition_network;
 mod volume;
 mod walls;

@@ -77,15 +77,15 @@ fn from_every_trap_the_bond_is_reached_through_free_space() {
         ..without_proofs(Settings::of([&design]))
     };
     let analysis = analyse(&design, &settings, &Silent);
-    let inventory = &analysis.inventory;
-    let bond = inventory.bound_state.unwrap();
+    let catalogue = &analysis.catalogue;
+    let bond = catalogue.bound_state.unwrap();
     let depth = analysis.problem.depth();
     let is_bond = |place: Place| match place {
-        Place::State(state) => inventory.states[state].class == bond,
+        Place::State(state) => catalogue.states[state].class == bond,
         Place::Free => false,
     };
     let to_bond = |barrier: &&Barrier| is_bond(barrier.to) && !is_bond(barrier.from);
-    let ways: Vec<_> = inventory.barriers.iter().filter(to_bond).collect();
+    let ways: Vec<_> = catalogue.barriers.iter().filter(to_bond).collect();
     assert!(ways.len() >= 2, "{}", ways.len());
     for way in ways {
         // Far apart there is no energy to speak of.
@@ -108,7 +108,7 @@ fn the_deepest_kinds_are_kept_and_what_is_left_out_is_said() {
     };
     let kinds = |settings: &Settings| {
         let analysis = analyse(&design, settings, &Silent);
-        let kinds = analysis.inventory.kinds();
+        let kinds = analysis.catalogue.kinds();
         let energies: Vec<f64> = kinds.map(|kind| kind.first().energy).collect();
         (energies, analysis.counts.left_out)
     };
@@ -132,7 +132,7 @@ fn what_far_starts_come_to_rest_in_is_listed() {
         ..without_proofs(Settings::default())
     };
     let analysis = analyse(&design, &settings, &Silent);
-    let kinds = analysis.inventory.kinds();
+    let kinds = analysis.catalogue.kinds();
     assert!(kinds.filter(|kind| kind.captured().count > 0).count() > 1);
     assert_eq!(analysis.uncaptured.at_rest.count, 0);
 }

@@ -48,7 +48,7 @@ fn check(file: &str) {
     let problem = &analysis.problem;
     let depth = problem.depth();
     let mut checked = 0;
-    for barrier in analysis.inventory.barriers.iter().filter(|b| b.has_way()) {
+    for barrier in analysis.catalogue.barriers.iter().filter(|b| b.has_way()) {
         let ends = (barrier.from, barrier.to);
         let mut highest = f64::NEG_INFINITY;
         for leg in written(barrier).windows(2) {
@@ -94,11 +94,11 @@ fn pathways_joined_by_straight_motions_are_free_and_as_high_as_stated() {
 fn the_papers_tile_docks_downhill_past_no_trap() {
     let analysis = analysis("shapes/paper-tile.toml");
     let problem = &analysis.problem;
-    let way_out = analysis.inventory.way_out_of_the_bond().unwrap();
+    let way_out = analysis.catalogue.way_out_of_the_bond().unwrap();
     let [climbs, falls] = work(&way_out.pathway);
     assert!(falls < 1e-5 * problem.depth(), "{falls}");
     assert!((climbs - way_out.forward()).abs() < 1e-5 * problem.depth());
-    for state in analysis.inventory.states.iter().skip(1) {
+    for state in analysis.catalogue.states.iter().skip(1) {
         let passes = |q: &Configuration| problem.space.distance(q, &state.configuration) < 0.01;
         let pathway = &way_out.pathway;
         assert!(
@@ -124,8 +124,8 @@ fn a_smaller_tolerance_never_gives_a_wider_bracket() {
             tolerance: Some(tolerance),
             ..Settings::default()
         };
-        let inventory = analyse(&design, &settings, &Silent).inventory;
-        let widths = inventory.barriers.iter().map(|b| b.bounds.width());
+        let catalogue = analyse(&design, &settings, &Silent).catalogue;
+        let widths = catalogue.barriers.iter().map(|b| b.bounds.width());
         widths.collect()
     };
     let depth = 32e-3;
@@ -155,7 +155,7 @@ fn ways_are_the_same_on_any_number_of_threads() {
         pool.unwrap()
             .install(|| analyse(&design, &settings, &Silent))
     });
-    assert_eq!(one.inventory.barriers, two.inventory.barriers);
-    assert_eq!(one.inventory.alternatives, two.inventory.alternatives);
+    assert_eq!(one.catalogue.barriers, two.catalogue.barriers);
+    assert_eq!(one.catalogue.alternatives, two.catalogue.alternatives);
     assert_eq!(one.counts.energy_evaluations, two.counts.energy_evaluations);
 }

@@ -2,7 +2,7 @@
 
 use tilebind::budget::Allowance;
 use tilebind::landscape::Uncertified;
-use tilebind::landscape::certificate::End;
+use tilebind::landscape::minimax::End;
 use tilebind::observer::Silent;
 use tilebind::query::{Answer, Query, QueryError, barrier};
 use tilebind::{Configuration, Design, Settings};

@@ -4,7 +4,7 @@ use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::ranking::{order, ranked};
 use tilebind::comparison::{Assessment, Bond, Quantity, Way};
 use tilebind::landscape::SaddleBounds;
-use tilebind::landscape::certificate::Ordering;
+use tilebind::landscape::minimax::Ordering;
 
 fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
     Assessment {

@@ -38,7 +38,7 @@ fn assert_images(
     other: &Analysis,
     image: &dyn Fn(&Configuration) -> Configuration,
 ) {
-    let [states, twins] = [one, other].map(|analysis| &analysis.inventory.states);
+    let [states, twins] = [one, other].map(|analysis| &analysis.catalogue.states);
     assert_eq!(states.len(), twins.len());
     assert!(states.len() >= 100, "{}", states.len());
     for state in states {
@@ -86,6 +86,6 @@ fn the_number_of_threads_changes_nothing() {
         pool.unwrap().install(|| analyse(&design, 5))
     };
     let (one, many) = (on(1), on(3));
-    assert_eq!(one.inventory, many.inventory);
+    assert_eq!(one.catalogue, many.catalogue);
     assert_eq!(one.counts, many.counts);
 }

@@ -161,7 +161,7 @@ fn check(document: &Document) {
 fn an_analysis_says_the_same_in_all_forms() {
     let design = design();
     let found = pipeline::analyse(&design, &few(), &Silent);
-    let scene = Scene::new(&design, &found.problem, &found.inventory);
+    let scene = Scene::new(&design, &found.problem, &found.catalogue);
     check(&analysis::document(
         &design,
         &found,

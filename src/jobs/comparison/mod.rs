@@ -291,9 +291,9 @@ impl Assessment {
 
     /// What is compared of an analysed design; the capture range is found here.
     pub fn new(design: &Design, analysis: &Analysis) -> Self {
-        let inventory = &analysis.inventory;
+        let catalogue = &analysis.catalogue;
         let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);
-        let bound = inventory.first(StateKind::Bond);
+        let bound = catalogue.first(StateKind::Bond);
         Self {
             name: design.name.clone(),
             sha256: design.sha256.clone(),
@@ -302,8 +302,8 @@ impl Assessment {
             seed: analysis.settings.seed,
             target_energy: analysis.bound.1,
             bond: bound.map(|state| bond(analysis, state)),
-            trap_kinds: inventory.kinds().filter(|kind| !kind.is_bond()).count(),
-            deepest_trap: inventory.first(StateKind::Trap).map(|state| Trap {
+            trap_kinds: catalogue.kinds().filter(|kind| !kind.is_bond()).count(),
+            deepest_trap: catalogue.first(StateKind::Trap).map(|state| Trap {
                 pose: state.configuration.to_array(),
                 energy: state.energy,
                 escape: Way::new(analysis.escape(state.id).as_ref()),
@@ -314,7 +314,7 @@ impl Assessment {
                 .ok()
                 .map(Completeness::lowest),
             far_starts: analysis.uncaptured.gone.of,
-            captured: inventory
+            captured: catalogue
                 .states
                 .iter()
                 .filter(|state| state.kind == StateKind::Bond)
@@ -336,12 +336,12 @@ impl Assessment {
 
 fn bond(analysis: &Analysis, state: &State) -> Bond {
     let q = &state.configuration;
-    let states = analysis.inventory.states.iter();
+    let states = analysis.catalogue.states.iter();
     let known = Known::minima(states.map(|state| state.configuration));
     Bond {
         pose: q.to_array(),
         energy: state.energy,
-        way_out: Way::new(analysis.inventory.way_out_of_the_bond()),
+        way_out: Way::new(analysis.catalogue.way_out_of_the_bond()),
         capture_range: capture_range::find(&analysis.problem, known, q, state.energy),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Assessment, Quantity};
 use ordered_float::OrderedFloat;
-use physics::landscape::certificate::{self, Ordering};
+use physics::landscape::minimax::{self, Ordering};
 use physics::order::Order;
 use std::cmp::Reverse;
 
@@ -38,7 +38,7 @@ pub fn order(a: &Assessment, b: &Assessment, quantity: &Quantity) -> Ordering {
     };
     match (bounds(a), bounds(b)) {
         (Some(a_bounds), Some(b_bounds)) if a.model == b.model => {
-            certificate::order(a_bounds, b_bounds)
+            minimax::order(a_bounds, b_bounds)
         }
         _ => Ordering::Undecided,
     }

@@ -7,7 +7,7 @@ use super::Settings;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
 use physics::dynamics::check::BarrierCheck;
-use physics::landscape::{Barrier, Completeness, Inventory, LeftOut, Uncaptured, Uncertified};
+use physics::landscape::{Barrier, Catalogue, Completeness, LeftOut, Uncaptured, Uncertified};
 use physics::problem::Problem;
 use physics::roadmap::RoadmapSettings;
 
@@ -23,8 +23,8 @@ pub struct Analysis {
     /// The configuration in which the target faces coincide, and its energy (J).
     pub bound: (Configuration, f64),
     /// States, barriers and pathways.
-    pub inventory: Inventory,
-    /// What is proved of the states that the inventory may lack, or why nothing is.
+    pub catalogue: Catalogue,
+    /// What is proved of the states that the catalogue may lack, or why nothing is.
     pub completeness: Result<Completeness, Uncertified>,
     /// Shares of the far starts that end in no state.
     pub uncaptured: Uncaptured,
@@ -44,9 +44,9 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// The barrier from a state to the nearest lower one or to `free`, see [`Inventory::escape`].
+    /// The barrier from a state to the nearest lower one or to `free`, see [`Catalogue::escape`].
     pub fn escape(&self, id: usize) -> Option<Barrier> {
-        self.inventory.escape(&self.problem, id)
+        self.catalogue.escape(&self.problem, id)
     }
 
     /// The barriers that moving tiles contradict: they cross below what is certified.

@@ -17,10 +17,10 @@ use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::dynamics::Body;
 use physics::dynamics::check::{self, BarrierCheck};
-use physics::landscape::certification::Certified;
-use physics::landscape::completeness::Search;
-use physics::landscape::survey::Survey;
-use physics::landscape::{Barrier, Claims, Inventory, Uncertified, capture, certification};
+use physics::landscape::barrier_bounds::Certified;
+use physics::landscape::exploration::Exploration;
+use physics::landscape::missing_states::Search;
+use physics::landscape::{Barrier, Catalogue, Claims, Uncertified, barrier_bounds, capture};
 use physics::observer::Observer;
 use physics::parallel;
 use physics::potential::{Interaction, MagnetModel};
@@ -59,29 +59,29 @@ pub fn analyse_problem(
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
     survey.add_arrivals(&problem, &arrivals);
     clock.start("states and barriers", 0.7);
-    let mut inventory = Inventory::of_survey(&problem, &survey, settings.least_depth);
+    let mut catalogue = Catalogue::of_survey(&problem, &survey, settings.least_depth);
     for repeat in 1..settings.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
         let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
-        let other = Inventory::of_survey(&problem, &survey, settings.least_depth);
-        inventory.widen_spread(&problem, &other);
+        let other = Catalogue::of_survey(&problem, &survey, settings.least_depth);
+        catalogue.widen_spread(&problem, &other);
     }
-    weigh_blocks(design, &mut inventory);
+    weigh_blocks(design, &mut catalogue);
     // What captures most is certified first.
-    inventory.count_captures(&problem, &ends);
+    catalogue.count_captures(&problem, &ends);
     clock.start("certificate", 0.75);
-    let certified = certify(&problem, &mut inventory, settings, observer);
-    inventory.leave_out_shallow(&problem, settings.least_depth);
-    let completeness = search.map(|search| search.conclude(&survey, &inventory));
-    let uncaptured = inventory.count_captures(&problem, &ends);
-    let dynamics = check_barriers(&problem, &inventory, settings, observer, &mut clock);
+    let certified = certify(&problem, &mut catalogue, settings, observer);
+    catalogue.leave_out_shallow(&problem, settings.least_depth);
+    let completeness = search.map(|search| search.conclude(&survey, &catalogue));
+    let uncaptured = catalogue.count_captures(&problem, &ends);
+    let dynamics = check_barriers(&problem, &catalogue, settings, observer, &mut clock);
     let stages = clock.stop();
     Analysis {
         settings: settings.clone(),
         roadmap,
         bound: (design.pair.bound, problem.energy(&design.pair.bound)),
-        inventory,
+        catalogue,
         completeness,
         uncaptured,
         ring: capture::ring(&problem),
@@ -102,19 +102,19 @@ pub fn analyse_problem(
 /// left another trap may be the deepest, whose barriers are then claimed.
 fn certify(
     problem: &Problem,
-    inventory: &mut Inventory,
+    catalogue: &mut Catalogue,
     settings: &Settings,
     observer: &dyn Observer,
 ) -> Result<Certified, Uncertified> {
     let asked = settings.certification();
     let mut all = Certified::default();
     loop {
-        let certified = certification::certify(problem, inventory, &asked, observer)?;
+        let certified = barrier_bounds::certify(problem, catalogue, &asked, observer)?;
         all.cells += certified.cells;
         all.ended = all.ended.or(certified.ended);
-        let count = inventory.states.len();
-        inventory.leave_out_shallow(problem, settings.least_depth);
-        if settings.claims == Claims::All || inventory.states.len() == count {
+        let count = catalogue.states.len();
+        catalogue.leave_out_shallow(problem, settings.least_depth);
+        if settings.claims == Claims::All || catalogue.states.len() == count {
             return Ok(all);
         }
     }
@@ -128,7 +128,7 @@ pub(crate) fn survey(
     roadmap: &RoadmapSettings,
     guesses: &[Configuration],
     clock: &mut Clock,
-) -> (Survey, Counts) {
+) -> (Exploration, Counts) {
     let shares = |name| match name {
         "milestones" => 0.0,
         "neighbours" => 0.05,
@@ -138,7 +138,7 @@ pub(crate) fn survey(
         clock.start(name, shares(name))
     });
     let milestones = built.milestones.len();
-    let mut survey = Survey::of_roadmap(problem, built, &roadmap.edges);
+    let mut survey = Exploration::of_roadmap(problem, built, &roadmap.edges);
     clock.start("states and transition states", 0.4);
     survey.explore(problem, guesses, &settings.survey(roadmap));
     let counts = Counts {
@@ -153,7 +153,7 @@ pub(crate) fn survey(
 
 /// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
 /// there (behind the same shields), so that nobody takes the dipoles' depth for the real one.
-fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
+fn weigh_blocks(design: &Design, catalogue: &mut Catalogue) {
     let blocks = Interaction {
         model: MagnetModel::Cuboid,
         ..design.interaction.clone()
@@ -164,7 +164,7 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
     let blocks = blocks
         .between(&design.pair.fixed, &design.pair.moving)
         .potential;
-    let kinds = inventory.states.chunk_by_mut(|a, b| a.class == b.class);
+    let kinds = catalogue.states.chunk_by_mut(|a, b| a.class == b.class);
     parallel::for_each(&mut Vec::from_iter(kinds), |copies| {
         let energy = blocks.energy(&copies[0].configuration);
         for state in copies.iter_mut() {
@@ -176,7 +176,7 @@ fn weigh_blocks(design: &Design, inventory: &mut Inventory) {
 /// What moving tiles say of the barriers that are claimed, if they are asked.
 fn check_barriers(
     problem: &Problem,
-    inventory: &Inventory,
+    catalogue: &Catalogue,
     settings: &Settings,
     observer: &dyn Observer,
     clock: &mut Clock,
@@ -186,12 +186,12 @@ fn check_barriers(
         return None;
     }
     clock.start("dynamics", 0.8);
-    let is_claimed = |barrier: &&Barrier| settings.claims.include(barrier, inventory);
-    let claimed: Vec<&Barrier> = inventory.barriers.iter().filter(is_claimed).collect();
+    let is_claimed = |barrier: &&Barrier| settings.claims.include(barrier, catalogue);
+    let claimed: Vec<&Barrier> = catalogue.barriers.iter().filter(is_claimed).collect();
     Some(check::check(
         problem,
         Body::of_tile(&pair.moving),
-        &inventory.states,
+        &catalogue.states,
         &claimed,
         &settings.check(),
         &|done, count| observer.part("dynamics", done, count),

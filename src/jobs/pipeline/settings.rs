@@ -3,9 +3,9 @@
 use crate::design::Design;
 use physics::budget::Allowance;
 use physics::dynamics::check::CheckSettings;
+use physics::landscape::barrier_bounds::CertificationSettings;
 use physics::landscape::capture::FarStarts;
-use physics::landscape::certification::CertificationSettings;
-use physics::landscape::survey::SurveySettings;
+use physics::landscape::exploration::ExplorationSettings;
 use physics::landscape::{Claims, CompletenessSettings};
 use physics::potential::MANY_PAIRS;
 use physics::problem::Problem;
@@ -176,8 +176,8 @@ impl Settings {
         }
     }
 
-    pub(super) fn survey(&self, roadmap: &RoadmapSettings) -> SurveySettings {
-        SurveySettings {
+    pub(super) fn survey(&self, roadmap: &RoadmapSettings) -> ExplorationSettings {
+        ExplorationSettings {
             edge: roadmap.edges,
             settled: self.settled,
             most_kinds: self.most_kinds,

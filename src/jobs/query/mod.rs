@@ -10,8 +10,8 @@ use crate::design::Design;
 use crate::pipeline::Settings;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
-use physics::landscape::certificate::{Certifier, Effort, End};
-use physics::landscape::{Barrier, Place, Uncertified, certification};
+use physics::landscape::minimax::{Certifier, Effort, End};
+use physics::landscape::{Barrier, Place, Uncertified, barrier_bounds};
 use physics::observer::Observer;
 use physics::problem::Problem;
 use ways::Search;
@@ -96,7 +96,7 @@ pub fn barrier(
         Ok(mut certificate) => {
             observer.stage("certificate", 0.0);
             let mut is_searched = false;
-            for width in certification::widths(problem.depth(), certificate.tolerance) {
+            for width in barrier_bounds::widths(problem.depth(), certificate.tolerance) {
                 if !is_searched {
                     certificate.narrow(&mut barrier, width, CELLS_BEFORE_ROADMAP);
                 }

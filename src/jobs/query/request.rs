@@ -7,7 +7,7 @@ use crate::design::Design;
 use crate::pipeline::{Certify, Settings};
 use crate::request;
 use physics::configuration::Configuration;
-use physics::landscape::certificate::End;
+use physics::landscape::minimax::End;
 
 const WORK: &str = "\
 Work given to the bounds, as what takes about so many seconds of a core; it is counted. 0 for no \

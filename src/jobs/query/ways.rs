@@ -11,11 +11,11 @@ use super::Query;
 use crate::pipeline::{self, Clock};
 use physics::configuration::Configuration;
 use physics::landscape::capture::FarStarts;
-use physics::landscape::certificate::End;
 use physics::landscape::constrained::Point;
+use physics::landscape::exploration::Exploration;
+use physics::landscape::minimax::End;
 use physics::landscape::minimum::descend;
 use physics::landscape::pathway::{self, Limits};
-use physics::landscape::survey::Survey;
 use physics::landscape::{Pathway, capture, highest_point};
 use physics::observer::Observer;
 use physics::order::Order;
@@ -55,7 +55,7 @@ impl<'a> Search<'a> {
 
     /// Adds the ways in which far starts come to rest, where the way that is asked for leads to
     /// `free`.
-    fn add_arrivals(&self, survey: &mut Survey) {
+    fn add_arrivals(&self, survey: &mut Exploration) {
         if self.query.to != End::Free {
             return;
         }
@@ -110,7 +110,8 @@ impl<'a> Search<'a> {
             return Pathway::new();
         };
         let peaks = peaks(self.problem, &points);
-        let mut survey = Survey::of_roadmap(self.problem, Roadmap::default(), &self.roadmap.edges);
+        let mut survey =
+            Exploration::of_roadmap(self.problem, Roadmap::default(), &self.roadmap.edges);
         let from = self.attach(&mut survey, &self.query.from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),
@@ -130,7 +131,7 @@ impl<'a> Search<'a> {
         self.lowest(&survey, from, goal)
     }
 
-    fn lowest(&self, survey: &Survey, from: usize, to: usize) -> Pathway {
+    fn lowest(&self, survey: &Exploration, from: usize, to: usize) -> Pathway {
         let goal = HashSet::from([to]);
         pathway::lowest(
             self.problem,
@@ -144,7 +145,7 @@ impl<'a> Search<'a> {
 
     /// Adds a configuration to the network, joined by its descent and by the straight motions to
     /// the nearest nodes.
-    fn attach(&self, survey: &mut Survey, q: &Configuration) -> usize {
+    fn attach(&self, survey: &mut Exploration, q: &Configuration) -> usize {
         let problem = self.problem;
         let near = self.nearest(survey, q);
         let node = survey.network.add_node(Some((*q, problem.energy(q))));
@@ -172,7 +173,7 @@ impl<'a> Search<'a> {
     }
 
     /// The nodes nearest to a configuration, with theirs.
-    fn nearest(&self, survey: &Survey, q: &Configuration) -> Vec<(usize, Configuration)> {
+    fn nearest(&self, survey: &Exploration, q: &Configuration) -> Vec<(usize, Configuration)> {
         let nodes = survey.network.nodes.iter().enumerate();
         let mut near: Vec<(f64, usize, Configuration)> = nodes
             .filter_map(|(number, known)| {

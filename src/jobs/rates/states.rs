@@ -33,10 +33,10 @@ impl RatedState {
         traps: usize,
         basin_energy: Option<f64>,
     ) -> Vec<Self> {
-        let inventory = &analysis.inventory;
+        let catalogue = &analysis.catalogue;
         let mut held: Vec<Self> = Vec::new();
         let mut passes: Vec<f64> = Vec::new();
-        for kind in inventory.kinds() {
+        for kind in catalogue.kinds() {
             let state = kind.first();
             let Some(escape) = analysis.escape(state.id) else {
                 continue;
@@ -60,7 +60,7 @@ impl RatedState {
             let given = basin_energy.filter(|_| kind.is_bond());
             passes.push(state.energy + barrier);
             held.push(Self {
-                name: inventory.name_of(Place::State(state.id)),
+                name: catalogue.name_of(Place::State(state.id)),
                 at: state.configuration,
                 energy: state.energy,
                 below: given.unwrap_or(usual.below),

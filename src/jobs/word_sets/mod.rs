@@ -2,7 +2,7 @@
 //!
 //! - [`Request`] - all that reproduces an answer of [`physics::words::answer()`];
 //! - [`Spaced`] - words with magnets anywhere along the face, searched and judged over all poses;
-//! - [`bar()`] - the magnets of a design's face; [`file`] - `words.toml`, as [`crate::design::WordSet`]
+//! - [`bar()`] - the magnets of a design's face; [`mod@file`] - `words.toml`, as [`crate::design::WordSet`]
 //!   reads it.
 
 mod bar;

@@ -12,7 +12,7 @@ use physics::dynamics::docking::{self, Docking, DockingError, DockingSettings, E
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::bond::Hold;
 use physics::kinetics::rates::{Basin, RateSettings, rates};
-use physics::landscape::Inventory;
+use physics::landscape::Catalogue;
 use physics::order::Order;
 use physics::problem::Problem;
 
@@ -148,8 +148,8 @@ pub(super) fn attached(
 ) -> Result<Attachments, YieldError> {
     let (problem, effort) = (&analysis.problem, &question.effort);
     if effort.source == Source::Docking {
-        let inventory = &analysis.inventory;
-        return Ok(count(problem, inventory, kt, effort, question.seed)?);
+        let catalogue = &analysis.catalogue;
+        return Ok(count(problem, catalogue, kt, effort, question.seed)?);
     }
     let basins: Vec<Option<Basin>> = holds
         .iter()
@@ -218,7 +218,7 @@ fn table(problem: &Problem) -> f64 {
 /// As [`docking::dock`].
 pub fn count(
     problem: &Problem,
-    inventory: &Inventory,
+    catalogue: &Catalogue,
     kt: f64,
     effort: &Effort,
     seed: u64,
@@ -247,11 +247,11 @@ pub fn count(
         threshold: None,
     };
     let docking = docking::dock(problem, &settings, &|| ())?;
-    Ok(tally(problem, inventory, &docking))
+    Ok(tally(problem, catalogue, &docking))
 }
 
-fn tally(problem: &Problem, inventory: &Inventory, docking: &Docking) -> Attachments {
-    let kinds: Vec<_> = inventory.kinds().collect();
+fn tally(problem: &Problem, catalogue: &Catalogue, docking: &Docking) -> Attachments {
+    let kinds: Vec<_> = catalogue.kinds().collect();
     // The bond first, then the traps, as their holds are listed.
     let mut order: Vec<usize> = (0..kinds.len()).collect();
     order.order_by_key(|&k| !kinds[k].is_bond());

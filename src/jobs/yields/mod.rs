@@ -184,8 +184,8 @@ pub fn yields(
         return Err(YieldError::Many(count));
     }
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
-    let (problem, inventory) = (&analysis.problem, &analysis.inventory);
-    let bond = Bond::new(problem, inventory)?;
+    let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
+    let bond = Bond::new(problem, catalogue)?;
     let hold = bond.hold();
     let refused = |kt: f64| match () {
         // Tiles that fast meet things a million times in a run, and nothing comes of it.
@@ -196,7 +196,7 @@ pub fn yields(
     let usable = question.kts.iter().copied();
     let usable = usable.filter(|kt| refused(*kt).is_none());
     let coldest = usable.fold(f64::INFINITY, f64::min);
-    let traps = traps(problem, inventory, coldest);
+    let traps = traps(problem, catalogue, coldest);
     let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);

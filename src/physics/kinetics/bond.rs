@@ -8,7 +8,7 @@ use super::well::{Estimate, Well};
 use crate::configuration::Configuration;
 use crate::interruption;
 use crate::landscape::constrained::Point;
-use crate::landscape::{Inventory, Kind, Place};
+use crate::landscape::{Catalogue, Kind, Place};
 use crate::problem::Problem;
 use crate::tile::Pair;
 
@@ -87,12 +87,12 @@ impl Docking {
 }
 
 impl<'a> Hold<'a> {
-    /// A kind of states of an inventory; its basin is flooded.
-    fn new(problem: &'a Problem, inventory: &Inventory, kind: &Kind, name: String) -> Self {
+    /// A kind of states of an catalogue; its basin is flooded.
+    fn new(problem: &'a Problem, catalogue: &Catalogue, kind: &Kind, name: String) -> Self {
         interruption::check();
         let state = kind.first();
         let minimum = Point::new(problem, state.configuration);
-        let others = inventory.states.iter().filter(|other| other.id != state.id);
+        let others = catalogue.states.iter().filter(|other| other.id != state.id);
         let others: Vec<_> = others.map(|other| other.configuration).collect();
         Self {
             name,
@@ -100,7 +100,7 @@ impl<'a> Hold<'a> {
             energy: minimum.energy,
             copies: kind.copies(),
             moving_copies: problem.symmetries.iter().filter(|s| s.fixed == 0.0).count(),
-            well: Well::new(problem, &minimum, pass(inventory, kind), &others),
+            well: Well::new(problem, &minimum, pass(catalogue, kind), &others),
             area: problem.pair.as_ref().map_or(0.0, |pair| area(pair)),
         }
     }
@@ -167,18 +167,18 @@ impl<'a> Hold<'a> {
 }
 
 impl<'a> Bond<'a> {
-    /// The bond of an inventory.
+    /// The bond of an catalogue.
     ///
     /// # Errors
     /// Where there is none.
-    pub fn new(problem: &'a Problem, inventory: &Inventory) -> Result<Self, BondError> {
+    pub fn new(problem: &'a Problem, catalogue: &Catalogue) -> Result<Self, BondError> {
         problem.pair.as_ref().ok_or(BondError::NoTiles)?;
-        let kind = inventory
+        let kind = catalogue
             .kinds()
             .find(Kind::is_bond)
             .ok_or(BondError::NoBond)?;
-        let name = inventory.names()[kind.first().id].clone();
-        Ok(Self(Hold::new(problem, inventory, &kind, name)))
+        let name = catalogue.names()[kind.first().id].clone();
+        Ok(Self(Hold::new(problem, catalogue, &kind, name)))
     }
 
     /// The bond as a hold.
@@ -235,26 +235,26 @@ impl<'a> Bond<'a> {
     }
 }
 
-/// The kinds of traps of an inventory that are deep enough to hold anything at kT (J), in the
-/// inventory's order.
-pub fn traps<'a>(problem: &'a Problem, inventory: &Inventory, kt: f64) -> Vec<Trap<'a>> {
-    let names = inventory.names();
+/// The kinds of traps of an catalogue that are deep enough to hold anything at kT (J), in the
+/// catalogue's order.
+pub fn traps<'a>(problem: &'a Problem, catalogue: &Catalogue, kt: f64) -> Vec<Trap<'a>> {
+    let names = catalogue.names();
     let is_deep = |kind: &Kind| -kind.first().energy >= LEAST_DEPTH * kt;
-    let kinds = inventory
+    let kinds = catalogue
         .kinds()
         .filter(|kind| !kind.is_bond() && is_deep(kind));
-    let trap = |kind: Kind| Hold::new(problem, inventory, &kind, names[kind.first().id].clone());
+    let trap = |kind: Kind| Hold::new(problem, catalogue, &kind, names[kind.first().id].clone());
     kinds.map(trap).collect()
 }
 
 /// The lowest energy (J) at which a known way leads out of a kind of states.
-fn pass(inventory: &Inventory, kind: &Kind) -> f64 {
+fn pass(catalogue: &Catalogue, kind: &Kind) -> f64 {
     let is_own = |place: Place| {
         kind.states
             .iter()
             .any(|state| place == Place::State(state.id))
     };
-    let ways = inventory.barriers.iter();
+    let ways = catalogue.barriers.iter();
     let ways = ways.filter(|way| is_own(way.from) != is_own(way.to));
     ways.map(|way| way.saddle_energy)
         .fold(f64::INFINITY, f64::min)

@@ -1,31 +1,31 @@
 //! What is asked of an energy landscape: its minima, barriers and pathways.
 
 pub mod approach;
+pub mod barrier_bounds;
 pub mod capture;
-pub mod certificate;
-pub mod certification;
-pub mod completeness;
+pub mod catalogue;
 pub mod constrained;
+pub mod exploration;
 mod foresight;
-pub mod inventory;
 pub mod map;
 pub mod meeting;
 mod metered;
+pub mod minimax;
 pub mod minimum;
-pub mod network;
+pub mod missing_states;
 mod orientation;
 pub mod pathway;
 pub mod results;
 pub mod slides;
 pub mod stationary;
-pub mod survey;
+pub mod transition_network;
 pub mod volume;
 
-pub use certification::{Claims, Uncertified};
-pub use completeness::{Completeness, CompletenessSettings};
-pub use inventory::{Inventory, Kind};
+pub use barrier_bounds::{Claims, Uncertified};
+pub use catalogue::{Catalogue, Kind};
+pub use exploration::LeftOut;
+pub use missing_states::{Completeness, CompletenessSettings};
 pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
     State, StateKind, Uncaptured, highest_point, work,
 };
-pub use survey::LeftOut;

@@ -89,7 +89,7 @@ impl Roadmap {
     }
 
     /// The same, but whether the motions are free and what they cost is left to be found out by who
-    /// needs it ([`crate::landscape::network`]): of most, nobody ever asks.
+    /// needs it ([`crate::landscape::transition_network`]): of most, nobody ever asks.
     pub fn untried(
         problem: &Problem,
         settings: &RoadmapSettings,

@@ -7,7 +7,7 @@ use tilebind::design::Design;
 use tilebind::kinetics::bond::Shaking;
 use tilebind::kinetics::exit::ExitError;
 use tilebind::kinetics::rates::RatesError;
-use tilebind::landscape::Inventory;
+use tilebind::landscape::Catalogue;
 use tilebind::problem::Problem;
 use tilebind::rates;
 use tilebind::report::bond::document as bond_document;
@@ -65,7 +65,7 @@ pub fn rates<'py>(
 pub fn bond<'py>(
     py: Python<'py>,
     design: &Design,
-    found: (&Problem, &Inventory),
+    found: (&Problem, &Catalogue),
     shaking: Shaking,
 ) -> PyResult<Bound<'py, PyAny>> {
     fault::positive("kt", Some(shaking.kt))?;

@@ -77,7 +77,7 @@ pub fn kt_of_bonds<'py>(
     let found = job::quietly(py, || {
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, &Silent);
-        let bond = Bond::new(&analysis.problem, &analysis.inventory);
+        let bond = Bond::new(&analysis.problem, &analysis.catalogue);
         bond.map(|bond| report::calibration::intervals(design, &times, &bond, area).report())
     })?;
     convert::json(py, &found.map_err(fault::run)?)

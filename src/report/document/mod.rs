@@ -1,9 +1,8 @@
 //! A result as one document that every output reads.
 //!
-//! One function makes the [`Document`] of a result; the terminal ([`text`]), JSON ([`data`]), CSV
-//! ([`data`]), the page ([`page`]) and pictures ([`super::plots`]) are made from it. A new figure or
-//! column is one entry of the document and appears in all of them; `.in_data()` and `.in_view()` keep
-//! one to programs or to people.
+//! One function makes the [`Document`] of a result; the terminal's text, JSON, CSV, the page and
+//! pictures ([`super::plots`]) are made from it. A new figure or column is one entry of the document
+//! and appears in all of them; `.in_data()` and `.in_view()` keep one to programs or to people.
 
 mod cell;
 mod data;

@@ -142,7 +142,7 @@ pub fn table(played: &[Played]) -> Table {
 /// as there is room for; then the ways between the bond, the deepest trap and `free` that are the
 /// best by something else.
 pub fn played(scene: &Scene) -> Vec<Played> {
-    let bond = scene.inventory.bound_state.map(Place::State);
+    let bond = scene.catalogue.bound_state.map(Place::State);
     let docking = scene.docking().zip(bond).map(|(pathway, bond)| {
         let name = format!("docking: free to {}", scene.name_of(bond));
         Played::of_pathway(name, [Place::Free, bond], LOWEST, &pathway)
@@ -162,7 +162,7 @@ pub fn played(scene: &Scene) -> Vec<Played> {
         })
     });
     let mut played: Vec<Played> = docking.into_iter().chain(others).take(MOST).collect();
-    let alternatives = scene.inventory.alternatives.iter();
+    let alternatives = scene.catalogue.alternatives.iter();
     played.extend(alternatives.filter(|way| way.pathway.len() > 1).map(|way| {
         let ends = [way.from, way.to];
         let by = match way.by {

@@ -60,10 +60,10 @@ pub fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tre
 
 /// Why no way leads from a tree to `free`; `None` for the tree that holds `free`.
 pub fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
-    let mut kinds = scene.inventory.kinds();
+    let mut kinds = scene.catalogue.kinds();
     let is_caged = |kind: Kind| {
         let first = kind.first();
-        let escape = scene.inventory.escape_of_kind(scene.problem, first.id);
+        let escape = scene.catalogue.escape_of_kind(scene.problem, first.id);
         tree.holds(Some(first.class)) && escape.is_some_and(|way| way.bounds.caged)
     };
     match tree.holds(None) {

@@ -69,7 +69,7 @@ impl Curves {
             let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
             gaps.iter().map(at).collect::<Vec<_>>()
         };
-        let bond = scene.inventory.first(StateKind::Bond);
+        let bond = scene.catalogue.first(StateKind::Bond);
         let curves = Self {
             dipoles: energies(&*dipoles),
             blocks: energies(&*blocks),

@@ -4,7 +4,7 @@ use ordered_float::OrderedFloat;
 
 use super::marks::Mark;
 use jobs::design::Design;
-use physics::landscape::{Barrier, Inventory, Kind, Pathway, Place, State, pathway};
+use physics::landscape::{Barrier, Catalogue, Kind, Pathway, Place, State, pathway};
 use physics::order::Order;
 use physics::potential::Interaction;
 use physics::problem::Problem;
@@ -22,18 +22,18 @@ pub struct Scene<'a> {
     /// The tiles themselves.
     pub pair: &'a Pair,
     /// States and barriers; empty before an analysis.
-    pub inventory: &'a Inventory,
+    pub catalogue: &'a Catalogue,
 }
 
 impl<'a> Scene<'a> {
     /// The scene of a design.
-    pub fn new(design: &'a Design, problem: &'a Problem, inventory: &'a Inventory) -> Self {
+    pub fn new(design: &'a Design, problem: &'a Problem, catalogue: &'a Catalogue) -> Self {
         Self {
             name: &design.name,
             interaction: &design.interaction,
             problem,
             pair: &design.pair,
-            inventory,
+            catalogue,
         }
     }
 
@@ -48,7 +48,7 @@ impl<'a> Scene<'a> {
 
     /// All states.
     pub fn states(&self) -> &'a [State] {
-        &self.inventory.states
+        &self.catalogue.states
     }
 
     /// The state with an id.
@@ -58,7 +58,7 @@ impl<'a> Scene<'a> {
 
     /// The kinds of states, the lowest first.
     pub fn kinds(&self) -> Vec<Kind<'a>> {
-        let mut kinds: Vec<_> = self.inventory.kinds().collect();
+        let mut kinds: Vec<_> = self.catalogue.kinds().collect();
         kinds.order_by_key(|kind| OrderedFloat(kind.first().energy));
         kinds
     }
@@ -74,8 +74,8 @@ impl<'a> Scene<'a> {
     /// The way out of each kind over its lowest barrier, the deepest kind first; only those with
     /// a pathway.
     pub fn main_escapes(&self) -> Vec<&'a Barrier> {
-        let inventory = self.inventory;
-        let escape = |kind: Kind| inventory.escape_of_kind(self.problem, kind.first().id);
+        let catalogue = self.catalogue;
+        let escape = |kind: Kind| catalogue.escape_of_kind(self.problem, kind.first().id);
         let escapes = self.kinds().into_iter().filter_map(escape);
         escapes
             .filter(|barrier| barrier.pathway.len() > 1)
@@ -84,7 +84,7 @@ impl<'a> Scene<'a> {
 
     /// The barriers over which a way is known.
     pub fn barriers(&self) -> impl Iterator<Item = &'a Barrier> {
-        self.inventory
+        self.catalogue
             .barriers
             .iter()
             .filter(|barrier| barrier.has_way())
@@ -92,7 +92,7 @@ impl<'a> Scene<'a> {
 
     /// The way from far away into the bond.
     pub fn docking(&self) -> Option<Pathway> {
-        let way_out = self.inventory.way_out_of_the_bond()?;
+        let way_out = self.catalogue.way_out_of_the_bond()?;
         (way_out.pathway.len() > 1).then(|| pathway::reversed(&way_out.pathway))
     }
 
@@ -106,11 +106,11 @@ impl<'a> Scene<'a> {
 
     /// What a place is called on a picture.
     pub fn name_of(&self, place: Place) -> String {
-        self.inventory.name_of(place)
+        self.catalogue.name_of(place)
     }
 
     /// The letters of a kind of states.
     pub fn letters(&self, kind: &Kind) -> String {
-        self.inventory.names()[kind.first().id].clone()
+        self.catalogue.names()[kind.first().id].clone()
     }
 }

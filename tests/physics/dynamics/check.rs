@@ -45,12 +45,12 @@ fn checked(
     (design, analysis): &(Design, Analysis),
     change: impl Fn(&mut Vec<Barrier>),
 ) -> Vec<BarrierCheck> {
-    let mut barriers = analysis.inventory.barriers.clone();
+    let mut barriers = analysis.catalogue.barriers.clone();
     change(&mut barriers);
     check(
         &analysis.problem,
         Body::of_tile(&design.pair.moving),
-        &analysis.inventory.states,
+        &analysis.catalogue.states,
         &barriers.iter().collect::<Vec<_>>(),
         &few(),
         &|_, _| (),

@@ -6,17 +6,17 @@ mod paper_tile;
 use std::sync::OnceLock;
 
 use paper_tile::{Pair, pair};
-use tilebind::landscape::Inventory;
+use tilebind::landscape::Catalogue;
 use tilebind::report::plots::{Figure, Picture, Scene, Sheet, draw_all};
 
-fn draw(pair: &Pair, inventory: &Inventory, sheet: &Sheet) -> Vec<Figure> {
-    let scene = Scene::new(&pair.design, &pair.problem, inventory);
+fn draw(pair: &Pair, catalogue: &Catalogue, sheet: &Sheet) -> Vec<Figure> {
+    let scene = Scene::new(&pair.design, &pair.problem, catalogue);
     draw_all(&scene, sheet).unwrap()
 }
 
 fn figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
-    FIGURES.get_or_init(|| draw(pair(), &pair().inventory, &Sheet::SCREEN))
+    FIGURES.get_or_init(|| draw(pair(), &pair().catalogue, &Sheet::SCREEN))
 }
 
 /// All pictures by their names.
@@ -141,7 +141,7 @@ fn every_picture_says_what_it_shows() {
 #[test]
 fn barriers_are_marked_with_their_height_and_their_bounds() {
     let texts = texts_of("profiles");
-    let slid = pair().inventory.escape(&pair().problem, 16).unwrap();
+    let slid = pair().catalogue.escape(&pair().problem, 16).unwrap();
     let height = tilebind::units::si(slid.forward(), "J", 4);
     assert!(texts.contains(&format!("barrier {height}").as_str()));
     assert!(texts.iter().any(|text| text.starts_with("certified ")));
@@ -192,7 +192,7 @@ fn print() -> Sheet {
 /// each other, and no title repeats the caption.
 #[test]
 fn pictures_for_print_have_the_width_that_was_asked_for() {
-    for figure in draw(pair(), &pair().inventory, &print()) {
+    for figure in draw(pair(), &pair().catalogue, &print()) {
         let [(name, picture)] = &figure.pictures[..] else {
             panic!("{} pictures", figure.pictures.len());
         };
@@ -221,7 +221,7 @@ fn pictures_for_print_have_the_width_that_was_asked_for() {
 
 #[test]
 fn panels_can_be_pictures_of_their_own() {
-    let apart = draw(pair(), &pair().inventory, &print().with_panels_apart());
+    let apart = draw(pair(), &pair().catalogue, &print().with_panels_apart());
     let names = |figure: &Figure| -> Vec<String> {
         figure
             .pictures
@@ -275,7 +275,7 @@ fn the_numbers_beside_a_picture_are_those_it_shows() {
 
 #[test]
 fn an_analysis_without_states_still_has_its_maps() {
-    let drawn = draw(pair(), &Inventory::default(), &Sheet::SCREEN);
+    let drawn = draw(pair(), &Catalogue::default(), &Sheet::SCREEN);
     let names: Vec<_> = drawn.iter().map(|figure| &figure.name[..]).collect();
     assert_eq!(names, ["map", "approach", "models"]);
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use tilebind::design::Design;
 use tilebind::landscape::minimum::descend;
 use tilebind::landscape::{
-    Barrier, Inventory, Pathway, PathwayPoint, Place, SaddleBounds, State, StateKind,
+    Barrier, Catalogue, Pathway, PathwayPoint, Place, SaddleBounds, State, StateKind,
 };
 use tilebind::{Configuration, Problem};
 
@@ -20,7 +20,7 @@ const TURNS: usize = 4;
 pub struct Pair {
     pub design: Design,
     pub problem: Problem,
-    pub inventory: Inventory,
+    pub catalogue: Catalogue,
 }
 
 pub const BOUND: Configuration = Configuration::new(SIDE, 0.0, 0.0);
@@ -37,9 +37,9 @@ impl Pair {
         let mut pair = Self {
             problem: design.problem(),
             design,
-            inventory: Inventory {
+            catalogue: Catalogue {
                 bound_state: Some(0),
-                ..Inventory::default()
+                ..Catalogue::default()
             },
         };
         pair.add_states();
@@ -62,15 +62,15 @@ impl Pair {
         ];
         for (q, bound) in poses {
             let q = self.minimum(q);
-            let class = self.inventory.states.len();
+            let class = self.catalogue.states.len();
             for side in 0..TURNS {
                 for turn in 0..TURNS {
                     let turned = Configuration::new(0.0, 0.0, side as f64 * 90f64.to_radians());
                     let p = turned.transform(q.position());
                     let theta = q.theta + (side + turn) as f64 * 90f64.to_radians();
                     let q = Configuration::from([p.x, p.y, theta]);
-                    self.inventory.states.push(State {
-                        id: self.inventory.states.len(),
+                    self.catalogue.states.push(State {
+                        id: self.catalogue.states.len(),
                         kind: if bound {
                             StateKind::Bond
                         } else {
@@ -132,14 +132,14 @@ impl Pair {
     }
 
     fn add(&mut self, from: usize, to: Place, waypoints: &[Configuration], width: Option<f64>) {
-        let start = self.inventory.states[from].configuration;
+        let start = self.catalogue.states[from].configuration;
         let pathway = self.pathway(start, waypoints);
         let saddle = *pathway
             .iter()
             .max_by_key(|p| OrderedFloat(p.energy))
             .unwrap();
         let margin = width.map(|share| share * saddle.energy.abs().max(1e-3));
-        self.inventory.barriers.push(Barrier {
+        self.catalogue.barriers.push(Barrier {
             from: Place::State(from),
             to,
             saddle_energy: saddle.energy,
@@ -149,10 +149,10 @@ impl Pair {
                 upper: margin.map(|m| saddle.energy + m),
                 caged: false,
             },
-            from_energy: self.inventory.states[from].energy,
+            from_energy: self.catalogue.states[from].energy,
             to_energy: match to {
                 Place::Free => 0.0,
-                Place::State(id) => self.inventory.states[id].energy,
+                Place::State(id) => self.catalogue.states[id].energy,
             },
             spread: None,
             pathway,

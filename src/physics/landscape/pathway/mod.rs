@@ -7,8 +7,8 @@ mod shortcut;
 use std::collections::HashSet;
 
 use super::constrained::Point;
-use super::network::{Cost, Network, Route, Way};
 use super::results::{Pathway, PathwayPoint, highest_point};
+use super::transition_network::{Cost, Network, Route, Way};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
 use crate::roadmap::Milestone;

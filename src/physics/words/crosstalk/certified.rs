@@ -15,7 +15,7 @@ use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::contact::cells::{CellContact, ContactCells};
 use crate::interruption;
-use crate::landscape::certificate::lower::{Assessment, assess_open};
+use crate::landscape::minimax::lower::{Assessment, assess_open};
 use crate::parallel;
 use crate::potential::bounds::Enclosure;
 use crate::tile::Magnet;

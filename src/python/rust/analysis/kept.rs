@@ -5,7 +5,7 @@ use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 use tilebind::budget::Ended;
 use tilebind::dynamics::check::BarrierCheck;
-use tilebind::landscape::{Completeness, Inventory, Uncaptured, Uncertified};
+use tilebind::landscape::{Catalogue, Completeness, Uncaptured, Uncertified};
 use tilebind::pipeline::{Counts, Stage};
 use tilebind::roadmap::RoadmapSettings;
 use tilebind::sweep::Source;
@@ -22,7 +22,7 @@ struct Kept {
     settings: Settings,
     roadmap: RoadmapSettings,
     bound: (Configuration, f64),
-    inventory: Inventory,
+    catalogue: Catalogue,
     completeness: Result<Completeness, Uncertified>,
     uncaptured: Uncaptured,
     ring: [f64; 2],
@@ -47,7 +47,7 @@ impl Analysis {
             settings: found.settings.clone(),
             roadmap: found.roadmap,
             bound: found.bound,
-            inventory: found.inventory.clone(),
+            catalogue: found.catalogue.clone(),
             completeness: found.completeness.clone(),
             uncaptured: found.uncaptured,
             ring: found.ring,
@@ -71,7 +71,7 @@ impl Analysis {
             settings: kept.settings,
             roadmap: kept.roadmap,
             bound: kept.bound,
-            inventory: kept.inventory,
+            catalogue: kept.catalogue,
             completeness: kept.completeness,
             uncaptured: kept.uncaptured,
             ring: kept.ring,

@@ -61,7 +61,7 @@ pub struct Analysis {
 impl Analysis {
     fn scene(&self) -> Scene<'_> {
         let design = &self.content.design;
-        Scene::new(design, &self.found.problem, &self.found.inventory)
+        Scene::new(design, &self.found.problem, &self.found.catalogue)
     }
 
     fn document<'a>(&'a self, extent: Extent, scene: &'a Scene<'a>) -> Document<'a> {
@@ -82,7 +82,7 @@ impl Analysis {
                 return Ok(Place::Free);
             }
             // What people call a state, A or B'.
-            let names = self.found.inventory.names();
+            let names = self.found.catalogue.names();
             if let Some(id) = names.iter().position(|name| *name == word) {
                 return Ok(Place::State(id));
             }
@@ -93,21 +93,21 @@ impl Analysis {
         }
         let id: i64 = place.extract()?;
         match usize::try_from(id) {
-            Ok(id) if id < self.found.inventory.states.len() => Ok(Place::State(id)),
+            Ok(id) if id < self.found.catalogue.states.len() => Ok(Place::State(id)),
             Err(_) if id == FREE => Ok(Place::Free),
             _ => Err(fault::value(format!(
                 "there is no state {id}: there are {}, from 0",
-                self.found.inventory.states.len()
+                self.found.catalogue.states.len()
             ))),
         }
     }
 
     /// The way between two places, if one is known.
     fn way(&self, from: Place, to: Place) -> Option<tilebind::landscape::Pathway> {
-        let inventory = &self.found.inventory;
+        let catalogue = &self.found.catalogue;
         let known = |from: Place, to: Place| -> Option<Barrier> {
             let is_it = |barrier: &&Barrier| (barrier.from, barrier.to) == (from, to);
-            let listed = inventory.barriers.iter().find(is_it).cloned();
+            let listed = catalogue.barriers.iter().find(is_it).cloned();
             let escape = || match from {
                 Place::State(id) => self.found.escape(id).filter(|escape| escape.to == to),
                 Place::Free => None,

@@ -38,7 +38,7 @@ impl Analysis {
     /// length.
     #[getter]
     fn barriers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let mut columns = table::of_table(&barriers(&self.found.inventory.barriers));
+        let mut columns = table::of_table(&barriers(&self.found.catalogue.barriers));
         // The files of the pathways.
         columns.retain(|(name, _)| name != "pathway");
         table::structured(py, columns)
@@ -174,7 +174,7 @@ impl Analysis {
     /// dict
     ///     `bond_kT`, `docking_cost_kT`, `ln_K`, `two_hold_one_does_not_J` and more.
     fn bond<'py>(&self, py: Python<'py>, kt: f64, coverage: f64) -> PyResult<Bound<'py, PyAny>> {
-        let found = (&*self.found.problem, &self.found.inventory);
+        let found = (&*self.found.problem, &self.found.catalogue);
         let shaking = Shaking { kt, coverage };
         kinetics::bond(py, &self.content.design, found, shaking)
     }

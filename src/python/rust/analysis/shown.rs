@@ -211,13 +211,13 @@ impl Analysis {
     }
 
     fn __repr__(&self) -> String {
-        let inventory = &self.found.inventory;
+        let catalogue = &self.found.catalogue;
         format!(
             "<tilebind.Analysis {:?}, {} states in {} kinds, {} barriers>",
             self.content.design.name,
-            inventory.states.len(),
-            inventory.kinds().count(),
-            inventory.barriers.len()
+            catalogue.states.len(),
+            catalogue.kinds().count(),
+            catalogue.barriers.len()
         )
     }
 }

@@ -1,0 +1,303 @@
+//! Certified bounds for the barriers of an catalogue.
+
+mod escapes;
+mod joined;
+mod schedule;
+
+use std::collections::VecDeque;
+
+use super::catalogue::{Catalogue, LEAST_GAIN};
+use super::minimax::{Bracket, Certifier, Effort, End};
+use super::pathway::{self, Limits};
+use super::results::{Barrier, Pathway, Place, StateKind, highest_point};
+use crate::budget::{Allowance, Ended};
+use crate::configuration::Configuration;
+use crate::observer::Observer;
+use crate::order::Order;
+use crate::potential::Unbounded;
+use crate::problem::Problem;
+
+pub use schedule::widths;
+
+/// Bounds are narrowed once more where no more than this share of a width is wanted after all.
+const LESS: f64 = 0.75;
+
+/// Energy tolerance of pathways, as a fraction of the bond's depth.
+const BEND: f64 = 1e-3;
+
+/// How barriers are certified.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CertificationSettings {
+    /// Width (J) to which bounds are narrowed; where `None`, a hundredth of the bond or a twentieth
+    /// of the barrier, whichever is less.
+    pub tolerance: Option<f64>,
+    /// What may be spent on all of it; where it ends the bounds known by then are kept.
+    pub allowed: Allowance,
+    /// Cells spent on the bounds of one barrier at most.
+    pub cells: usize,
+    /// Which barriers are certified.
+    pub claims: Claims,
+}
+
+/// The barriers of which more is claimed than the roadmap's estimate: they are certified, and
+/// checked by moving tiles where that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Claims {
+    /// All that are reported.
+    All,
+    /// The ways out of the bond to `free` and out of the deepest trap.
+    BondAndDeepestTrap,
+}
+
+impl Claims {
+    /// Whether a barrier of an catalogue is among them.
+    pub fn include(self, barrier: &Barrier, catalogue: &Catalogue) -> bool {
+        let is_from = |kind| {
+            let first = catalogue.first(kind).map(|state| Place::State(state.id));
+            first == Some(barrier.from)
+        };
+        let is_out_of_the_bond = is_from(StateKind::Bond) && barrier.to == Place::Free;
+        self == Self::All || is_out_of_the_bond || is_from(StateKind::Trap)
+    }
+}
+
+/// Why barriers have no certified bounds.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
+pub enum Uncertified {
+    /// None was asked for.
+    #[error("no proof was asked for")]
+    Unasked,
+    /// It took more.
+    #[error("{} before the first bounds", .0.describe())]
+    Ended(Ended),
+    /// None can be.
+    #[error(transparent)]
+    Unbounded(#[from] Unbounded),
+}
+
+/// What certifying took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certified {
+    /// Cells assessed.
+    pub cells: usize,
+    /// What ended it before all bounds were as narrow as was asked for; `None` where nothing did but
+    /// the cells that one barrier is worth.
+    pub ended: Option<Ended>,
+}
+
+/// Brackets every barrier of an catalogue between two bounds that hold for the model, and takes
+/// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
+/// proof is tried that there is none.
+///
+/// Brackets are narrowed [step by step](widths), and the best bounds seen are kept: more work never
+/// makes one wider, and where one width is asked for of all, neither does a smaller width.
+///
+/// The results are the same on every machine, unless a clock ends the work.
+///
+/// # Errors
+/// Where nothing is certified; the catalogue is then left as it is.
+pub fn certify(
+    problem: &Problem,
+    catalogue: &mut Catalogue,
+    settings: &CertificationSettings,
+    observer: &dyn Observer,
+) -> Result<Certified, Uncertified> {
+    let bounds = problem.bounds()?;
+    let depth = problem.depth();
+    let contact = problem.contact.as_ref();
+    let mut certifier = Certifier::within(bounds, contact, &problem.space, settings.allowed)?;
+    let mut ended = None;
+    let mut left: Vec<usize> = vec![settings.cells; catalogue.barriers.len()];
+    let mut most = vec![f64::INFINITY; catalogue.barriers.len()];
+    let mut rounds = VecDeque::from(schedule::rounds(catalogue, settings, depth));
+    let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
+    let mut done = 0;
+    while let Some((width, numbers)) = rounds.pop_front() {
+        // The width (J) that a barrier's bounds are to be narrowed to, if they are to be.
+        let open = |catalogue: &Catalogue, left: &[usize], number: usize| {
+            let barrier = &catalogue.barriers[number];
+            let wanted = schedule::wanted(barrier, settings, depth);
+            let is_done = barrier.bounds.width() <= width.max(wanted) || left[number] == 0;
+            (!is_done).then(|| schedule::step(width, wanted, settings))
+        };
+        let foreseen = numbers.iter().filter_map(|&number| {
+            let tolerance = open(catalogue, &left, number)?;
+            let (start, _, known) = ends(catalogue, &catalogue.barriers[number])?;
+            Some((start, known, tolerance))
+        });
+        certifier.foresee(&foreseen.collect::<Vec<_>>());
+        // Barriers that turned out so much lower that more is wanted of their bounds.
+        let mut lowered = Vec::new();
+        for number in numbers {
+            observer.part("certificate", done, count);
+            done += 1;
+            let Some(tolerance) = open(catalogue, &left, number) else {
+                continue;
+            };
+            ended = certifier.ended();
+            if ended.is_some() {
+                continue;
+            }
+            let effort = Effort {
+                tolerance,
+                cells: left[number],
+            };
+            let narrowed = narrow(problem, &mut certifier, catalogue, number, &effort);
+            if catalogue.barriers[number].bounds.width() > tolerance {
+                ended = certifier.ended();
+            }
+            most[number] = narrowed.most;
+            left[number] = schedule::cells_left(
+                left[number].saturating_sub(narrowed.cells),
+                catalogue.barriers[number].bounds.width() <= effort.tolerance,
+                settings,
+            );
+            if open(catalogue, &left, number).is_some_and(|next| next < LESS * effort.tolerance) {
+                lowered.push(number);
+                count += 1;
+            }
+            if narrowed.beside.is_some_and(|way| catalogue.add_way(way)) {
+                // The new one is narrowed further where this one is.
+                for (_, later) in rounds
+                    .iter_mut()
+                    .filter(|(_, later)| later.contains(&number))
+                {
+                    later.push(left.len());
+                    count += 1;
+                }
+                left.push(left[number]);
+                most.push(f64::INFINITY);
+            }
+        }
+        joined::take_over_chains(&problem.space, catalogue, LEAST_GAIN * depth);
+        if !lowered.is_empty() {
+            rounds.push_front((width, lowered));
+        }
+    }
+    raise(&certifier, catalogue, &most);
+    // What was found beside a barrier stands beside it.
+    catalogue.barriers.order_by_key(|barrier| barrier.from);
+    Ok(Certified {
+        cells: certifier.assessed(),
+        ended,
+    })
+}
+
+/// Raises lower bounds to what follows from all that was proved, after they were narrowed too, but none
+/// above the `most` (J) that may be said of its barrier.
+fn raise(certifier: &Certifier, catalogue: &mut Catalogue, most: &[f64]) {
+    for (number, most) in most.iter().enumerate() {
+        let barrier = &catalogue.barriers[number];
+        let (Some(lower), Some((start, to, _))) = (barrier.bounds.lower, ends(catalogue, barrier))
+        else {
+            continue;
+        };
+        let follows = certifier.proved(&start, &to).min(*most);
+        catalogue.barriers[number].bounds.lower = Some(lower.max(follows));
+    }
+}
+
+/// What narrowing the bounds of a barrier came to.
+struct Narrowed {
+    /// Cells that it took.
+    cells: usize,
+    /// The barrier to another place that was found to be lower, if any.
+    beside: Option<Barrier>,
+    /// The lower bound (J) may not be said to be higher.
+    most: f64,
+}
+
+/// Narrows the bounds of a barrier, those of an escape over all ways out.
+fn narrow(
+    problem: &Problem,
+    certifier: &mut Certifier,
+    catalogue: &mut Catalogue,
+    number: usize,
+    effort: &Effort,
+) -> Narrowed {
+    let mut narrowed = Narrowed {
+        cells: 0,
+        beside: None,
+        most: f64::INFINITY,
+    };
+    let bend = BEND * problem.depth();
+    let barrier = &catalogue.barriers[number];
+    let (Place::State(from), Some((start, to, known))) = (barrier.from, ends(catalogue, barrier))
+    else {
+        return narrowed;
+    };
+    let escape = escapes::bracket(problem, certifier, catalogue, (barrier, &known), effort);
+    let barrier = &mut catalogue.barriers[number];
+    if let Some((escape, found)) = escape {
+        narrowed.cells = escape.cells;
+        match found {
+            None if !escape.improved => {
+                barrier.bounds.tighten(escape.bounds);
+                return narrowed;
+            }
+            // There is a lower way that cannot be told: the escape is no higher.
+            None => narrowed.most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
+            Some(way) if way.to == barrier.to => {
+                take_over(problem, barrier, &escape, bend);
+                return narrowed;
+            }
+            Some(way) if !barrier.has_way() && catalogue.bound_state != Some(from) => {
+                *barrier = way;
+                return narrowed;
+            }
+            way => narrowed.beside = way,
+        }
+    }
+    if let Ok(bracket) = certifier.bracket(&start, &to, &known, effort) {
+        narrowed.cells += bracket.cells;
+        take_over(problem, barrier, &bracket, bend);
+    }
+    barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(narrowed.most));
+    narrowed
+}
+
+/// Where a barrier's ways start and end, and the one that is known, the end included.
+fn ends(
+    catalogue: &Catalogue,
+    barrier: &Barrier,
+) -> Option<(Configuration, End, Vec<Configuration>)> {
+    let Place::State(from) = barrier.from else {
+        return None;
+    };
+    let to = match barrier.to {
+        Place::State(to) => End::At(catalogue.states[to].configuration),
+        Place::Free => End::Free,
+    };
+    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    if let End::At(to) = to
+        && known.last().is_some_and(|last| *last != to)
+    {
+        known.push(to);
+    }
+    Some((catalogue.states[from].configuration, to, known))
+}
+
+fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
+    barrier.bounds.tighten(bracket.bounds);
+    // In place of a pathway that could not be proved the certificate's own may lie higher.
+    let lower = |upper: &f64| bracket.improved && *upper < barrier.saddle_energy;
+    let Some(upper) = bracket.bounds.upper.filter(lower) else {
+        return;
+    };
+    if let Some(pathway) = shortest(problem, &bracket.pathway, upper, bend) {
+        barrier.lead_along(pathway);
+    }
+}
+
+/// A pathway of the certificate, which leads through the middles of its cells, made short, if it does
+/// not rise above `upper` (J).
+fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
+    let limits = Limits::below(upper, problem.depth());
+    let direct = pathway::shortened(problem, points, &limits);
+    let mut pathways = [direct.as_slice(), points]
+        .into_iter()
+        .map(|points| pathway::of_configurations(problem, points, bend));
+    pathways.find(|pathway| highest_point(pathway).is_some_and(|highest| highest.energy <= upper))
+}

@@ -1,0 +1,294 @@
+//! The catalogue of a surveyed landscape: its states in order, and the barriers and pathways that
+//! are reported.
+//!
+//! Each barrier is stored once, from the first state of a kind; the escape of a state refers to
+//! one of them, and what a symmetry makes of it is computed when asked for.
+
+mod kind;
+mod reader;
+
+pub use kind::Kind;
+
+use self::reader::Reader;
+use super::exploration::Exploration;
+use super::results::{
+    Alternative, Barrier, PathwayPoint, Place, Proportion, SAME_ENERGY, State, StateKind,
+    Uncaptured,
+};
+use crate::configuration::Configuration;
+use crate::problem::{Problem, Symmetry};
+use ordered_float::OrderedFloat;
+
+/// Configurations closer than this (m, metric of the space) are taken for the same state.
+const SAME: f64 = 1e-4;
+/// How much lower a barrier must be than another one to stand for it, as a fraction of the
+/// problem's depth.
+pub(super) const LEAST_GAIN: f64 = 1e-6;
+
+/// States, barriers and pathways, in the order in which they are reported.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Catalogue {
+    /// The bond first, then by energy; the states of a kind next to each other.
+    pub states: Vec<State>,
+    /// Barriers from the first state of each kind: its way out as the roadmap has it, those to the
+    /// bond and to `free`.
+    pub barriers: Vec<Barrier>,
+    /// Pathways by other costs than the highest energy.
+    pub alternatives: Vec<Alternative>,
+    /// The state in which the tiles are bound, if the bond holds at all.
+    pub bound_state: Option<usize>,
+    /// Minima left out because less than the least depth keeps them apart from a lower one.
+    pub shallow: usize,
+}
+
+impl Catalogue {
+    /// Takes the catalogue of a survey. Minima are left out whose escape barrier is below
+    /// `least_depth`, a fraction of the deepest energy.
+    pub fn of_survey(problem: &Problem, survey: &Exploration, least_depth: f64) -> Self {
+        Reader {
+            problem,
+            survey,
+            least_depth,
+        }
+        .catalogue()
+    }
+
+    /// The kinds of states, in the order of the states.
+    pub fn kinds(&self) -> impl Iterator<Item = Kind<'_>> {
+        let kinds = self.states.chunk_by(|a, b| a.class == b.class);
+        kinds.map(|states| Kind { states })
+    }
+
+    /// What people call the states: `A` for the bond, `B` for the deepest trap and so on, mirror
+    /// twins `B` and `B'`; copies of the first state of a kind have a number: `B.2`.
+    pub fn names(&self) -> Vec<String> {
+        let kinds: Vec<Kind> = self.kinds().collect();
+        let of_kind = |(kind, name): (&Kind, String)| {
+            let copies = 2..=kind.copies();
+            let copies: Vec<String> = copies.map(|copy| format!("{name}.{copy}")).collect();
+            [vec![name], copies].concat()
+        };
+        let names = kind::names(&kinds);
+        kinds.iter().zip(names).flat_map(of_kind).collect()
+    }
+
+    /// What people call a place: `bond A`, `trap B.2`, `free`.
+    pub fn name_of(&self, place: Place) -> String {
+        let Place::State(id) = place else {
+            return "free".to_owned();
+        };
+        let kind = match self.states[id].kind {
+            StateKind::Bond => "bond",
+            StateKind::Trap => "trap",
+        };
+        format!("{kind} {}", self.names()[id])
+    }
+
+    /// The first state that is the bond, or the deepest trap.
+    pub fn first(&self, kind: StateKind) -> Option<&State> {
+        self.states.iter().find(|state| state.kind == kind)
+    }
+
+    /// The barrier from a state to the nearest lower one or to `free`: the lowest that is known, or
+    /// one over which no way is known. `None` where nothing is known of its ways out.
+    pub fn escape(&self, problem: &Problem, id: usize) -> Option<Barrier> {
+        let class = self.states[id].class;
+        let escape = self.escape_of_kind(problem, class)?;
+        if id == class {
+            return Some(escape.clone());
+        }
+        let image = |symmetry: &&Symmetry| {
+            let image = symmetry.apply(&self.states[class].configuration);
+            self.state_at(problem, &image) == Some(id)
+        };
+        let symmetry = problem.symmetries.iter().find(image)?;
+        Some(self.image(problem, escape, id, symmetry))
+    }
+
+    /// The escape of the first state of a kind. The barrier that the roadmap found for it stands
+    /// first; another one stands for it only where it is clearly lower.
+    pub fn escape_of_kind(&self, problem: &Problem, class: usize) -> Option<&Barrier> {
+        let from = &self.states[class];
+        let below = from.energy - SAME_ENERGY * from.energy.abs();
+        let leads_down = |barrier: &&Barrier| {
+            let is_lower = barrier.to == Place::Free || barrier.to_energy < below;
+            barrier.from == Place::State(class) && is_lower
+        };
+        let mut ways = self.barriers.iter().filter(leads_down);
+        let known = ways.next()?;
+        let lowest = ways.min_by_key(|way| OrderedFloat(way.saddle_energy));
+        let gain = LEAST_GAIN * problem.depth();
+        let is_lower = |way: &&Barrier| way.saddle_energy < known.saddle_energy - gain;
+        lowest.filter(is_lower).or(Some(known))
+    }
+
+    /// The barrier from the bond to `free`, where the bond holds.
+    pub fn way_out_of_the_bond(&self) -> Option<&Barrier> {
+        let from = Place::State(self.bound_state?);
+        let mut barriers = self.barriers.iter();
+        barriers.find(|barrier| barrier.from == from && barrier.to == Place::Free)
+    }
+
+    /// A barrier as a symmetry maps it, so that it starts from state `from`.
+    fn image(
+        &self,
+        problem: &Problem,
+        barrier: &Barrier,
+        from: usize,
+        symmetry: &Symmetry,
+    ) -> Barrier {
+        let to = match barrier.to {
+            Place::Free => Place::Free,
+            Place::State(id) => self
+                .state_at(problem, &symmetry.apply(&self.states[id].configuration))
+                .map_or(barrier.to, Place::State),
+        };
+        let image = |point: &PathwayPoint| PathwayPoint {
+            configuration: symmetry.apply(&point.configuration),
+            ..*point
+        };
+        Barrier {
+            from: Place::State(from),
+            to,
+            saddle: symmetry.apply(&barrier.saddle),
+            pathway: barrier.pathway.iter().map(image).collect(),
+            ..barrier.clone()
+        }
+    }
+
+    /// Leaves out the traps that a known way leads out of with less than `least_depth`, a fraction
+    /// of the deepest energy: where the certificate found such a way they were no traps, whatever
+    /// the roadmap made of them.
+    pub fn leave_out_shallow(&mut self, problem: &Problem, least_depth: f64) {
+        let deepest = self.states.iter().map(|state| state.energy.abs());
+        let least = least_depth * deepest.fold(0.0, f64::max);
+        let holds = |kind: &Kind| {
+            let escape = self.escape_of_kind(problem, kind.first().class);
+            kind.is_bond() || escape.is_none_or(|way| way.forward() >= least)
+        };
+        let kept: Vec<usize> = self
+            .kinds()
+            .filter(holds)
+            .flat_map(|kind| kind.states.iter().map(|state| state.id))
+            .collect();
+        if kept.len() < self.states.len() {
+            self.keep(&kept);
+        }
+    }
+
+    /// Keeps the states with these ids, ascending, under new ones, and what joins them.
+    fn keep(&mut self, kept: &[usize]) {
+        let new_id = |id: usize| kept.binary_search(&id).ok();
+        let place = |place: Place| match place {
+            Place::State(id) => new_id(id).map(Place::State),
+            Place::Free => Some(Place::Free),
+        };
+        let renamed = |from: &mut Place, to: &mut Place| {
+            let ends = place(*from).zip(place(*to));
+            ends.map(|ends| (*from, *to) = ends).is_some()
+        };
+        self.shallow += self.states.len() - kept.len();
+        self.states.retain(|state| new_id(state.id).is_some());
+        for state in &mut self.states {
+            state.id = new_id(state.id).unwrap_or(state.id);
+            state.class = new_id(state.class).unwrap_or(state.class);
+        }
+        self.barriers
+            .retain_mut(|barrier| renamed(&mut barrier.from, &mut barrier.to));
+        self.alternatives
+            .retain_mut(|way| renamed(&mut way.from, &mut way.to));
+    }
+
+    /// Counts in which states far starts ended and fills in the capture shares; the others are
+    /// returned.
+    pub fn count_captures(
+        &mut self,
+        problem: &Problem,
+        ends: &[Option<Configuration>],
+    ) -> Uncaptured {
+        let share = |count| Proportion::new(count, ends.len());
+        let mut counts = vec![0; self.states.len()];
+        let [mut at_rest, mut gone] = [0, 0];
+        for end in ends {
+            let state = end.and_then(|q| self.state_at(problem, &q));
+            match (state, end) {
+                (Some(id), _) => counts[id] += 1,
+                (None, Some(_)) => at_rest += 1,
+                (None, None) => gone += 1,
+            }
+        }
+        for (state, count) in self.states.iter_mut().zip(counts) {
+            state.capture = Some(share(count));
+        }
+        Uncaptured {
+            at_rest: share(at_rest),
+            gone: share(gone),
+        }
+    }
+
+    /// Estimate of the share of far starts that would end in a kind of state that none has ended in
+    /// yet: n1 / n, n1 the number of kinds in which just one of n starts ended (Turing's formula, Good
+    /// 1953, doi:10.1093/biomet/40.3-4.237), with the interval of a proportion. It says nothing of
+    /// states that hardly catch anything. Needs [`count_captures`](Self::count_captures).
+    pub fn unseen(&self) -> Proportion {
+        let captured: Vec<Proportion> = self.kinds().map(|kind| kind.captured()).collect();
+        let single = captured.iter().filter(|share| share.count == 1).count();
+        Proportion::new(single, captured.first().map_or(0, |share| share.of))
+    }
+
+    /// Whether a configuration, or one of its images, is that of a state.
+    pub fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
+        let mut images = problem.symmetries.iter().map(|s| s.apply(q));
+        images.any(|image| self.state_at(problem, &image).is_some())
+    }
+
+    /// Adds a barrier, or what it knows of one that is there; returns whether it was added.
+    pub(super) fn add_way(&mut self, way: Barrier) -> bool {
+        let is_there = |b: &&mut Barrier| (b.from, b.to) == (way.from, way.to);
+        match self.barriers.iter_mut().find(is_there) {
+            Some(known) => {
+                known.bounds.tighten(way.bounds);
+                known.lead_lower(way.pathway);
+                false
+            }
+            None => {
+                self.barriers.push(way);
+                true
+            }
+        }
+    }
+
+    /// The state at a configuration.
+    pub(super) fn state_at(&self, problem: &Problem, q: &Configuration) -> Option<usize> {
+        self.states
+            .iter()
+            .map(|s| (problem.space.distance(&s.configuration, q), s.id))
+            .filter(|(distance, _)| *distance < SAME)
+            .min_by_key(|(distance, _)| OrderedFloat(*distance))
+            .map(|(_, id)| id)
+    }
+
+    /// Widens the spread of each barrier by what another run found for it.
+    pub fn widen_spread(&mut self, problem: &Problem, other: &Self) {
+        let same_place = |a: Place, b: Place| match (a, b) {
+            (Place::Free, Place::Free) => true,
+            (Place::State(a), Place::State(b)) => {
+                let (a, b) = (&self.states[a], &other.states[b]);
+                problem.space.distance(&a.configuration, &b.configuration) < SAME
+            }
+            _ => false,
+        };
+        for barrier in &mut self.barriers {
+            let found = other
+                .barriers
+                .iter()
+                .find(|b| same_place(barrier.from, b.from) && same_place(barrier.to, b.to));
+            if let Some(found) = found {
+                let own = barrier.saddle_energy;
+                let (low, high) = barrier.spread.unwrap_or((own, own));
+                let energy = found.saddle_energy;
+                barrier.spread = Some((low.min(energy), high.max(energy)));
+            }
+        }
+    }
+}

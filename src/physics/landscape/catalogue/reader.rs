@@ -1,0 +1,319 @@
+//! Reading states, escapes, barriers and pathways off a surveyed network.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use ordered_float::OrderedFloat;
+
+use super::Catalogue;
+use crate::configuration::Configuration;
+use crate::landscape::exploration::Exploration;
+use crate::landscape::meeting::{magnet_pairs, touching_faces};
+use crate::landscape::pathway::{self, Lowest};
+use crate::landscape::results::{
+    Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
+};
+use crate::landscape::transition_network::Cost;
+use crate::order::Order;
+use crate::parallel;
+use crate::problem::Problem;
+
+/// A state this close (m, metric of the space) to the bound configuration is the bound one: the
+/// bond may settle a little beside the configuration in which the faces coincide.
+const BOUND: f64 = 5e-3;
+
+/// Places a micrometre apart can be told from each other (1/m).
+const TELLABLE: f64 = 1e6;
+
+pub(super) struct Reader<'a> {
+    pub problem: &'a Problem,
+    pub survey: &'a Exploration,
+    /// Least escape barrier of what is reported, as a fraction of the deepest energy.
+    pub least_depth: f64,
+}
+
+/// States of a survey (by their number in it) that symmetries map onto each other; the first is
+/// the one closest to the bound configuration.
+type Class = Vec<usize>;
+
+/// What is reported of the nodes of states.
+type Ids = HashMap<usize, usize>;
+
+impl Reader<'_> {
+    pub fn catalogue(&self) -> Catalogue {
+        let (classes, shallow) = self.deep_classes();
+        let order: Vec<usize> = classes.iter().flatten().copied().collect();
+        let numbered = order.iter().enumerate();
+        let ids: Ids = numbered
+            .map(|(id, &found)| (self.node(found), id))
+            .collect();
+        let bound = order.first().copied();
+        let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
+        let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
+        let states: Vec<State> = parallel::flat_map(&classes, of_class);
+        Catalogue {
+            barriers: self.barriers(&classes, &ids, bound),
+            alternatives: self.alternatives(&states, &order, bound),
+            states,
+            bound_state: bound.map(|_| 0),
+            shallow,
+        }
+    }
+
+    fn energy(&self, found: usize) -> f64 {
+        self.survey.states[found].minimum.point.energy
+    }
+
+    fn configuration(&self, found: usize) -> Configuration {
+        self.survey.states[found].minimum.point.q
+    }
+
+    fn distance_to_bound(&self, found: usize) -> f64 {
+        let distance = |bound| {
+            self.problem
+                .space
+                .distance(&self.configuration(found), bound)
+        };
+        let pair = self.problem.pair.as_ref();
+        pair.map_or(f64::INFINITY, |pair| distance(&pair.bound))
+    }
+
+    /// Classes of states deep enough to be reported: the bound one first, then by energy. And the
+    /// number of states left out.
+    fn deep_classes(&self) -> (Vec<Class>, usize) {
+        let mut of_class: BTreeMap<usize, Class> = BTreeMap::new();
+        for (found, state) in self.survey.states.iter().enumerate() {
+            of_class.entry(state.class).or_default().push(found);
+        }
+        let mut classes: Vec<Class> = of_class.into_values().collect();
+        for class in &mut classes {
+            class.order_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
+        }
+        let deepest = (0..self.survey.states.len())
+            .map(|found| self.energy(found).abs())
+            .fold(0.0, f64::max);
+        let least = self.least_depth * deepest;
+        let count = self.survey.states.len();
+        let is_deep = parallel::map(&classes, |class| self.depth(class[0]) >= least);
+        let with_depth = classes.into_iter().zip(is_deep);
+        let mut classes: Vec<Class> = with_depth
+            .filter_map(|(class, is_deep)| is_deep.then_some(class))
+            .collect();
+        let kept: usize = classes.iter().map(Vec::len).sum();
+        classes.order_by_key(|class| {
+            let distance = self.distance_to_bound(class[0]);
+            let energy = OrderedFloat(self.energy(class[0]));
+            (distance >= BOUND, energy, OrderedFloat(distance))
+        });
+        // What rounding makes of the energies of twins is no order.
+        let as_deep = |a: &Class, b: &Class| {
+            let [a, b] = [a, b].map(|class| self.energy(class[0]));
+            (a - b).abs() <= SAME_ENERGY * a.abs()
+        };
+        for twins in classes.chunk_by_mut(as_deep) {
+            twins.order_by_key(|class| {
+                let Configuration { x, y, theta } = self.configuration(class[0]);
+                let place = [self.distance_to_bound(class[0]), y, x, theta];
+                place.map(|length| (length * TELLABLE).round() as i64)
+            });
+        }
+        (classes, count - kept)
+    }
+
+    /// Escape barrier (J) of a state.
+    fn depth(&self, found: usize) -> f64 {
+        let goals = self.lower_nodes(found);
+        self.survey
+            .network
+            .minimax(self.survey.states[found].node, &goals)
+            .map_or(f64::INFINITY, |peak| peak - self.energy(found))
+    }
+
+    /// The nodes of `free` and of all states clearly lower than this one.
+    fn lower_nodes(&self, found: usize) -> HashSet<usize> {
+        let mut nodes = self.nodes(|by| by < -SAME_ENERGY, found);
+        nodes.insert(self.survey.free);
+        nodes
+    }
+
+    /// The nodes of the other states by whose energies' differences, as shares of this one's, they
+    /// are wanted.
+    fn nodes(&self, is_wanted: impl Fn(f64) -> bool, found: usize) -> HashSet<usize> {
+        let energy = self.energy(found);
+        let states = self.survey.states.iter().enumerate();
+        let others = states.filter(|(number, state)| {
+            *number != found && is_wanted((state.minimum.point.energy - energy) / energy.abs())
+        });
+        others.map(|(_, state)| state.node).collect()
+    }
+
+    /// See [`State::sideways`].
+    fn sideways(&self, found: usize) -> Option<f64> {
+        let equals = self.nodes(|by| by.abs() <= SAME_ENERGY, found);
+        let pass = |goals| self.survey.network.minimax(self.node(found), goals);
+        let sideways = pass(&equals)?;
+        pass(&self.lower_nodes(found))
+            .is_none_or(|down| sideways < down)
+            .then_some(sideways)
+    }
+
+    /// The states of a class. What symmetries keep is the first one's.
+    fn states(&self, class: &Class, ids: &Ids, is_bound: bool) -> Vec<State> {
+        let first = class[0];
+        let pair = self.problem.pair.as_deref();
+        let (attracting, repelling) = pair.map_or((0, 0), |pair| {
+            magnet_pairs(&pair.fixed, &pair.moving, &self.configuration(first))
+        });
+        let state = |&found: &usize| State {
+            id: ids[&self.node(found)],
+            kind: if is_bound {
+                StateKind::Bond
+            } else {
+                StateKind::Trap
+            },
+            configuration: self.configuration(found),
+            energy: self.energy(found),
+            class: ids[&self.node(first)],
+            faces: self.faces(found),
+            attracting,
+            repelling,
+            block_energy: None,
+            capture: None,
+            sideways: (found == first).then(|| self.sideways(found)).flatten(),
+        };
+        class.iter().map(state).collect()
+    }
+
+    /// The pairs of faces that touch.
+    fn faces(&self, found: usize) -> Vec<(usize, usize)> {
+        let q = self.configuration(found);
+        let pair = self.problem.pair.as_deref();
+        let pair = pair.zip(self.problem.contact.as_ref());
+        pair.map(|(pair, contact)| touching_faces(contact, &pair.fixed, &pair.moving, &q))
+            .unwrap_or_default()
+    }
+
+    /// The barrier from a state to the nearest of some nodes.
+    fn barrier_to(&self, found: usize, goals: &HashSet<usize>, ids: &Ids) -> Option<Barrier> {
+        let node = self.node(found);
+        let own = self.energy(found).abs();
+        let depth = if self.problem.is_dear() {
+            own.max(self.problem.depth())
+        } else {
+            own
+        };
+        let is_reported = |goal: &usize| *goal == self.survey.free || ids.contains_key(goal);
+        let reported: HashSet<usize> = goals.iter().copied().filter(is_reported).collect();
+        let Lowest { end, pathway } = pathway::lowest(
+            self.problem,
+            &self.survey.network,
+            node,
+            [goals, &reported],
+            [depth, 2e-3 * own],
+        )?;
+        let to = place(end, ids);
+        let to_energy = match to {
+            Place::Free => 0.0,
+            Place::State(_) => self.survey.network.nodes[end]?.1,
+        };
+        let from = (place(node, ids), self.energy(found));
+        let mut barrier = Barrier::without_a_way(from, self.configuration(found), (to, to_energy));
+        barrier.lead_along(pathway);
+        Some(barrier)
+    }
+
+    /// From the first state of each class: its escape, the way to the bound state, and to `free`,
+    /// also where none is known for the bond, or no way out at all.
+    fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
+        let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
+        parallel::flat_map(classes, of_class)
+    }
+
+    fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
+        let lower = self.lower_nodes(first);
+        let mut found: Vec<Barrier> = self.barrier_to(first, &lower, ids).into_iter().collect();
+        let is_bond = bound == Some(first);
+        let goals = bound.filter(|_| !is_bond).map(|bound| self.node(bound));
+        for goal in goals.into_iter().chain([self.survey.free]) {
+            let place = place(goal, ids);
+            if found.iter().all(|barrier| barrier.to != place) {
+                found.extend(self.barrier_to(first, &HashSet::from([goal]), ids));
+            }
+        }
+        let is_way_out = |barrier: &Barrier| !is_bond || barrier.to == Place::Free;
+        if !found.iter().any(is_way_out) {
+            let from = (place(self.node(first), ids), self.energy(first));
+            let start = self.configuration(first);
+            found.push(Barrier::without_a_way(from, start, (Place::Free, 0.0)));
+        }
+        found
+    }
+
+    fn node(&self, found: usize) -> usize {
+        self.survey.states[found].node
+    }
+
+    /// The least-work and the most probable pathways between the bound state, the deepest trap and
+    /// `free`, in both directions.
+    fn alternatives(
+        &self,
+        states: &[State],
+        order: &[usize],
+        bound: Option<usize>,
+    ) -> Vec<Alternative> {
+        let trap = states
+            .iter()
+            .find(|s| s.kind == StateKind::Trap)
+            .map(|s| s.id);
+        let mut ends: Vec<(Place, usize)> = bound
+            .map(|_| 0)
+            .into_iter()
+            .chain(trap)
+            .map(|id| (Place::State(id), self.survey.states[order[id]].node))
+            .collect();
+        ends.push((Place::Free, self.survey.free));
+        let mut asked = Vec::new();
+        for from in &ends {
+            for to in ends.iter().filter(|to| to.0 != from.0) {
+                asked.extend(
+                    [PathwayCost::Work, PathwayCost::Probability].map(|by| (*from, *to, by)),
+                );
+            }
+        }
+        parallel::flat_map(&asked, |&(from, to, by)| self.alternative(from, to, by))
+    }
+
+    fn alternative(
+        &self,
+        from: (Place, usize),
+        to: (Place, usize),
+        by: PathwayCost,
+    ) -> Option<Alternative> {
+        let network = &self.survey.network;
+        let cost = match by {
+            PathwayCost::Work => Cost::Work,
+            PathwayCost::Probability => Cost::Probability,
+        };
+        // From where less is around.
+        let (cost, route) = if from.0 == Place::Free {
+            network.cheapest_into(self.problem, from.1, to.1, cost)?
+        } else {
+            let goals = HashSet::from([to.1]);
+            let (_, total, route) = network.cheapest(self.problem, from.1, &goals, cost)?;
+            (total, route)
+        };
+        let depth = self.energy(0).abs();
+        let pathway = pathway::along(self.problem, network, &route, None, 2e-3 * depth);
+        (!pathway.is_empty()).then_some(Alternative {
+            from: from.0,
+            to: to.0,
+            by,
+            cost,
+            pathway,
+        })
+    }
+}
+
+/// What is reported of a node.
+fn place(node: usize, ids: &Ids) -> Place {
+    ids.get(&node).copied().map_or(Place::Free, Place::State)
+}

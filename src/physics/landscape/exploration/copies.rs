@@ -1,0 +1,156 @@
+//! What is known of one of a class of states, for the others of the class.
+
+use std::collections::{HashMap, HashSet};
+
+use super::{Exploration, SAME};
+use crate::configuration::Configuration;
+use crate::landscape::transition_network::{Merge, Route};
+use crate::problem::{Problem, Symmetry};
+use crate::roadmap::EdgeCosts;
+
+/// A way that is no lower than this share of its energy is as low as another one.
+const AS_LOW: f64 = 1e-9;
+
+impl Exploration {
+    /// Of each class of states the lowest merge with another state of the class, and the lowest with
+    /// any other or `free`, ascending.
+    pub(super) fn lowest_merges(&self) -> Vec<Merge> {
+        lowest_of(self.merges(), &self.classes())
+    }
+
+    /// Leads out of all states of a class as low as out of the one from which the lowest way is known:
+    /// along its images.
+    pub(super) fn share(&mut self, problem: &Problem) {
+        if problem.symmetries.len() < 2 {
+            return;
+        }
+        let class_of = self.classes();
+        let peak = |merge: &Merge| self.network.costs(merge.link).peak;
+        let merges = self.merges();
+        let own: HashMap<(usize, bool), f64> = merges
+            .iter()
+            .map(|merge| ((merge.upper, kind(&class_of, merge).1), peak(merge)))
+            .collect();
+        let lowest: Vec<(Merge, f64, Route)> = lowest_of(merges, &class_of)
+            .into_iter()
+            .map(|merge| {
+                let lower = HashSet::from([merge.lower]);
+                let route = self.network.lowest(merge.upper, &lower);
+                (
+                    merge,
+                    peak(&merge),
+                    route.map_or_else(Route::new, |way| way.1),
+                )
+            })
+            .collect();
+        for (merge, peak, route) in lowest {
+            let is_sideways = kind(&class_of, &merge).1;
+            for symmetry in &problem.symmetries[1..] {
+                let copy = self.image_node(problem, merge.upper, symmetry);
+                let is_as_low = |own: &f64| *own <= peak + AS_LOW * peak.abs();
+                if !own.get(&(copy, is_sideways)).is_some_and(is_as_low) {
+                    self.add_image(problem, copy, &route, symmetry);
+                }
+            }
+        }
+        self.network.span(problem);
+    }
+
+    /// The states, by their places in the list, of which the others are images.
+    pub(super) fn firsts(&self) -> impl Iterator<Item = usize> {
+        let numbered = self.states.iter().enumerate();
+        numbered
+            .filter(|(number, state)| state.class == *number)
+            .map(|(number, _)| number)
+    }
+
+    /// Adds a straight motion between the nodes of two states with its images.
+    pub(super) fn add_motion_and_images(
+        &mut self,
+        problem: &Problem,
+        nodes: [usize; 2],
+        costs: EdgeCosts,
+    ) {
+        let link = self.network.add_motion(nodes[0], nodes[1], costs);
+        let mut known = HashSet::from([nodes]);
+        for symmetry in &problem.symmetries {
+            let [from, to] = nodes.map(|node| self.image_node(problem, node, symmetry));
+            if !known.contains(&[to, from]) && known.insert([from, to]) {
+                self.network.add_image(link, [from, to], symmetry);
+            }
+        }
+    }
+
+    /// The class of each state's node.
+    fn classes(&self) -> HashMap<usize, usize> {
+        let states = self.states.iter();
+        states.map(|state| (state.node, state.class)).collect()
+    }
+
+    /// Adds the image of a route, from the image of its first node.
+    pub(super) fn add_image(
+        &mut self,
+        problem: &Problem,
+        mut here: usize,
+        route: &Route,
+        symmetry: &Symmetry,
+    ) {
+        for &(number, forwards) in route {
+            let link = &self.network.links[number];
+            let next = if forwards { link.to } else { link.from };
+            let next = self.image_node(problem, next as usize, symmetry);
+            let ends = if forwards { [here, next] } else { [next, here] };
+            self.network.add_image(number, ends, symmetry);
+            here = next;
+        }
+    }
+
+    /// The image of a node: that of a state is a state's, others are new.
+    pub(super) fn image_node(
+        &mut self,
+        problem: &Problem,
+        node: usize,
+        symmetry: &Symmetry,
+    ) -> usize {
+        let Some((q, energy)) = self.network.nodes[node] else {
+            return node;
+        };
+        let q = symmetry.apply(&q);
+        let is_state = self.states.iter().any(|state| state.node == node);
+        let state = is_state.then(|| self.state_at(problem, &q, SAME));
+        match state.flatten() {
+            Some(state) => self.states[state].node,
+            None => self.network.add_node(Some((q, energy))),
+        }
+    }
+}
+
+/// Those of some symmetries that make different configurations of one.
+pub(super) fn distinct<'a>(
+    problem: &Problem,
+    symmetries: &'a [Symmetry],
+    q: &Configuration,
+) -> Vec<&'a Symmetry> {
+    let mut images: Vec<Configuration> = Vec::new();
+    let is_new = |symmetry: &&Symmetry| {
+        let image = symmetry.apply(q);
+        let is_same = |other: &Configuration| problem.space.distance(other, &image) <= SAME;
+        let is_new = !images.iter().any(is_same);
+        images.push(image);
+        is_new
+    };
+    symmetries.iter().filter(is_new).collect()
+}
+
+/// Of merges, ascending, the first of each kind.
+fn lowest_of(mut merges: Vec<Merge>, class_of: &HashMap<usize, usize>) -> Vec<Merge> {
+    let mut seen = HashSet::new();
+    merges.retain(|merge| seen.insert(kind(class_of, merge)));
+    merges
+}
+
+/// The class that merges upwards, and whether with itself.
+fn kind(class_of: &HashMap<usize, usize>, merge: &Merge) -> (Option<usize>, bool) {
+    let [upper, lower] = [merge.upper, merge.lower].map(|node| class_of.get(&node).copied());
+    (upper, upper == lower)
+}

@@ -1,0 +1,105 @@
+//! Where minima may be expected besides where the roadmap has them: siblings of those known, where
+//! magnets come to lie opposite each other as faces slide, and where the outlines fit.
+
+use ordered_float::OrderedFloat;
+
+use super::{Exploration, ExplorationSettings, siblings, slides};
+use crate::configuration::Configuration;
+use crate::landscape::constrained::Point;
+use crate::landscape::minimum::{Descent, descend_among};
+use crate::order::Order;
+use crate::parallel;
+use crate::problem::Problem;
+
+/// No minimum is looked for closer than this (m) to a known one.
+const KNOWN: f64 = 1e-4;
+/// So many of the outlines' longest contacts are looked at.
+const MOST_MATCHES: usize = 100;
+/// Meetings that are looked at for each kind of states that is to be kept, the lowest.
+const MEETINGS_A_KIND: usize = 3;
+/// Meetings above this share of the bond's depth (below 0) hold nothing.
+const HELD: f64 = 1e-3;
+/// Of very many magnets no meeting is looked at so close to a lower one, in pitches.
+const AROUND: f64 = 0.75;
+
+impl Exploration {
+    /// Looks for minima where those known so far, but for the first few, would be on other pairs of
+    /// faces or in the mirror, until there are no more.
+    pub(super) fn find_siblings(
+        &mut self,
+        problem: &Problem,
+        mut known: usize,
+        settings: &ExplorationSettings,
+    ) {
+        while known < self.states.len() {
+            let fresh = self.states[known..].iter().map(|state| {
+                let Point { q, energy, .. } = state.minimum.point;
+                (q, energy)
+            });
+            let fresh: Vec<(Configuration, f64)> = fresh.collect();
+            known = self.states.len();
+            self.look_near(problem, siblings::siblings(problem, &fresh), settings);
+        }
+    }
+
+    /// Looks for minima where faces slide along each other, and where the outlines lie on each other
+    /// along much of their length, on faces or elsewhere.
+    pub(super) fn find_meetings(&mut self, problem: &Problem, settings: &ExplorationSettings) {
+        let known = self.states.len();
+        let held = -HELD * problem.depth();
+        let slid = slides::slid_meetings(problem);
+        let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
+        let places: Vec<Configuration> = places.collect();
+        let mut places: Vec<(f64, Configuration)> = parallel::flat_map(&places, |q| {
+            let energy = problem.energy(q);
+            (energy < held && problem.is_free(q)).then_some((energy, *q))
+        });
+        if problem.is_dear() {
+            places = lowest_around(problem, places, AROUND * slides::pitch(problem));
+            let most = settings.most_kinds.map(|kinds| MEETINGS_A_KIND * kinds);
+            places.truncate(most.unwrap_or(usize::MAX));
+        }
+        let places = places.into_iter().map(|(_, q)| q).collect();
+        self.look_near(problem, places, settings);
+        self.find_siblings(problem, known, settings);
+    }
+
+    /// Follows the energy down from places that are not near known minima.
+    fn look_near(
+        &mut self,
+        problem: &Problem,
+        places: Vec<Configuration>,
+        settings: &ExplorationSettings,
+    ) {
+        let places: Vec<Configuration> = places
+            .into_iter()
+            .filter(|q| self.state_at(problem, q, KNOWN).is_none())
+            .collect();
+        let verified = self.known();
+        let descents: Vec<Descent> =
+            parallel::map(&places, |q| descend_among(problem, q, &verified));
+        for descent in &descents {
+            if let Some(end) = self.arrive(problem, descent) {
+                self.join(problem, end, settings);
+            }
+        }
+    }
+}
+
+/// Those of some places that have none with a lower energy (J) within `radius` (m, metric of the
+/// space), from the lowest on.
+fn lowest_around(
+    problem: &Problem,
+    mut places: Vec<(f64, Configuration)>,
+    radius: f64,
+) -> Vec<(f64, Configuration)> {
+    places.order_by_key(|(energy, _)| OrderedFloat(*energy));
+    let mut kept: Vec<(f64, Configuration)> = Vec::new();
+    for place in places {
+        let is_near = |(_, q): &(f64, Configuration)| problem.space.distance(q, &place.1) < radius;
+        if !kept.iter().any(is_near) {
+            kept.push(place);
+        }
+    }
+    kept
+}

@@ -1,0 +1,342 @@
+//! The survey of a landscape: from a roadmap to states, transition states and a network in which
+//! the ways between them are known accurately.
+//!
+//! The roadmap finds out which basins there are and roughly where they meet. Then, in rounds, each
+//! place where two basins meet is looked at more closely:
+//!
+//! 1. Newton's method looks for the transition state there; descents on either side of it tell
+//!    which states it joins.
+//! 2. Where that fails or does not join the two basins, the roadmap is densified around the place,
+//!    with new milestones on the contact surface wherever they would overlap.
+//!
+//! until every meeting place is a transition state, or its energy moves by less than a set
+//! fraction of the barrier from round to round. Before that, states are joined straight to those
+//! closest to them, and what nothing joins to `free` is withdrawn straight from what it touches.
+//!
+//! What is found once is known of all copies that the problem's symmetries make of it: every state
+//! is a node together with its images, and so is every transition state with the ways on its sides.
+//! So where two basins meet is looked at for one of the copies, that from which the lowest way is
+//! known, and at last its way is led out of all others.
+
+mod arrivals;
+mod copies;
+mod densify;
+mod guesses;
+mod siblings;
+mod slides;
+mod transitions;
+mod withdraw;
+
+use std::collections::{HashMap, HashSet};
+
+use ordered_float::OrderedFloat;
+
+use super::minimum::{Descent, Known, Outcome, descend_among};
+use super::stationary::Stationary;
+use super::transition_network::{Merge, Network};
+use crate::configuration::Configuration;
+use crate::order::Order;
+use crate::parallel;
+use crate::problem::Problem;
+use crate::roadmap::{EdgeSettings, Roadmap};
+
+/// Two stationary points closer than this (m, metric of the space) are the same.
+const SAME: f64 = 1e-5;
+/// Of very many magnets, milestones above this share of the bond's depth (below 0) lead nowhere: what is
+/// shallower is not listed.
+const HELD: f64 = 1e-4;
+/// Descents that are followed at once.
+const TOGETHER: usize = 64;
+
+/// How closely the meeting places of basins are looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExplorationSettings {
+    /// How the links are weighed.
+    pub edge: EdgeSettings,
+    /// A barrier is settled when it moves by less than this fraction from round to round.
+    pub settled: f64,
+    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    pub most_kinds: Option<usize>,
+    /// Milestones added around a meeting place in each round.
+    pub added_milestones: usize,
+    /// Rounds after which what is not settled stays so.
+    pub most_rounds: usize,
+    /// Of all random numbers.
+    pub seed: u64,
+}
+
+/// A minimum with its node in the network.
+#[derive(Clone, Debug)]
+pub struct FoundState {
+    /// Its number in the network.
+    pub node: usize,
+    /// The minimum with its spectrum.
+    pub minimum: Stationary,
+    /// The first state, by its place in the list, of those that symmetries map onto each other.
+    pub class: usize,
+}
+
+/// Kinds of states that were found, and not looked at as there are many.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct LeftOut {
+    /// How many there are.
+    pub kinds: usize,
+    /// The energy (J) of the deepest.
+    pub lowest: f64,
+}
+
+/// What a survey found.
+#[derive(Debug)]
+pub struct Exploration {
+    /// All motions that were found free, with their costs.
+    pub network: Network,
+    /// The minima.
+    pub states: Vec<FoundState>,
+    /// The node that stands for `free`.
+    pub free: usize,
+    /// Transition states, with the link of each.
+    pub transition_states: Vec<(Stationary, usize)>,
+    /// Meeting places that are not transition states: link and the last change of its energy (J).
+    pub unpolished: HashMap<usize, f64>,
+    /// Rounds that were needed.
+    pub rounds: usize,
+    /// Kinds of states that were found and not looked at closely, and the energy (J) of the deepest.
+    pub left_out: Option<LeftOut>,
+}
+
+impl Exploration {
+    /// Surveys the landscape around a roadmap. `guesses` are configurations that may lie near
+    /// minima, besides the problem's flush meetings.
+    pub fn new(
+        problem: &Problem,
+        roadmap: Roadmap,
+        guesses: &[Configuration],
+        settings: &ExplorationSettings,
+    ) -> Self {
+        let mut survey = Self::of_roadmap(problem, roadmap, &settings.edge);
+        survey.explore(problem, guesses, settings);
+        survey
+    }
+
+    /// Finds states, transition states and ways from the roadmap, and from guesses besides.
+    pub fn explore(
+        &mut self,
+        problem: &Problem,
+        guesses: &[Configuration],
+        settings: &ExplorationSettings,
+    ) {
+        // Every configuration is as low as every other: none is a state.
+        if problem.is_inert() {
+            self.network.span(problem);
+            return;
+        }
+        let guesses = [problem.flush_meetings(), guesses].concat();
+        self.find_states(problem, &guesses, settings);
+        self.find_siblings(problem, 0, settings);
+        self.find_meetings(problem, settings);
+        if let Some(most) = settings.most_kinds {
+            self.keep_deepest(most);
+        }
+        self.settle(problem, 0, settings);
+    }
+
+    /// Adds minima that were found otherwise, and how they are joined to the others.
+    pub fn add(
+        &mut self,
+        problem: &Problem,
+        minima: &[Stationary],
+        settings: &ExplorationSettings,
+    ) {
+        let fresh = self.states.len();
+        for minimum in minima {
+            let node = self.state_node(problem, minimum);
+            self.join(problem, node, settings);
+        }
+        self.settle(problem, fresh, settings);
+    }
+
+    /// Looks more closely, in rounds, at where basins meet. States from `fresh` on are new.
+    fn settle(&mut self, problem: &Problem, fresh: usize, settings: &ExplorationSettings) {
+        self.join_neighbours(problem, fresh, settings);
+        self.withdraw(problem, fresh, settings);
+        self.network.span(problem);
+        let mut tried = HashSet::new();
+        for round in 0..settings.most_rounds {
+            self.rounds = round;
+            // A transition state that is found from one copy only is found for all.
+            let merges = if problem.is_dear() {
+                self.lowest_merges()
+            } else {
+                self.merges()
+            };
+            let places = self.unsettled(merges, settings);
+            self.polish(problem, &places, &mut tried);
+            let open = self.unsettled(self.lowest_merges(), settings);
+            if open.is_empty() {
+                break;
+            }
+            self.densify(problem, &open, round as u64, settings);
+            self.network.span(problem);
+        }
+        self.share(problem);
+    }
+
+    /// The roadmap as it is, nothing looked at more closely yet.
+    pub fn of_roadmap(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
+        let mut network = Network::new(problem, roadmap, settings);
+        let free = network.add_node(None);
+        for node in 0..free {
+            let far = network.nodes[node].filter(|known| problem.space.is_far(&known.0));
+            if let Some((_, energy)) = far {
+                network.add_same(node, free, energy);
+            }
+        }
+        Self {
+            network,
+            states: Vec::new(),
+            free,
+            transition_states: Vec::new(),
+            unpolished: HashMap::new(),
+            rounds: 0,
+            left_out: None,
+        }
+    }
+
+    /// Follows the energy down from the guesses and from every milestone that has no lower
+    /// neighbour.
+    fn find_states(
+        &mut self,
+        problem: &Problem,
+        guesses: &[Configuration],
+        settings: &ExplorationSettings,
+    ) {
+        let nodes = self.network.local_minima();
+        let mut starts: Vec<(Option<usize>, Configuration)> =
+            guesses.iter().map(|q| (None, *q)).collect();
+        starts.extend(nodes.into_iter().filter_map(|node| {
+            let (q, energy) = self.network.nodes[node]?;
+            let is_asked = !problem.is_dear() || energy < -HELD * problem.depth();
+            (is_asked && !problem.space.is_far(&q)).then_some((Some(node), q))
+        }));
+        // What some find the next ones need not verify.
+        for some in starts.chunks(TOGETHER) {
+            let known = self.known();
+            let descents: Vec<Descent> =
+                parallel::map(some, |(_, q)| descend_among(problem, q, &known));
+            for ((node, _), descent) in some.iter().zip(descents) {
+                let end = self.arrive(problem, &descent);
+                match (*node, end) {
+                    (Some(node), Some(end)) => {
+                        self.network.add_way(problem, node, end, descent.way);
+                    }
+                    // A guess is not in the network yet.
+                    (None, Some(end)) => self.join(problem, end, settings),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Leaves out all but the deepest kinds of states, so many.
+    fn keep_deepest(&mut self, most: usize) {
+        let mut deepest: Vec<usize> = self.firsts().collect();
+        deepest.order_by_key(|&first| OrderedFloat(self.states[first].minimum.point.energy));
+        let Some(&shallower) = deepest.get(most) else {
+            return;
+        };
+        self.left_out = Some(LeftOut {
+            kinds: deepest.len() - most,
+            lowest: self.states[shallower].minimum.point.energy,
+        });
+        deepest.truncate(most);
+        self.states.retain(|state| deepest.contains(&state.class));
+        // A kind's states lie together, the first of them first.
+        let mut first = 0;
+        for number in 1..=self.states.len() {
+            let is_next = |states: &[FoundState]| states[number].class != states[first].class;
+            if number == self.states.len() || is_next(&self.states) {
+                self.states[first..number]
+                    .iter_mut()
+                    .for_each(|state| state.class = first);
+                first = number;
+            }
+        }
+    }
+
+    /// The minima found so far.
+    pub fn known(&self) -> Known {
+        Known::minima(self.states.iter().map(|state| state.minimum.point.q))
+    }
+
+    /// The node in which a descent ended, made if need be.
+    pub fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
+        match &descent.outcome {
+            Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
+            Outcome::Free => {
+                let last = descent.way.last()?;
+                let node = self.network.add_node(Some((last.q, last.energy)));
+                self.network.add_same(node, self.free, last.energy);
+                Some(node)
+            }
+            Outcome::Stuck(_) => None,
+        }
+    }
+
+    /// The node of a minimum. One that is new becomes a state with all its images.
+    fn state_node(&mut self, problem: &Problem, minimum: &Stationary) -> usize {
+        let q = minimum.point.q;
+        if let Some(known) = self.state_at(problem, &q, SAME) {
+            return self.states[known].node;
+        }
+        let class = self.states.len();
+        for symmetry in copies::distinct(problem, &problem.symmetries, &q) {
+            let minimum = minimum.image(symmetry);
+            let (q, energy) = (minimum.point.q, minimum.point.energy);
+            let node = self.network.add_node(Some((q, energy)));
+            self.states.push(FoundState {
+                node,
+                minimum,
+                class,
+            });
+        }
+        // The identity comes first.
+        self.states[class].node
+    }
+
+    /// The state within `tolerance` (m, metric of the space) of a configuration.
+    pub fn state_at(&self, problem: &Problem, q: &Configuration, tolerance: f64) -> Option<usize> {
+        let distance = |s: &FoundState| problem.space.distance(&s.minimum.point.q, q);
+        (0..self.states.len())
+            .map(|i| (i, distance(&self.states[i])))
+            .filter(|(_, d)| *d <= tolerance)
+            .min_by_key(|(_, d)| OrderedFloat(*d))
+            .map(|(i, _)| i)
+    }
+
+    /// The merges of the basins of all states and `free`, ascending.
+    pub fn merges(&self) -> Vec<Merge> {
+        let mut labelled: Vec<(usize, f64)> = self
+            .states
+            .iter()
+            .map(|s| (s.node, s.minimum.point.energy))
+            .collect();
+        labelled.push((self.free, f64::NEG_INFINITY));
+        self.network.merges(&labelled)
+    }
+
+    fn unsettled(&self, mut merges: Vec<Merge>, settings: &ExplorationSettings) -> Vec<Merge> {
+        merges.retain(|merge| !self.is_settled(merge, settings));
+        merges
+    }
+
+    fn is_settled(&self, merge: &Merge, settings: &ExplorationSettings) -> bool {
+        if self.transition_states.iter().any(|(_, l)| *l == merge.link) {
+            return true;
+        }
+        let bottom = self.network.nodes[merge.upper].map_or(0.0, |n| n.1);
+        let allowed = settings.settled * (self.network.costs(merge.link).peak - bottom);
+        self.unpolished
+            .get(&merge.link)
+            .is_some_and(|moved| moved.abs() <= allowed)
+    }
+}

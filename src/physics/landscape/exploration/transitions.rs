@@ -1,0 +1,110 @@
+//! Transition states between states, and the ways on their sides.
+
+use std::collections::HashSet;
+
+use nalgebra::Vector3;
+
+use super::copies::distinct;
+use super::{Exploration, SAME};
+use crate::configuration::Configuration;
+use crate::landscape::constrained::{self, Point};
+use crate::landscape::minimum::{Descent, Known, descend_among};
+use crate::landscape::stationary::{self, Stationary};
+use crate::landscape::transition_network::{Merge, Way};
+use crate::parallel;
+use crate::problem::{Problem, Symmetry};
+
+/// How far (m, mass metric) from a transition state its descents start.
+const OFF_SADDLE: f64 = 2e-4;
+
+impl Exploration {
+    /// Looks for the transition states of meeting places and adds those found, with their
+    /// symmetric images.
+    pub(super) fn polish(&mut self, problem: &Problem, open: &[Merge], tried: &mut HashSet<usize>) {
+        let places: Vec<(Configuration, Vector3<f64>)> = open
+            .iter()
+            .filter(|merge| tried.insert(merge.link))
+            .filter_map(|merge| self.meeting_place(merge.link))
+            .collect();
+        self.add_transition_states_near(problem, &places, &problem.symmetries);
+    }
+
+    /// Looks for the transition states near some places, each given with the direction in which it
+    /// is to be passed, and adds those found, with what the symmetries make of them.
+    pub fn add_transition_states_near(
+        &mut self,
+        problem: &Problem,
+        places: &[(Configuration, Vector3<f64>)],
+        symmetries: &[Symmetry],
+    ) {
+        let found = parallel::flat_map(places, |(q, along)| {
+            stationary::transition_state(problem, q, along)
+                .filter(|found| problem.is_free(&found.point.q))
+        });
+        let mut known: Vec<Configuration> =
+            self.transition_states.iter().map(|s| s.0.point.q).collect();
+        let mut fresh: Vec<Stationary> = Vec::new();
+        for found in found {
+            let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
+            if !known.iter().any(is_same) {
+                known.extend(symmetries.iter().map(|s| s.apply(&found.point.q)));
+                fresh.push(found);
+            }
+        }
+        let known = self.known();
+        let joined: Vec<[Option<Descent>; 2]> = parallel::map(&fresh, |saddle| {
+            [1.0, -1.0].map(|sign| off_saddle(problem, saddle, sign, &known))
+        });
+        for (saddle, sides) in fresh.into_iter().zip(joined) {
+            let [Some(first), Some(second)] = sides else {
+                continue;
+            };
+            for symmetry in distinct(problem, symmetries, &saddle.point.q) {
+                let sides = [&first, &second].map(|side| side.image(symmetry));
+                self.add_transition_state(problem, saddle.image(symmetry), sides);
+            }
+        }
+    }
+
+    fn add_transition_state(
+        &mut self,
+        problem: &Problem,
+        saddle: Stationary,
+        [first, second]: [Descent; 2],
+    ) {
+        let ends = [&first, &second].map(|side| self.arrive(problem, side));
+        let [Some(from), Some(to)] = ends else {
+            return;
+        };
+        let mut way: Vec<Point> = first.way;
+        way.reverse();
+        way.push(saddle.point);
+        way.extend(second.way);
+        let link = self.network.add_way(problem, from, to, way);
+        self.transition_states.push((saddle, link));
+    }
+
+    /// The highest configuration of a link and the direction in which the link passes it.
+    pub(super) fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
+        let q = self.network.peak_configuration(number)?;
+        let along = match self.network.way(number) {
+            Way::Same => return None,
+            Way::Straight => {
+                let link = &self.network.links[number];
+                let [a, b] = [link.from, link.to].map(|node| self.network.nodes[node as usize]);
+                a?.0.step_to(&b?.0)
+            }
+            Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
+        };
+        Some((q, along))
+    }
+}
+
+/// The descent from a transition state to one of its sides.
+fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64, known: &Known) -> Option<Descent> {
+    let unstable = saddle.modes.first()?.1;
+    let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
+    let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
+    let descent = descend_among(problem, &start, known);
+    (descent.way[0].energy <= saddle.point.energy).then_some(descent)
+}

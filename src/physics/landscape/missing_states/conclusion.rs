@@ -1,0 +1,114 @@
+//! What a search has proved of a list of states.
+
+use std::collections::{BTreeSet, HashSet};
+
+use super::exits::{SAME, SHARP};
+use super::search::{Search, Waiting};
+use super::{Completeness, OpenRegion, regions};
+use crate::configuration::Configuration;
+use crate::landscape::catalogue::Catalogue;
+use crate::landscape::exploration::Exploration;
+use crate::landscape::minimax::{Certifier, Effort};
+use crate::landscape::pathway;
+use crate::observer::Silent;
+use crate::problem::Problem;
+
+/// Cells spent on finding a way on from a minimum that is not listed.
+const CELLS: usize = 50_000;
+
+impl Search<'_> {
+    /// What is proved of the listed states. Minima that are not listed must have a way on to a listed
+    /// one, or to `free`; cells below whose least energy that rises too far are looked at again, as
+    /// smaller ones are better known.
+    pub fn conclude(mut self, survey: &Exploration, listed: &Catalogue) -> Completeness {
+        let (mut judged, mut closed) = (BTreeSet::new(), Vec::new());
+        loop {
+            let reached: BTreeSet<usize> = self.explained.iter().map(|cell| cell.2).collect();
+            let mut again = Waiting::default();
+            for ending in reached {
+                let at = self.exits.endings[ending].minimum.point;
+                if !judged.insert(ending) || listed.holds(self.problem, &at.q) {
+                    continue;
+                }
+                let Some(beyond) = self.way_on(survey, listed, ending) else {
+                    closed.push(OpenRegion {
+                        pose: at.q,
+                        volume: 0.0,
+                        lowest: at.energy,
+                    });
+                    continue;
+                };
+                self.exits.lead_on(ending, beyond);
+                let least = beyond - self.exits.rise;
+                for (cell, lowest, _) in self
+                    .explained
+                    .extract_if(.., |cell| cell.2 == ending && cell.1 < least)
+                {
+                    again.push(cell, lowest);
+                }
+            }
+            if again.is_empty() {
+                break;
+            }
+            self.look_through(again, &Silent);
+        }
+        let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
+        let mut open = regions::of_cells(&self.problem.space, &self.open);
+        open.extend(closed);
+        Completeness {
+            // A sum of nothing is minus zero.
+            share: volume / self.volume + 0.0,
+            below: self.below,
+            escape: self.exits.rise,
+            open,
+            cells: self.cells,
+            ended: self.ended,
+        }
+    }
+
+    /// Proved highest energy (J) of a way from a minimum that is not listed to a listed one, or to
+    /// `free`, where it rises no more than is allowed: of that which the survey knows, or of one that
+    /// the certificate finds.
+    fn way_on(&self, survey: &Exploration, listed: &Catalogue, ending: usize) -> Option<f64> {
+        let problem = self.problem;
+        let minimum = self.exits.endings[ending].minimum.point;
+        let allowed = minimum.energy + self.exits.rise;
+        let known = known_way(problem, survey, listed, &minimum.q).unwrap_or_default();
+        self.exits.prove(&known, allowed).or_else(|| {
+            let goals: Vec<_> = listed.states.iter().map(|s| s.configuration).collect();
+            let contact = problem.contact.as_ref();
+            let mut certifier = Certifier::new(problem.bounds().ok()?, contact, &problem.space);
+            let effort = Effort {
+                tolerance: SHARP * self.exits.rise,
+                cells: CELLS,
+            };
+            let way = certifier.escape(&minimum.q, &goals, &known, &effort).ok()?;
+            way.bounds.upper.filter(|upper| *upper <= allowed)
+        })
+    }
+}
+
+/// The lowest way that a survey knows from a minimum to a listed one, or to `free`.
+fn known_way(
+    problem: &Problem,
+    survey: &Exploration,
+    listed: &Catalogue,
+    minimum: &Configuration,
+) -> Option<Vec<Configuration>> {
+    let from = survey.states[survey.state_at(problem, minimum, SAME)?].node;
+    let is_listed = survey
+        .states
+        .iter()
+        .filter(|state| listed.holds(problem, &state.minimum.point.q));
+    let mut goals: HashSet<usize> = is_listed.map(|state| state.node).collect();
+    goals.insert(survey.free);
+    let depth = problem.depth();
+    let scale = [depth, 2e-3 * depth];
+    let way = pathway::lowest(problem, &survey.network, from, [&goals, &goals], scale)?;
+    Some(
+        way.pathway
+            .iter()
+            .map(|point| point.configuration)
+            .collect(),
+    )
+}

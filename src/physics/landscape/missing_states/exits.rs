@@ -1,0 +1,195 @@
+//! Ways out of the places where no step leads downhill from everywhere: proved pathways to minima.
+
+use std::sync::Arc;
+
+use ordered_float::OrderedFloat;
+
+use crate::configuration::Configuration;
+use crate::landscape::metered::Metered;
+use crate::landscape::minimax::upper::PathProof;
+use crate::landscape::minimum::{Outcome, descend};
+use crate::landscape::stationary::Stationary;
+use crate::order::Order;
+use crate::parallel;
+use crate::problem::Problem;
+
+/// Two minima closer than this (m, metric of the space) are the same.
+pub(super) const SAME: f64 = 1e-5;
+/// A descent that got stuck this close (m) to a minimum is led on into it: where corners of both
+/// tiles meet, the last verification may fail beside it.
+const STUCK: f64 = 1e-4;
+/// Exits tried from one place.
+const TRIED: usize = 3;
+/// Descents made at once, before the other places are tried again from where they started.
+const TOGETHER: usize = 16;
+/// A pathway's bound exceeds its highest energy by no more than this share of the allowed rise.
+pub(super) const SHARP: f64 = 0.1;
+
+/// A wholly free box about `at`: where a step leads from all of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Opened {
+    pub at: Configuration,
+    /// The least energy (J) in the cell.
+    pub lowest: f64,
+}
+
+/// A minimum, as the search needs it.
+#[derive(Clone, Debug)]
+pub(super) struct Ending {
+    pub minimum: Stationary,
+    /// Highest energy (J) on the proved way on to a listed state, where it is known not to be one
+    /// itself; minus infinity otherwise.
+    pub beyond: f64,
+    /// Whether the survey had not found it.
+    pub is_new: bool,
+}
+
+/// Where a pathway to a minimum starts.
+struct Exit {
+    at: Configuration,
+    /// Proved highest energy (J) on the way, to a listed state where that is known not to be one.
+    highest: f64,
+    ending: usize,
+}
+
+/// The exits known so far, and the minima in which they end.
+pub(super) struct Exits<'a> {
+    problem: &'a Problem,
+    /// Of the energy over cells.
+    pub bounds: Arc<Metered<'a>>,
+    pub rise: f64,
+    exits: Vec<Exit>,
+    pub endings: Vec<Ending>,
+}
+
+impl<'a> Exits<'a> {
+    pub fn new(
+        problem: &'a Problem,
+        bounds: Arc<Metered<'a>>,
+        rise: f64,
+        known: impl Iterator<Item = Stationary>,
+    ) -> Self {
+        let ending = |minimum| Ending {
+            minimum,
+            beyond: f64::NEG_INFINITY,
+            is_new: false,
+        };
+        Self {
+            problem,
+            bounds,
+            rise,
+            exits: Vec::new(),
+            endings: known.map(ending).collect(),
+        }
+    }
+
+    /// For each place the ending to which a way out of it is proved.
+    pub fn find(&mut self, places: &[Opened]) -> Vec<Option<usize>> {
+        let mut found = vec![None; places.len()];
+        let mut left: Vec<usize> = (0..places.len()).collect();
+        let mut first = 0;
+        while !left.is_empty() {
+            let joined: Vec<Option<usize>> =
+                parallel::map(&left, |&k| self.join(&places[k], first));
+            for (&k, ending) in left.iter().zip(joined) {
+                found[k] = ending;
+            }
+            left.retain(|&k| found[k].is_none());
+            first = self.exits.len();
+            let rest = left.split_off(left.len().min(TOGETHER));
+            let ways = parallel::map(&left, |&k| self.descent(&places[k]));
+            for (&k, way) in left.iter().zip(ways) {
+                let Some((minimum, highest)) = way else {
+                    continue;
+                };
+                let ending = self.ending(minimum);
+                let highest = highest.max(self.endings[ending].beyond);
+                if highest <= places[k].lowest + self.rise {
+                    self.exits.push(Exit {
+                        at: places[k].at,
+                        highest,
+                        ending,
+                    });
+                    found[k] = Some(ending);
+                }
+            }
+            left = rest;
+        }
+        found
+    }
+
+    /// Makes all exits to an ending lead on over this energy (J).
+    pub fn lead_on(&mut self, ending: usize, beyond: f64) {
+        self.endings[ending].beyond = beyond;
+        for exit in self.exits.iter_mut().filter(|exit| exit.ending == ending) {
+            exit.highest = exit.highest.max(beyond);
+        }
+    }
+
+    /// The minimum that a straight motion to one of the exits from number `first` on leads to.
+    fn join(&self, place: &Opened, first: usize) -> Option<usize> {
+        let highest = place.lowest + self.rise;
+        let mut near: Vec<(f64, &Exit)> = self.exits[first..]
+            .iter()
+            .filter(|exit| exit.highest <= highest)
+            .map(|exit| (self.problem.space.distance(&place.at, &exit.at), exit))
+            .collect();
+        near.order_by_key(|(distance, _)| OrderedFloat(*distance));
+        near.truncate(TRIED);
+        let leads_there = |exit: &&Exit| self.prove(&[place.at, exit.at], highest).is_some();
+        let exit = near.into_iter().map(|(_, exit)| exit).find(leads_there);
+        exit.map(|exit| exit.ending)
+    }
+
+    /// The minimum in which a descent ends, and the proved highest energy (J) on the way.
+    fn descent(&self, place: &Opened) -> Option<(Stationary, f64)> {
+        let descent = descend(self.problem, &place.at);
+        let mut way: Vec<Configuration> = descent.way.iter().map(|point| point.q).collect();
+        let minimum = match descent.outcome {
+            Outcome::Minimum(minimum) => *minimum,
+            Outcome::Stuck(q) => {
+                let beside = self.near(&q, STUCK)?;
+                self.endings[beside].minimum.clone()
+            }
+            Outcome::Free => return None,
+        };
+        way.push(minimum.point.q);
+        let highest = self.prove(&way, place.lowest + self.rise)?;
+        Some((minimum, highest))
+    }
+
+    /// The proved highest energy (J) of a pathway, where it is not above `allowed`.
+    pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
+        let proof = PathProof {
+            bounds: &*self.bounds,
+            contact: self.problem.contact.as_ref(),
+            space: &self.problem.space,
+        };
+        let proved = proof.prove(way, SHARP * self.rise, allowed);
+        proved.ok().map(|proved| proved.upper)
+    }
+
+    /// The known minimum within `distance` (m) of a configuration or of one of its images.
+    fn near(&self, q: &Configuration, distance: f64) -> Option<usize> {
+        let images: Vec<Configuration> =
+            self.problem.symmetries.iter().map(|s| s.apply(q)).collect();
+        let is_near = |ending: &Ending| {
+            let at = &ending.minimum.point.q;
+            images
+                .iter()
+                .any(|q| self.problem.space.distance(q, at) <= distance)
+        };
+        self.endings.iter().position(is_near)
+    }
+
+    fn ending(&mut self, minimum: Stationary) -> usize {
+        self.near(&minimum.point.q, SAME).unwrap_or_else(|| {
+            self.endings.push(Ending {
+                minimum,
+                beyond: f64::NEG_INFINITY,
+                is_new: true,
+            });
+            self.endings.len() - 1
+        })
+    }
+}

@@ -1,0 +1,67 @@
+//! Slots: deep ones without play, in which almost every configuration overlaps, and one with little play.
+
+use tilebind::budget::Allowance;
+use tilebind::design::Design;
+use tilebind::observer::Silent;
+use tilebind::pipeline::{Settings, analyse};
+
+use crate::designs;
+
+/// Five square teeth of this depth (m).
+fn teeth(depth: f64) -> Design {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shapes/square-teeth-10mm.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let deeper = text.replace("depth = 0.010", &format!("depth = {depth}"));
+    assert_ne!(deeper, text);
+    Design::parse(&deeper, "deep.toml").unwrap()
+}
+
+/// Between teeth that stand on each other slots lead to other bonds. What keeps two states apart lies
+/// before the slots, not in them, where ways in are known.
+#[test]
+fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
+    let mut settings = Settings {
+        milestones: 4000,
+        far_starts: 100,
+        ..Settings::default()
+    };
+    settings.completeness.allowed = Allowance::NONE;
+    let analysis = analyse(&teeth(0.05), &settings, &Silent);
+    // Three of them are narrowed to no width that is worth while, for 20,000 to 50,000 cells each.
+    let cells = analysis.counts.cells;
+    assert!(cells < 300_000, "{cells}");
+}
+
+/// Between a tab and a slot contacts near a point are closed on more than one side, and corners a
+/// millimetre away mislead where a pathway is to be lifted off contact.
+#[test]
+fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
+    let mut settings = Settings {
+        far_starts: 100,
+        ..Settings::default()
+    };
+    settings.completeness.allowed = Allowance::NONE;
+    let design = designs::load("shapes/dovetail.toml");
+    let analysis = analyse(&design, &settings, &Silent);
+    let told = analysis.catalogue.barriers.iter().filter(|b| b.has_way());
+    let excess: Vec<f64> = told
+        .map(|b| (b.bounds.upper.unwrap() - b.saddle_energy) / b.forward())
+        .collect();
+    // The width that is worth while.
+    assert!(
+        excess.len() >= 5 && excess.iter().all(|excess| *excess < 0.05),
+        "{excess:?}"
+    );
+    // Those of two traps turned out a thousandth of what was first known of them.
+    let shallow = analysis
+        .catalogue
+        .barriers
+        .iter()
+        .filter(|b| b.has_way() && b.forward() < 1e-5);
+    let widths: Vec<f64> = shallow.map(|b| b.bounds.width()).collect();
+    let wanted = 1e-5 * analysis.problem.depth();
+    assert!(
+        widths.len() == 2 && widths.iter().all(|width| *width <= wanted),
+        "{widths:?} {wanted}"
+    );
+}
