@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::assessments::{capture_settings, checked, merge, numbers, quantities};
-use super::document::{Document, Entries, Part, Table, rows};
+use super::document::{Cell, Document, Entries, Part, Table, rows};
 use super::page::Charts;
 use super::plots::curve_data;
 use super::plots::curve_names::said;
@@ -151,7 +151,12 @@ impl<'a> Sweep<'a> {
                 self.plan.designs[point.design].name.clone()
             });
         for (k, axis) in self.plan.axes.iter().enumerate() {
-            let value = move |(point, _): &(&Point, _)| point.values[k].to_string();
+            let is_number = axis.numbers().is_some();
+            let value = move |(point, _): &(&Point, _)| -> Cell {
+                let value = &point.values[k];
+                let number = value.number().filter(|_| is_number);
+                number.map_or_else(|| value.to_string().into(), Into::into)
+            };
             all = all.column(axis.key.clone(), "", "", value);
         }
         let outcome = |point: &Point| &self.outcomes[point.index];

@@ -89,6 +89,7 @@ pub fn released<'py>(
     given: Option<&Bound<'_, PyDict>>,
     progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
+    fault::positive("shaking", Some(shaking))?;
     let given = given.cloned().unwrap_or_else(|| PyDict::new(py));
     given.set_item("shaking", shaking)?;
     let settings = settings(Some(&given))?;
