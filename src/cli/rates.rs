@@ -2,7 +2,6 @@
 
 use clap::Args;
 use tilebind::design::Design;
-use tilebind::kinetics::OVERDAMPED;
 use tilebind::observer::Observer;
 use tilebind::output::Output;
 use tilebind::rates::Question;
@@ -46,38 +45,12 @@ pub struct Rates {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// Effective energy of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    kt: f64,
-
-    /// Drag rate (1/s): the drag is this times the mass
-    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::positive)]
-    drag: f64,
+    #[command(flatten)]
+    question: Question,
 
     /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
     start: Option<Configuration>,
-
-    /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
-    /// [default: half the bond's energy; without --start half way up to its lowest barrier]
-    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::negative)]
-    basin_energy: Option<f64>,
-
-    /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
-    #[arg(long, value_name = "R", value_parser = request::length)]
-    free_at: Option<f64>,
-
-    /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
-    /// time, or those of the rates out of the bond and of the traps and of all that make up a tenth
-    /// of these [default: 0.1, as far as it comes within seconds]
-    #[arg(long, value_name = "REL", value_parser = request::positive)]
-    certify: Option<f64>,
-
-    /// Prove how often tiles set out from the well about the start, or from each basin, and bounds of
-    /// the mean time until they are at an end, for tiles that are convex about their centres of mass,
-    /// of few corners
-    #[arg(long)]
-    prove: bool,
 
     /// Kinds of traps with rates, the deepest first
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
@@ -107,21 +80,14 @@ impl Rates {
         let design = self.design.load()?;
         let output = self.results.output(&RATES, self.design.inputs(&design))?;
         let problem = design.problem();
-        let question = Question {
-            kt: self.kt,
-            drag: self.drag,
-            basin_energy: self.basin_energy,
-            free_at: self.free_at,
-            certify: self.certify,
-            prove: self.prove,
-        };
+        let question = &self.question;
         if let Some(why) = question.refused(&design, &problem) {
             return Err(Failure::Usage(why));
         }
         self.work.use_threads()?;
         match self.start {
-            Some(start) => self.exit(&question, (&design, &problem), start, output),
-            None => self.table(&question, &design, problem, output),
+            Some(start) => self.exit(question, (&design, &problem), start, output),
+            None => self.table(question, &design, problem, output),
         }
     }
 

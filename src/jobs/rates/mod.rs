@@ -9,14 +9,17 @@ pub use over_kt::AtKt;
 pub use states::RatedState;
 pub use table::StateRates;
 
+use clap::Args;
+
 use crate::design::Design;
 use crate::pipeline::Analysis;
+use crate::request;
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
 use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit, half_bond};
 use physics::kinetics::rates::{RateSettings, RatesError, rates};
-use physics::kinetics::{Certify, why_unprovable};
+use physics::kinetics::{Certify, OVERDAMPED, why_unprovable};
 use physics::problem::Problem;
 
 /// Mean exit times after which a moving tile is given up.
@@ -25,20 +28,35 @@ const PATIENCE: f64 = 30.0;
 const SQUARES: usize = 120;
 
 /// What is asked; `None` for what is usual.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Question {
-    /// Effective energy of shaking (J).
+    /// Effective energy of shaking (J)
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub kt: f64,
-    /// Drag rate c / mass (1/s).
+
+    /// Drag rate (1/s): the drag is this times the mass
+    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::positive)]
     pub drag: f64,
-    /// The tile is bound where U is lower (J): below half the bond's energy, or, between states, half
-    /// way up to its lowest barrier.
+
+    /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
+    /// [default: half the bond's energy; without --start half way up to its lowest barrier]
+    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::negative)]
     pub basin_energy: Option<f64>,
-    /// It is free where the centres are so far apart (m).
+
+    /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
+    #[arg(long, value_name = "R", value_parser = request::length)]
     pub free_at: Option<f64>,
-    /// Relative distance of the bounds.
+
+    /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
+    /// time, or those of the rates out of the bond and of the traps and of all that make up a tenth
+    /// of these [default: 0.1, as far as it comes within seconds]
+    #[arg(long, value_name = "REL", value_parser = request::positive)]
     pub certify: Option<f64>,
-    /// Whether what can be proved is.
+
+    /// Prove how often tiles set out from the well about the start, or from each basin, and bounds of
+    /// the mean time until they are at an end, for tiles that are convex about their centres of mass,
+    /// of few corners
+    #[arg(long)]
     pub prove: bool,
 }
 

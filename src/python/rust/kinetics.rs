@@ -21,10 +21,7 @@ fn check(asked: &rates::Question, design: &Design, problem: &Problem) -> PyResul
     if let Some(why) = asked.refused(design, problem) {
         return Err(fault::value(why));
     }
-    fault::positive("kt", Some(asked.kt))?;
-    fault::positive("drag", Some(asked.drag))?;
-    fault::positive("certify", asked.certify)?;
-    fault::positive("free_at", asked.free_at)
+    Ok(())
 }
 
 /// Mean exit time and exits of a tile that is let go at a pose.

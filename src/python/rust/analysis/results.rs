@@ -10,6 +10,7 @@ use tilebind::report::states::{barriers, states};
 
 use super::Analysis;
 use crate::design::Design;
+use crate::request::request;
 use crate::table;
 use crate::{convert, fault, job, kinetics};
 
@@ -206,28 +207,17 @@ impl Analysis {
     /// dict
     ///     As ``tilebind rates --json``: basins, rates with their bounds, occupation, first-passage
     ///     times.
-    #[pyo3(signature = (kt, *, drag = 50.0, traps = 3, basin_energy = None, free_at = None,
-                        certify = None, prove = false))]
-    #[allow(clippy::too_many_arguments)]
+    #[pyo3(signature = (kt, *, traps = 3, **settings))]
     fn rates<'py>(
         &self,
         py: Python<'py>,
         kt: f64,
-        drag: f64,
         traps: usize,
-        basin_energy: Option<f64>,
-        free_at: Option<f64>,
-        certify: Option<f64>,
-        prove: bool,
+        settings: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked = tilebind::rates::Question {
-            kt,
-            drag,
-            basin_energy,
-            free_at,
-            certify,
-            prove,
-        };
+        let settings = settings.unwrap_or_else(|| PyDict::new(py));
+        settings.set_item("kt", kt)?;
+        let asked = request(Some(&settings))?;
         let found = (&self.content.design, &self.found);
         kinetics::rates(py, found, &asked, traps)
     }

@@ -141,28 +141,14 @@ impl Design {
     ///     As ``tilebind rates --start --json``: `mean_exit_s` and `mean_exit_bounds_s`, `exits`
     ///     (shares that are first bound and free), `diffusion_m2_s`, `proved` (None where nothing
     ///     is), `mesh` (how far the two finest meshes differ).
-    #[pyo3(signature = (start, *, kt, drag = 50.0, basin_energy = None, free_at = None,
-                        certify = None, prove = false))]
-    #[allow(clippy::too_many_arguments)]
+    #[pyo3(signature = (start, **settings))]
     fn exits<'py>(
         &self,
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
-        kt: f64,
-        drag: f64,
-        basin_energy: Option<f64>,
-        free_at: Option<f64>,
-        certify: Option<f64>,
-        prove: bool,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked = tilebind::rates::Question {
-            kt,
-            drag,
-            basin_energy,
-            free_at,
-            certify,
-            prove,
-        };
+        let asked = request(settings)?;
         let posed = (&self.content.design, &**self.content.problem(None));
         kinetics::exits(py, posed, start, &asked)
     }
