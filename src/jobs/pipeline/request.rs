@@ -134,7 +134,7 @@ pub struct Thoroughness {
 
     /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
     #[arg(long, alias = "dynamics-runs", value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = request::runs)]
+          default_missing_value = "1000", value_parser = request::runs_or_none)]
     dynamics: Option<usize>,
 }
 

@@ -1,0 +1,50 @@
+"""Python has every option of the program that says what is asked, and the reverse."""
+
+import ast
+import pathlib
+import re
+import subprocess
+
+import pytest
+import tilebind
+
+# Where results go and how they look: Python returns them.
+SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "quiet", "threads",
+         "help", "version", "compact", "pathway"}
+# The design is an object, its model a keyword of energies; a bar is Python's own.
+OBJECTS = {"self", "design", "designs", "progress", "model"}
+# Called otherwise: a flag with a number, poses by their place, several files.
+NAMES = {"dynamics": "dynamics_runs", "from": "start", "to": "end"}
+
+CALLS = {
+    "analyse": "Design.analyse",
+    "barrier": "Design.barrier",
+    "compare": "compare",
+    "dock": "dock",
+    "sweep": "sweep",
+    "yield": "Design.yields",
+}
+# Parts of a sweep on many machines, and what adds points to it; bound tiles have a method of their own.
+ELSEWHERE = {
+    "sweep": {"run", "merge", "status", "shard", "plan", "refine", "baseline"},
+    "dock": {"from_bond", "overdamped", "trajectory"},
+}
+
+
+def parameters(name):
+    """The parameters of a call as the stubs have them."""
+    stubs = pathlib.Path(tilebind.__file__).with_name("_tilebind.pyi").read_text()
+    tree = ast.parse(stubs)
+    for part in name.split("."):
+        tree = next(node for node in tree.body if getattr(node, "name", None) == part)
+    arguments = tree.args.posonlyargs + tree.args.args + tree.args.kwonlyargs
+    return {argument.arg for argument in arguments} - OBJECTS
+
+
+@pytest.mark.parametrize("command", CALLS)
+def test_options_are_keywords(program, command):
+    told = subprocess.run([program, command, "--help"], capture_output=True, text=True, check=True).stdout
+    told = told.split("Options:")[1].split("\n\n")[0] if "Options:" in told else told
+    options = {one.replace("-", "_") for one in re.findall(r"^\s+(?:-\w, )?--([a-z-]+)", told, re.M)}
+    options = {NAMES.get(one, one) for one in options - SHOWN - OBJECTS - ELSEWHERE.get(command, set())}
+    assert options == parameters(CALLS[command])
