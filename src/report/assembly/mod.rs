@@ -7,7 +7,6 @@ mod text;
 
 use serde_json::{Map, Value, json};
 
-use super::csv;
 use super::document::{Document, Drawing, Entries, Table, rows};
 use super::files::Files;
 use super::values::positive_zero;
@@ -92,6 +91,7 @@ fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
         )).listing(LISTED).in_view())
         .table(all.in_csv("slides"))
         .data("matrix_J", matrix.energies.iter().map(|row| row.iter().copied().map(positive_zero).collect()).collect::<Vec<Value>>())
+        .table(energies(assembly))
         .fact("strongest_mismatch", "strongest mismatch", mismatch)
             .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
         .fact("deeper_in_whole_tiles", "bonds in whole tiles", deeper.map(|ends| json!(ends)))
@@ -250,7 +250,6 @@ fn beside(assembly: &Assembly) -> Files {
             xgrow::write(&engine.without_repulsion(), &remarks),
         ),
         ("tileset.yaml", rgrow::write(&assembly.built.set, &[])),
-        ("matrix.csv", matrix(assembly)),
         ("words.toml", assembly.words_toml.clone()),
         ("sheet.md", sheet::sheet(assembly)),
     ];
@@ -262,15 +261,15 @@ fn beside(assembly: &Assembly) -> Files {
 }
 
 /// The energies of all faces with all.
-fn matrix(assembly: &Assembly) -> String {
+fn energies(assembly: &Assembly) -> Table {
     let matrix = &assembly.built.matrix;
-    let faces = || 0..matrix.energies.len();
-    let header = ["face".to_owned(), "code".to_owned()].into_iter();
-    let header = header.chain(faces().map(|face| assembly.face(face) + "_J"));
-    let rows = faces().map(|i| {
-        let energies = matrix.energies[i].iter().copied().map(csv::number);
-        let head = [assembly.face(i), matrix.code(i).to_string()];
-        head.into_iter().chain(energies).collect::<Vec<_>>()
+    let faces = 0..matrix.energies.len();
+    let head = rows(faces.clone())
+        .column("face", "", "", |i| assembly.face(*i))
+        .column("code", "", "", |i| matrix.code(*i).to_string());
+    let table = faces.fold(head, |table, j| {
+        let key = assembly.face(j) + "_J";
+        table.column(key, "", "", move |i| matrix.energies[*i][j])
     });
-    csv::table(header, rows)
+    table.table("matrix").in_csv("matrix")
 }
