@@ -59,7 +59,7 @@ impl ResultOptions {
             interrupt::without(|| output.write(&files))?;
         }
         progress.finish();
-        self.print.results(&document.report(), || {
+        self.print.results(&document.printed(), || {
             let told = document.text(style::columns());
             match &self.out {
                 Some(folder) => format!(

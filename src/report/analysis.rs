@@ -78,6 +78,7 @@ pub fn document<'a>(
             "seed {}, design sha256 {}",
             analysis.settings.seed, design.sha256
         ),
+        ..Document::default()
     }
 }
 

@@ -46,6 +46,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
         title: format!("{}: how the outlines fit", design.name),
         answer: longest.unwrap_or("no two edges can be laid on each other".to_owned()),
         entries: entries(design).table(table(found).in_file("matches").listing(LISTED)),
+        printed: Some("matches"),
         pictures: picture.into_iter().collect(),
         origin: "exact polygons, magnets aside".to_owned(),
         ..Document::default()

@@ -17,6 +17,13 @@ impl Entries {
 }
 
 impl Document<'_> {
+    /// What is printed where JSON is asked for.
+    pub fn printed(&self) -> String {
+        let tables = self.tables();
+        let alone = tables.iter().find(|table| Some(table.key) == self.printed);
+        alone.map_or_else(|| self.report(), |table| json::text(&table.json()))
+    }
+
     /// The report's text.
     pub fn report(&self) -> String {
         self.entries.report()

@@ -33,6 +33,8 @@ pub struct Document<'a> {
     pub remarks: Vec<String>,
     /// All that was found, in the order of the report.
     pub entries: Entries,
+    /// The table that is printed alone where JSON is asked for; the whole report otherwise.
+    pub printed: Option<&'static str>,
     /// Its pictures, in order.
     pub pictures: Vec<Drawing<'a>>,
     /// What one can move about in on its page, if anything.

@@ -77,6 +77,7 @@ pub fn document<'a>(request: &'a Request, answer: &'a Answer) -> Document<'a> {
             bar.model.name(),
             si(bar.pitch, "m", 3)
         ),
+        ..Document::default()
     }
 }
 

@@ -318,7 +318,7 @@ fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
 #[test]
 fn outlines_match_longest_contact_first() {
     let found = json(&["match", "shapes/tab-20mm.toml", "--json"]);
-    let matches = found["matches"].as_array().unwrap();
+    let matches = found.as_array().unwrap();
     let lengths: Vec<f64> = matches
         .iter()
         .map(|one| one["contact_m"].as_f64().unwrap())
