@@ -394,7 +394,7 @@ PARTS = [
     Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
     Part("bench", "times", 5, ["bench.csv"], bench),
 ]
-OWN = ["README.md", "make.py"]
+OWN = ["README.md", "make.py", "figure6.py"]
 
 
 # Tables of the READMEs: each of the files of this folder alone.
@@ -537,7 +537,7 @@ SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": un
 
 
 def write_tables():
-    """Writes what stands below `<!-- results/make.py: NAME -->`, to the next empty line."""
+    """Writes what stands below `<!-- results/make.py: NAME -->`: a block of text, or to the next empty line."""
     missing = []
     for path in READMES:
         def shown(found):
@@ -549,7 +549,7 @@ def write_tables():
                 return found[0]
 
         text = path.read_text()
-        new = re.sub(r"(<!-- results/make\.py: (\S+) -->\n)(?:.+\n)*", shown, text)
+        new = re.sub(r"(<!-- results/make\.py: (\S+) -->\n)(?:```(?:.*\n)*?```\n|(?:.+\n)*)", shown, text)
         if new != text:
             path.write_text(new)
     return missing
