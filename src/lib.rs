@@ -29,6 +29,24 @@
 //! other alone. The front pages of `src/physics/lib.rs`, `src/jobs/lib.rs` and `src/report/lib.rs` list
 //! their modules.
 //!
+//! # What to read first
+//!
+//! The main job from a file to its report, in ten files and 2,000 lines:
+//!
+//! 1. `src/cli/analyse.rs` - what a user asks, and where results go;
+//! 2. `src/jobs/pipeline/mod.rs` - the whole job on a page;
+//! 3. `src/physics/tile/mod.rs` - a tile: outline, faces, magnets;
+//! 4. `src/physics/potential/mod.rs` - U(x, y, theta), its gradient and its bounds;
+//! 5. `src/physics/roadmap/mod.rs` - milestones, neighbours, motions;
+//! 6. `src/physics/landscape/exploration/mod.rs` - minima and the passes between their basins;
+//! 7. `src/physics/landscape/catalogue/mod.rs` - the states and barriers that are listed;
+//! 8. `src/physics/landscape/minimax/mod.rs` - bounds of barriers by subdivision;
+//! 9. `src/physics/landscape/missing_states/mod.rs` - the proof that no state is missing;
+//! 10. `src/report/analysis.rs` - what is told of it all.
+//!
+//! How a result becomes text, JSON, tables, pictures and a page is told in `src/report/document`, how
+//! options of the command line are keywords of Python in `src/jobs/request`.
+//!
 //! The words are the same everywhere: the wanted meeting of the tiles is the *bond*, every other
 //! held one a *trap*, far apart is *free*. What else may act between tiles than magnets, and which
 //! files that takes, is told in [`potential::interaction`].

@@ -1,25 +1,19 @@
 //! Results for people and programs to read.
 //!
-//! - [`document`] - a result as one document that terminal, JSON, CSV, page and pictures are made from;
-//! - [`json`] - `report.json`, everything that is known;
-//! - [`states`] - tables of states and of barriers;
-//! - [`names`] - what states, places, faces and files are called;
-//! - [`csv`] - tables of states and barriers, and pathways;
-//! - [`calibration`] - fitted shields;
-//! - [`docking`] - docking experiments; [`dynamics`] - the check of barriers by moving tiles;
-//! - [`comparison`] - designs side by side; [`sweep`] - many designs from one;
-//! - [`assembly`] - tile sets whose glues are words;
-//! - [`words`] - sets of barcodes; [`crosstalk`] - their attraction over all poses;
-//! - [`matching`] - how two outlines fit together;
-//! - [`rates`] - exits and rates of overdamped motion;
-//! - [`figures`] - numbers with their bounds, for people;
-//! - [`summary`] - ten lines for the terminal; [`inspection`] - a design at a glance;
-//! - [`workshop`] - drawings and a sheet to make the tiles by;
-//! - [`plots`] - pictures;
-//! - [`page`] - `report.html`, all of it to look at and move about in;
-//! - [`topsearch`] - minima and transition states for programs that draw disconnectivity graphs;
-//! - [`analysis`] - all of it as files of one folder; [`files`] - what the files of all commands are
-//!   called.
+//! Most modules make the [`document`] of one job's result, which the terminal, JSON, CSV, the page and
+//! pictures are made from:
+//!
+//! - [`analysis`] - of the main job, with [`states`] (and barriers), [`summary`], [`dynamics`] (the check
+//!   by moving tiles) and [`topsearch`] (files for programs that draw disconnectivity graphs);
+//! - [`comparison`], [`sweep`] - designs side by side, many designs from one;
+//! - [`docking`], [`release`] - tiles sent towards each other, and shaken loose;
+//! - [`bond`], [`rates`], [`yields`] - how strongly, how soon and how many shaken tiles bind;
+//! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
+//! - [`matching`] - how two outlines fit; [`calibration`] - what is fitted to measurements.
+//!
+//! [`inspection`] shows a design at a glance, [`workshop`] what it takes to make one. Below these:
+//! [`document`]; [`plots`] (pictures) and [`page`] (`report.html`); [`names`], [`figures`], [`json`],
+//! [`csv`] (how things are called and numbers written); [`files`] (what each command writes).
 
 pub mod analysis;
 pub mod assembly;
