@@ -44,7 +44,8 @@ def parameters(name):
 @pytest.mark.parametrize("command", CALLS)
 def test_options_are_keywords(program, command):
     told = subprocess.run([program, command, "--help"], capture_output=True, text=True, check=True).stdout
-    told = told.split("Options:")[1].split("\n\n")[0] if "Options:" in told else told
+    # Up to the next heading.
+    told = re.split(r"\n(?=\S)", told.split("Options:")[1])[0]
     options = {one.replace("-", "_") for one in re.findall(r"^\s+(?:-\w, )?--([a-z-]+)", told, re.M)}
     options = {NAMES.get(one, one) for one in options - SHOWN - OBJECTS - ELSEWHERE.get(command, set())}
     assert options == parameters(CALLS[command])
