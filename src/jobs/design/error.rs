@@ -109,6 +109,22 @@ impl fmt::Display for DesignError {
 }
 
 impl DesignError {
+    /// A fault of a file, alone.
+    pub fn new(
+        file: &str,
+        place: Option<Place>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
+        Self {
+            file: file.to_owned(),
+            place: place.map(Box::new),
+            message: message.into(),
+            help: help.into(),
+            also: Vec::new(),
+        }
+    }
+
     /// The fault without the further ones.
     fn write_one(&self, f: &mut String) -> fmt::Result {
         let Some(place) = &self.place else {

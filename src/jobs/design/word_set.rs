@@ -19,6 +19,7 @@ use super::word_places::{self, MagnetAt};
 use super::word_stage::{Entries, PITCH, SIZE, stage};
 use super::{Design, DesignError, MagnetModel, Place, file};
 use physics::words::Word;
+use physics::words::crosstalk::Stage;
 
 /// A set of words and what carries them.
 #[derive(Clone, Debug)]
@@ -58,6 +59,12 @@ impl WordSet {
             )
         })?;
         Self::parse(&text, &name, model)
+    }
+
+    /// The two tiles, for words of the set.
+    pub fn carriers(&self) -> Stage {
+        let (pair, interaction) = (&self.stage.pair, &self.stage.interaction);
+        Stage::new(pair.as_ref().clone(), interaction.clone())
     }
 
     /// Reads a set from the text of its file.

@@ -5,8 +5,8 @@
 
 use ordered_float::OrderedFloat;
 
-use super::sampled::{Setting, tilts};
-use super::{Couple, Stage, energies, in_parallel};
+use super::sampled::{Setting, Signs, tilts};
+use super::{Couple, Stage, in_parallel};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::words::Word;
@@ -19,23 +19,25 @@ const SAME: f64 = 2e-3;
 impl Stage {
     /// Of each word and its mate the deepest trap found: energy (J) and pose.
     pub(super) fn traps(&self, words: &[Word]) -> Vec<Option<(f64, Configuration)>> {
-        let couples: Vec<Couple> = words
-            .iter()
-            .map(|word| Couple {
-                first: *word,
-                second: word.mate(),
-            })
-            .collect();
+        let own = |word: &Word| Couple {
+            first: *word,
+            second: word.mate(),
+        };
+        let couples: Vec<Couple> = words.iter().map(own).collect();
+        let signs = Signs::of(&couples);
         let mut tilts = tilts();
         tilts.order_by(f64::total_cmp);
         let slides = self.slides();
-        let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
-            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
+        let rows = in_parallel(&tilts, |tilt| -> Vec<Option<Vec<f64>>> {
+            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &signs);
             slides.iter().map(at).collect()
         });
         let numbers: Vec<usize> = (0..words.len()).collect();
         in_parallel(&numbers, |&number| {
-            let level = |i: usize, j: usize| rows[i][j][number];
+            let level = |i: usize, j: usize| {
+                let energies = rows[i][j].as_ref();
+                energies.map_or(f64::INFINITY, |energies| energies[number])
+            };
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..tilts.len() {
                 for j in 0..slides.len() {
@@ -51,7 +53,7 @@ impl Stage {
                 }
             }
             minima.order_by_key(|(energy, _)| OrderedFloat(*energy));
-            let problem = self.problem(&couples[number]);
+            let problem = self.problem_of(words[number], words[number].mate());
             let bond = self.pair.bound;
             let polished = minima
                 .into_iter()
@@ -60,22 +62,5 @@ impl Stage {
                 .filter(|(_, q)| bond.step_to(q).iter().any(|x| x.abs() > SAME));
             polished.min_by_key(|(energy, _)| OrderedFloat(*energy))
         })
-    }
-
-    /// The energies (J) of couples at a setting; infinite where the tiles pass by each other.
-    fn all_at(&self, setting: Setting, couples: &[Couple]) -> Vec<f64> {
-        let Some(q) = self.placed(setting) else {
-            return vec![f64::INFINITY; couples.len()];
-        };
-        let by_magnets = energies(&self.magnets, &q);
-        let energy = |couple: &Couple| {
-            let pairs = by_magnets.iter().enumerate();
-            pairs
-                .map(|(number, energy)| {
-                    energy * couple.sign(number / self.places, number % self.places)
-                })
-                .sum()
-        };
-        couples.iter().map(energy).collect()
     }
 }
