@@ -1,9 +1,13 @@
-//! A tile set that was built, whole.
+//! A tile set built of words, whole.
+
+use std::path::Path;
 
 use super::choice::Choice;
 use super::slides::Slid;
-use super::{Built, Request};
+use super::{Built, Request, TileSet, Wiring, lattice, proofread, square};
+use crate::Refused;
 use crate::design::{Design, WordSet};
+use physics::kinetics::bond::Shaking;
 use physics::tile::Magnet;
 use physics::words::Word;
 
@@ -21,6 +25,70 @@ pub struct Assembly<'a> {
     pub design: Option<&'a Design>,
     /// What was tried to find words; empty where they were given.
     pub tried: Vec<Choice>,
+}
+
+impl Request {
+    /// The tile set of a file, or one that is made to measure: `lattice`, `homogeneous`, `square`.
+    ///
+    /// # Errors
+    /// Where there is none, or it is not asked for as it can be.
+    pub fn tile_set(&self, name: &Path) -> Result<TileSet, Refused> {
+        let name = name.to_str().unwrap_or("lattice");
+        let wrong = match (name, self.lattice, self.side) {
+            ("lattice", Some(size), None) => return Ok(lattice::unique(size)),
+            ("homogeneous", Some(size), None) => return Ok(lattice::homogeneous(size)),
+            ("lattice" | "homogeneous", None, _) => {
+                "say how large the lattice is: --lattice 3x3".to_owned()
+            }
+            ("square", None, Some(side)) if square::SIDES.contains(&side) => {
+                return Ok(square::counted(side));
+            }
+            ("square", None, Some(_)) => {
+                let (least, most) = (square::SIDES.start(), square::SIDES.end());
+                format!("a counted square has a side of {least} to {most} tiles")
+            }
+            ("square", ..) => "say how large the square is: --side 16".to_owned(),
+            (_, Some(_), _) => "--lattice makes a tile set of its own: write lattice or \
+                                homogeneous in place of a file"
+                .to_owned(),
+            (_, _, Some(_)) => "--side goes with square".to_owned(),
+            (file, None, None) => return Ok(TileSet::load(Path::new(file))?),
+        };
+        Err(wrong.into())
+    }
+
+    /// A tile set built of words: those given, with the text of their file, or else searched.
+    ///
+    /// # Errors
+    /// Where there are no such words, or not enough.
+    pub fn build<'a>(
+        &self,
+        tiles: &TileSet,
+        words: Option<(WordSet, String)>,
+        design: Option<&'a Design>,
+    ) -> Result<Assembly<'a>, Refused> {
+        let set = proofread::blocks(tiles, self.proofread.into());
+        let ((words, words_toml), tried) = match words {
+            Some(given) => (given, Vec::new()),
+            None => {
+                let (text, tried) = self.search(&Wiring::new(&set)?, design)?;
+                let found = WordSet::parse(&text, "the words found", self.model)?;
+                ((found, text), tried)
+            }
+        };
+        let shaking = Shaking {
+            kt: self.kt,
+            coverage: self.coverage,
+        };
+        Ok(Assembly {
+            built: Built::new(&set, &words, shaking)?,
+            request: self.clone(),
+            words,
+            words_toml,
+            design,
+            tried,
+        })
+    }
 }
 
 impl Assembly<'_> {

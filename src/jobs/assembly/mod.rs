@@ -33,6 +33,7 @@ pub mod proofread;
 mod request;
 pub mod rests;
 pub mod rgrow;
+mod search;
 pub mod slides;
 pub mod square;
 pub mod wiring;

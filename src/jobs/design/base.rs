@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
+use super::error::Result;
 use super::quantity;
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section};
 use super::svg;
 use physics::tile::Face;
 use physics::tile::outline::{Outline, OutlineError};

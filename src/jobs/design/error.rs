@@ -3,6 +3,9 @@
 use std::fmt::{self, Write};
 use std::ops::Range;
 
+/// What is read, or what is wrong with it.
+pub(super) type Result<T> = std::result::Result<T, DesignError>;
+
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
@@ -61,9 +64,7 @@ impl Place {
             source: Some(text[line_start..line_end].trim_end_matches('\r').to_owned()),
         }
     }
-}
 
-impl Place {
     /// The place of a range of bytes of `text`.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         Self::new(text, range.into())

@@ -3,8 +3,9 @@
 use ordered_float::OrderedFloat;
 
 use super::DesignError;
+use super::error::Result;
 use super::quantity;
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section, all};
 use super::svg;
 use physics::tile::profile::{Polyline, Profile, ProfileError, Waveform};
 
@@ -67,7 +68,7 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyl
         Shape::Points => points(&section),
         Shape::Svg => svg::read_line(&section).map(Profile::Points),
     }?;
-    section.faults().check_guesses()?;
+    section.source.faults.check_guesses()?;
     let line = profile.polyline();
     let line = line.map_err(|error| mend(&section, &profile, error))?;
     within_face(&section, &profile, &line, length)?;
@@ -84,9 +85,8 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyl
 }
 
 fn tab(section: &Section) -> Result<Profile> {
-    let faults = section.faults();
-    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
-    let draft = faults.note(section.number("draft", quantity::DRAFT));
+    let (width, depth) = (width(section), depth(section));
+    let draft = section.number("draft", quantity::DRAFT);
     Ok(Profile::Tab {
         width: width?,
         depth: depth?,
@@ -103,10 +103,9 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
     ];
     let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
     let count = section.require("count", "say how many teeth: count = 4")?;
-    let faults = section.faults();
-    let form = faults.note(form.word(&forms));
-    let count = faults.note(count.count(MOST_TEETH));
-    let depth = faults.note(depth(section));
+    let form = form.word(&forms);
+    let count = count.count(MOST_TEETH);
+    let depth = depth(section);
     Ok(Profile::Teeth {
         form: form?,
         count: count?,
@@ -118,8 +117,7 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
 }
 
 fn arc(section: &Section) -> Result<Profile> {
-    let faults = section.faults();
-    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
+    let (width, depth) = (width(section), depth(section));
     Ok(Profile::Arc {
         width: width?,
         depth: depth?,
@@ -134,14 +132,12 @@ fn offset(section: &Section) -> Result<f64> {
 
 fn points(section: &Section) -> Result<Profile> {
     let points = section.require("points", "give the line: points = [[s, h], ...] (m)")?;
+    let points = points.array()?;
+    let what = "s along the face and h outwards";
     let points = points
-        .array()?
         .iter()
-        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, "s along the face and h outwards"))
-        .map(|point| section.faults().note(point))
-        .collect::<Vec<_>>();
-    let points = points.into_iter().collect::<Result<_>>()?;
-    Ok(Profile::Points(points))
+        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, what));
+    Ok(Profile::Points(all(points)?))
 }
 
 fn width(section: &Section) -> Result<f64> {

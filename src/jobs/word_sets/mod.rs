@@ -11,11 +11,13 @@ mod bar;
 mod crosstalk;
 pub mod file;
 mod request;
+mod search;
 mod spaced;
 
 pub use bar::{bar, least_spacing};
 pub use crosstalk::CrosstalkRequest;
-pub use request::{Found, Request, gap, shape};
+pub use request::{Request, gap, shape};
+pub use search::Found;
 pub use spaced::Spaced;
 
 use physics::words::{Answer, Bar, Lags, Meeting, Question, Task, Word};

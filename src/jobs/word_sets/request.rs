@@ -2,18 +2,11 @@
 
 use clap::Args;
 
-use super::spaced::Spaced;
-use super::{Sought, bar, least_spacing};
-use crate::Refused;
-use crate::design::{Design, MagnetModel};
+use super::least_spacing;
+use crate::design::MagnetModel;
 use crate::request::{self, Word};
-use physics::budget::Budget;
-use physics::words::Effort;
-use physics::words::continuous::Wanted;
 use physics::words::word::MOST_PLACES;
-use physics::words::{
-    Bar, Constraints, Faces, Fault, Lags, PAPER_FACE, Question, Rules, Shape, Task, answer,
-};
+use physics::words::{Bar, Constraints, Faces, Fault, Shape};
 
 /// What words are wanted, of what magnets, and how much work they are worth.
 #[derive(Clone, Debug, Args)]
@@ -126,72 +119,9 @@ pub struct Request {
     pub seed: u64,
 }
 
-/// Words that were found, or not.
-pub enum Found {
-    /// With places a pitch apart.
-    Even(Box<Sought>),
-    /// With magnets anywhere along the face.
-    Anywhere(Box<Spaced>),
-}
-
 impl Request {
-    /// Searches the words, of the magnets of a design's target face or of the paper's.
-    ///
-    /// # Errors
-    /// Where such words cannot be.
-    pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
-        let (places, magnets) = self.places()?;
-        let (bar, face) = bar(design, self.pitch, self.model)?;
-        let effort = Effort::new(self.seed, Budget::seconds(self.seconds));
-        if self.continuous {
-            let wanted = Wanted {
-                magnets,
-                bar,
-                face: self.face.or(face).unwrap_or(PAPER_FACE),
-                words_meet: self.faces == Faces::All,
-                flip: self.flip,
-                balanced: self.balanced,
-                longest_run: self.max_run,
-            };
-            let spaced = Spaced::search(&wanted, self, effort)?;
-            return Ok(Found::Anywhere(Box::new(spaced)));
-        }
-        let constraints = self.constraints(&bar, places, magnets)?;
-        let energies = Lags::new(&bar, places);
-        let (question, lags) = match (self.contacts, self.gap, self.count) {
-            (Some(most), _, _) => {
-                let gap = 1.0 - (most as f64 + 0.5) / magnets as f64;
-                (Question::Gap(gap.max(0.0)), Lags::contacts(places))
-            }
-            (_, Some(gap), _) => (Question::Gap(gap), energies.clone()),
-            (_, _, Some(count)) => (Question::Count(count), energies.clone()),
-            _ => (Question::Frontier, energies.clone()),
-        };
-        let task = Task {
-            places,
-            magnets,
-            lags,
-            rules: Rules {
-                faces: self.faces,
-                shape: self.shape,
-                flip: self.flip,
-                fault: self.tolerate,
-            },
-            constraints,
-        };
-        Ok(Found::Even(Box::new(Sought {
-            answer: answer(&task, question, &energies, &mut effort.clone()),
-            request: self.clone(),
-            design: design.map(|design| design.name.clone()),
-            bar,
-            task,
-            question,
-            energies,
-        })))
-    }
-
     /// Places and magnets of a word.
-    fn places(&self) -> Result<(usize, usize), String> {
+    pub(super) fn places(&self) -> Result<(usize, usize), String> {
         let wrong = |message: String| Err(message);
         let (places, magnets) = match (self.slots, self.magnets, self.length) {
             (Some(slots), Some(magnets), Some(length)) if length != magnets && length != slots => {
@@ -238,7 +168,12 @@ impl Request {
         }
     }
 
-    fn constraints(&self, bar: &Bar, places: usize, magnets: usize) -> Result<Constraints, String> {
+    pub(super) fn constraints(
+        &self,
+        bar: &Bar,
+        places: usize,
+        magnets: usize,
+    ) -> Result<Constraints, String> {
         let least_spacing = least_spacing(bar);
         if (magnets - 1) * least_spacing >= places {
             let width = bar.size[1];

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use text::{face, headline, how_many, meetings, told};
 
+use super::crosstalk::{MOST_DRAWN, histogram};
 use super::document::{Document, Entries, Part, Table, rows};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
@@ -19,12 +20,8 @@ use physics::words::frontier::Point;
 use physics::words::set::name;
 use physics::words::{Answer, Bar, Fault, Meeting, Word};
 
-/// Sets of more words have no map.
-pub(super) const MOST_DRAWN: usize = 80;
 /// Sets of more words are not listed in full on a terminal.
 const LISTED: usize = 40;
-/// Bars of a histogram.
-const BINS: usize = 40;
 
 /// What there is to know of words that were sought.
 pub fn document(found: &Found) -> Document<'_> {
@@ -216,34 +213,6 @@ fn pairs(sought: &Sought) -> Table {
         .column("flipped", "", "", |it| it.2.flipped)
         .column("pose", "", "", move |it| Configuration::new(sought.side(), slide(&it.2), 0.0))
         .table("crosstalk")
-}
-
-/// How many pairs have which gap.
-pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
-    let mut counts = [0usize; BINS];
-    for gap in gaps {
-        counts[((gap.clamp(0.0, 1.0) * BINS as f64) as usize).min(BINS - 1)] += 1;
-    }
-    let middle = |k: usize| (k as f64 + 0.5) / BINS as f64;
-    let bars = counts.iter().enumerate();
-    let pairs = Dimension::new("pairs", "pairs");
-    Chart {
-        name: "gaps",
-        title: title.to_owned(),
-        x: Dimension::new("gap", "gap of the pair").within([0.0, 1.0]),
-        y: match counts.iter().max() {
-            // No halves.
-            Some(most @ ..7) => pairs.marked((0..=*most).map(|count| count as f64)),
-            _ => pairs,
-        },
-        series: Vec::new(),
-        remark: String::new(),
-    }
-    .with(
-        "pairs",
-        Look::Bars,
-        bars.map(|(k, count)| [middle(k), *count as f64]),
-    )
 }
 
 /// The number of words over the gap; of what is not proved up to the most that there can be.

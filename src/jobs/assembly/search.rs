@@ -1,0 +1,87 @@
+//! The words of an assembly, searched.
+
+use super::choice::{self, Choice, Class, Verdict};
+use super::{Request, Wiring};
+use crate::design::Design;
+use crate::word_sets::{self, file};
+use physics::units::si;
+use physics::words::Bar;
+
+impl Request {
+    /// Words for the bonds of a tile set, as the text of a set, and what was tried. Magnets are
+    /// those of a design's target face, or the paper's.
+    pub(super) fn search(
+        &self,
+        wiring: &Wiring,
+        design: Option<&Design>,
+    ) -> Result<(String, Vec<Choice>), String> {
+        let (bar, face) = word_sets::bar(design, self.pitch, self.model)?;
+        let most = self.most_places(&bar, face)?;
+        let demand = wiring.demand();
+        let tried = match self.length {
+            Some(places) => choice::choose(&demand, places, &bar, self),
+            None => choice::shortest(&demand, most, &bar, self),
+        };
+        match tried.last() {
+            Some(last) if last.verdict == Verdict::Found => {
+                let (words, places) = (&last.words, last.places);
+                let headline = format!("{} words of {places} places", words.len());
+                let side = face.unwrap_or_else(|| word_sets::side(&bar, places));
+                Ok((file::of_words(&headline, words, &bar, side), tried))
+            }
+            Some(last) => Err(missing(last)),
+            None => Err("the face holds no magnet".to_owned()),
+        }
+    }
+
+    /// The longest face to look at, of which the design's may be this long (m).
+    fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, String> {
+        let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
+        let most = face.map_or(choice::MOST_PLACES, fitting);
+        let most = most.min(choice::MOST_PLACES);
+        let places = self.length.unwrap_or(most);
+        let magnets = self.magnets.unwrap_or(0);
+        Err(match self.length {
+            Some(length) if length > most => format!(
+                "a face of {length} places is too long: {most} at most, {} apart",
+                si(bar.pitch, "m", 3)
+            ),
+            Some(_) if magnets > places => format!(
+                "{magnets} magnets do not fit into {places} places: give a length of {magnets} or more"
+            ),
+            None if magnets > places => {
+                format!("{magnets} magnets do not fit into a face of {places} places")
+            }
+            _ => return Ok(most),
+        })
+    }
+}
+
+/// What there is too few of, and whether there can be more.
+fn missing(choice: &Choice) -> String {
+    let classes = &choice.classes;
+    let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();
+    let magnets = |class: &Class| match class.magnets {
+        1 => "1 magnet".to_owned(),
+        magnets => format!("{magnets} magnets"),
+    };
+    let needed = classes.iter();
+    let needed = needed.map(|class| format!("{} with {}", class.needed, magnets(class)));
+    let why = match classes.iter().find(|it| it.upper < it.needed) {
+        Some(class) => format!(
+            "there are not enough, proved: of those with {} at most {}",
+            magnets(class),
+            class.upper
+        ),
+        None => "whether there are more is open, and more seconds search longer".to_owned(),
+    };
+    format!(
+        "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give a \
+         longer face, a narrower gap, or the words",
+        sum(|it| it.needed),
+        needed.collect::<Vec<_>>().join(", "),
+        choice.gap,
+        choice.places,
+        sum(|it| it.found),
+    )
+}
