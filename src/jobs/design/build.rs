@@ -1,11 +1,10 @@
 //! From the contents of its faces to a tile.
 
 use super::DesignError;
-use super::error::Result;
-use super::error::Span;
+use super::error::{Result, Span};
 use super::face::FaceContent;
 use super::placement::{magnet, placed};
-use super::profile::{depth_of, with_depth};
+use super::profile::depth_of;
 use super::quantity::{four_digits, rounded_down};
 use super::tile::TileEntry;
 use physics::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
@@ -188,11 +187,13 @@ fn mend_outline(
 /// The largest depth (m) that the profile of a face may have beside the others, rounded down;
 /// `None` where no depth mends it.
 fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
-    let profile = contents[face].profile.as_ref()?;
-    let depth = depth_of(profile)?;
-    let possible = |size: f64| {
-        let changed = with_depth(profile, size.copysign(depth));
-        let line = changed.and_then(|profile| profile.polyline().ok());
+    let mut profile = contents[face].profile.clone()?;
+    let depth = *depth_of(&mut profile)?;
+    let mut possible = |size: f64| {
+        if let Some(changed) = depth_of(&mut profile) {
+            *changed = size.copysign(depth);
+        }
+        let line = profile.polyline().ok();
         line.is_some_and(|line| {
             let mut lines = lines(contents);
             lines[face].polyline = line;

@@ -1,7 +1,6 @@
 //! The entries of `[fixed.faces]` and `[moving.faces]`: a face's line and its magnets.
 
-use super::error::Result;
-use super::error::Span;
+use super::error::{Result, Span};
 use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
 use super::profile::read_profile;
 use super::quantity;

@@ -1,8 +1,7 @@
 //! The keys that describe a magnet, in `[magnet]`, in a face's `magnet = { ... }` and in the
 //! entries of `magnets`.
 
-use super::error::Result;
-use super::error::{DesignError, Span};
+use super::error::{DesignError, Result, Span};
 use super::quantity::{self, four_digits};
 use super::reader::{Entry, Section};
 use physics::order::Order;

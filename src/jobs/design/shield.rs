@@ -1,7 +1,6 @@
 //! Soft-iron shields: the section `[shield]`, a tile's `shield` and a face's.
 
-use super::error::Result;
-use super::error::{DesignError, Span};
+use super::error::{DesignError, Result, Span};
 use super::quantity::{self, Quantity};
 use super::reader::{Entry, Section};
 use physics::potential::shielding::{Shield, ShieldRule};

@@ -2,8 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::error::DesignError;
-use super::error::Result;
+use super::error::{DesignError, Result};
 use super::face::find_face;
 use super::quantity::four_digits;
 use super::reader::{Entry, Section};

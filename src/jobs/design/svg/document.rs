@@ -6,8 +6,7 @@ use kurbo::Affine;
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
-use super::super::error::Result;
-use super::super::error::Span;
+use super::super::error::{Result, Span};
 use super::super::quantity;
 use super::super::source::Source;
 use super::path::{SHAPES, draw};

@@ -6,8 +6,7 @@ use kurbo::Affine;
 use roxmltree::Node;
 use svgtypes::{AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::super::error::Result;
-use super::super::error::Span;
+use super::super::error::{Result, Span};
 use super::super::source::Source;
 use super::path::{INCH, metres};
 

@@ -38,8 +38,7 @@ impl Stage {
     /// The lowest energy (J) found of each couple, and its pose.
     pub(super) fn sampled(&self, couples: &[Couple]) -> Vec<(f64, Configuration)> {
         let tilts = tilts();
-        let signs = Signs::of(couples);
-        let best_by_tilt = in_parallel(&tilts, |tilt| self.best_at(*tilt, &signs));
+        let best_by_tilt = in_parallel(&tilts, |tilt| self.best_at(*tilt, couples));
         let numbers: Vec<usize> = (0..couples.len()).collect();
         in_parallel(&numbers, |&number| {
             let couple = &couples[number];
@@ -64,36 +63,37 @@ impl Stage {
     }
 
     /// For each couple the lowest energy at a tilt, and where.
-    fn best_at(&self, tilt: f64, signs: &Signs) -> Vec<(f64, Setting)> {
-        let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); signs.second_of.len()];
+    fn best_at(&self, tilt: f64, couples: &[Couple]) -> Vec<(f64, Setting)> {
+        let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
+        // Energies of the second words with each magnet of the first tile serve many couples.
+        let mut seconds: Vec<Word> = couples.iter().map(|couple| couple.second).collect();
+        seconds.sort_unstable();
+        seconds.dedup();
+        let place = |couple: &Couple| seconds.binary_search(&couple.second).unwrap_or(0);
+        let places: Vec<usize> = couples.iter().map(place).collect();
+        let n = self.places;
+        let signs = |word: Word| (0..n).map(|k| f64::from(word.at(k))).collect();
+        let first_signs: Vec<Vec<f64>> = couples.iter().map(|it| signs(it.first)).collect();
+        let second_signs: Vec<Vec<f64>> = seconds.iter().map(|word| signs(*word)).collect();
         for slide in self.slides() {
             let setting = [tilt, slide, 0.0];
-            let energies = self.all_at(setting, signs);
-            for (best, energy) in best.iter_mut().zip(energies.into_iter().flatten()) {
+            let Some(q) = self.placed(setting) else {
+                continue;
+            };
+            let by_magnets = energies(&self.magnets, &q);
+            let with_second: Vec<f64> = second_signs
+                .iter()
+                .flat_map(|signs| by_magnets.chunks(n).map(|row| dot(row, signs)))
+                .collect();
+            for (number, best) in best.iter_mut().enumerate() {
+                let from = places[number] * n;
+                let energy = dot(&with_second[from..from + n], &first_signs[number]);
                 if energy < best.0 {
                     *best = (energy, setting);
                 }
             }
         }
         best
-    }
-
-    /// The energies (J) of couples at a setting; `None` where the tiles pass by each other.
-    pub(super) fn all_at(&self, setting: Setting, signs: &Signs) -> Option<Vec<f64>> {
-        let by_magnets = energies(&self.magnets, &self.placed(setting)?);
-        let n = self.places;
-        // Energies of the second words with each magnet of the first tile serve many couples.
-        let with_second: Vec<f64> = signs
-            .seconds
-            .iter()
-            .flat_map(|signs| by_magnets.chunks(n).map(|row| dot(row, signs)))
-            .collect();
-        let couples = signs.firsts.iter().zip(&signs.second_of);
-        Some(
-            couples
-                .map(|(first, second)| dot(&with_second[second * n..(second + 1) * n], first))
-                .collect(),
-        )
     }
 
     /// Slides (m) of the grid, all along the face either way.
@@ -147,29 +147,6 @@ impl Stage {
             }
         }
         Some(best)
-    }
-}
-
-/// The poles of couples, 1 for a north pole out.
-pub(super) struct Signs {
-    firsts: Vec<Vec<f64>>,
-    /// Of the second words, each once, and which one every couple has.
-    seconds: Vec<Vec<f64>>,
-    second_of: Vec<usize>,
-}
-
-impl Signs {
-    pub fn of(couples: &[Couple]) -> Self {
-        let mut seconds: Vec<Word> = couples.iter().map(|couple| couple.second).collect();
-        seconds.sort_unstable();
-        seconds.dedup();
-        let place = |couple: &Couple| seconds.binary_search(&couple.second).unwrap_or(0);
-        let signs = |word: Word| (0..word.places()).map(|k| f64::from(word.at(k))).collect();
-        Self {
-            second_of: couples.iter().map(place).collect(),
-            firsts: couples.iter().map(|couple| signs(couple.first)).collect(),
-            seconds: seconds.iter().map(|word| signs(*word)).collect(),
-        }
     }
 }
 

@@ -5,8 +5,8 @@
 
 use ordered_float::OrderedFloat;
 
-use super::sampled::{Setting, Signs, tilts};
-use super::{Couple, Stage, in_parallel};
+use super::sampled::{Setting, tilts};
+use super::{Couple, Stage, energies, in_parallel};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::words::Word;
@@ -24,30 +24,23 @@ impl Stage {
             second: word.mate(),
         };
         let couples: Vec<Couple> = words.iter().map(own).collect();
-        let signs = Signs::of(&couples);
         let mut tilts = tilts();
         tilts.order_by(f64::total_cmp);
         let slides = self.slides();
-        let rows = in_parallel(&tilts, |tilt| -> Vec<Option<Vec<f64>>> {
-            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &signs);
+        let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
+            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
             slides.iter().map(at).collect()
         });
         let numbers: Vec<usize> = (0..words.len()).collect();
         in_parallel(&numbers, |&number| {
-            let level = |i: usize, j: usize| {
-                let energies = rows[i][j].as_ref();
-                energies.map_or(f64::INFINITY, |energies| energies[number])
-            };
+            let level = |i: usize, j: usize| rows[i][j][number];
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..tilts.len() {
                 for j in 0..slides.len() {
-                    let beside =
-                        (i.saturating_sub(1)..=(i + 1).min(tilts.len() - 1)).flat_map(|i| {
-                            let last = (j + 1).min(slides.len() - 1);
-                            (j.saturating_sub(1)..=last).map(move |j| (i, j))
-                        });
+                    let about = |k: usize, count: usize| k.saturating_sub(1)..(k + 2).min(count);
                     let here = level(i, j);
-                    if here < 0.0 && beside.into_iter().all(|(i, j)| level(i, j) >= here) {
+                    let lies_low = |i: usize| about(j, slides.len()).all(|j| level(i, j) >= here);
+                    if here < 0.0 && about(i, tilts.len()).all(lies_low) {
                         minima.push((here, [tilts[i], slides[j], 0.0]));
                     }
                 }
@@ -62,5 +55,19 @@ impl Stage {
                 .filter(|(_, q)| bond.step_to(q).iter().any(|x| x.abs() > SAME));
             polished.min_by_key(|(energy, _)| OrderedFloat(*energy))
         })
+    }
+
+    /// The energies (J) of couples at a setting; infinite where the tiles pass by each other.
+    fn all_at(&self, setting: Setting, couples: &[Couple]) -> Vec<f64> {
+        let Some(q) = self.placed(setting) else {
+            return vec![f64::INFINITY; couples.len()];
+        };
+        let by_magnets = energies(&self.magnets, &q);
+        let energy = |couple: &Couple| {
+            let sign = |number: usize| couple.sign(number / self.places, number % self.places);
+            let pairs = by_magnets.iter().enumerate();
+            pairs.map(|(number, energy)| energy * sign(number)).sum()
+        };
+        couples.iter().map(energy).collect()
     }
 }
