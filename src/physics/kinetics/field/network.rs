@@ -43,7 +43,7 @@ impl Field<'_> {
         Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
     }
 
-    /// The cells as conductors between places, for fluxes that follow e^(-U/kT) along s.
+    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes that follow e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
         let count = self.mesh.leaves.len();
@@ -66,7 +66,16 @@ impl Field<'_> {
             costs.local[id] = Some(Box::new(cost));
         }
         costs.spreads = spreads;
-        Network::new(&self.mesh, nodes, pins, rim, &costs.spreads, &costs.local)
+        // A function that is 1 at a place's corners is so all over the cells that have no others.
+        let place = |id: usize| -> Option<usize> {
+            let corners = nodes.corners[id].iter();
+            let sources = corners.flat_map(|&n| &nodes.sources[n as usize]);
+            let mut places = sources.map(|&(of, _)| pins[of as usize]);
+            let first = places.next()??;
+            places.all(|other| other == Some(first)).then_some(first)
+        };
+        let (spreads, costs) = (&costs.spreads, &costs.local);
+        Network::new(&self.mesh, &place, &|_| false, rim, spreads, costs)
     }
 
     /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
@@ -119,7 +128,7 @@ impl Field<'_> {
         let (profile, costs) = self.costs(nodes, like);
         let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
         let (mesh, known) = (&self.mesh, &costs.layer.1);
-        let network = Network::between(mesh, place, is_left_out, rim, &spreads, known)?;
+        let network = Network::new(mesh, place, is_left_out, rim, &spreads, known)?;
         Some((network, profile))
     }
 

@@ -156,7 +156,8 @@ impl Chart {
         place
     }
 
-    fn period(&self) -> [f64; 3] {
+    /// How far it is once round, in smallest units; along s, to the end.
+    pub(super) fn period(&self) -> [f64; 3] {
         self.cells.map(|n| (n * UNITS) as f64)
     }
 

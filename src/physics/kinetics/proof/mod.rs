@@ -38,7 +38,7 @@ mod wall;
 
 use super::field::Field;
 use super::mesh::{Nodes, Profile, System};
-use super::sets::is_at_the_rim;
+use super::sets::{Beside, flood};
 use crate::configuration::Configuration;
 use crate::parallel;
 use piece::{Ground, Piece, Range};
@@ -138,10 +138,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let mut cells = Vec::new();
     for _ in 0..=DIVISIONS {
         let energies = energies(field, &even, sets);
-        cells = sets
-            .iter()
-            .map(|set| Cells::new(field, &energies, set))
-            .collect();
+        let beside = field.mesh.neighbours();
+        let of = |set| Cells::new(field, &beside, &energies, set);
+        cells = sets.iter().map(of).collect();
         let is_lost = |(_, cells): &(&Set, &Cells)| !cells.inner.iter().any(|inner| *inner);
         let lost = sets.iter().zip(&cells).filter(is_lost);
         let open: Vec<usize> = lost
@@ -154,12 +153,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
         cells.clear();
     }
     let mesh = &field.mesh;
-    let touches_rim = |(id, wide): (usize, &bool)| *wide && is_at_the_rim(mesh, &mesh.leaves[id]);
-    if cells.is_empty()
-        || cells
-            .iter()
-            .any(|it| it.wide.iter().enumerate().any(touches_rim))
-    {
+    let is_wide = |id: usize| cells.iter().any(|cells| cells.wide[id]);
+    let touches_rim = |id: usize| is_wide(id) && mesh.is_outer(id);
+    if cells.is_empty() || (0..mesh.leaves.len()).any(touches_rim) {
         return None;
     }
     let nodes = &Nodes::new(mesh);
@@ -197,10 +193,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
     let (network, profile) =
         field.network_between(nodes, &inside, &|id| narrow[id], rim, &trial)?;
-    let fluxes = network.fluxes();
-    let flux = fluxes.from(0, &fluxes.potentials(nodes, &trial)).ok()?;
+    let flux = network.from(0, &network.potentials(nodes, &trial)).ok()?;
     let mut upwards = vec![None; mesh.leaves.len()];
-    for (cell, sides) in fluxes.upwards(&flux) {
+    for (cell, sides) in network.upwards(&flux) {
         upwards[cell] = Some(sides);
     }
     let is_others = |id: usize| cells[1..].iter().any(|cells| cells.inner[id]);
@@ -215,8 +210,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     roles.extend(rim::pieces(mesh, &even, &cells[0], sets[0].below));
     let load = |is_asked: &dyn Fn(usize) -> bool| -> f64 {
         let asked = mesh.live().filter(|(id, ..)| is_asked(*id));
-        let each = asked.map(|(.., element)| element.load.iter().sum::<f64>());
-        each.sum()
+        asked.map(|(.., element)| element.held()).sum()
     };
     let held = load(&|id| cells[0].inner[id]);
     let around = load(&|id| !is_others(id));
@@ -301,29 +295,16 @@ fn is_narrow(ground: &Ground, piece: Piece, level: u8, halvings: usize) -> bool 
 }
 
 impl Cells {
-    fn new(field: &Field, energies: &[Range], set: &Set) -> Self {
-        let mesh = &field.mesh;
-        let beside = mesh.neighbours();
-        let held = mesh.holding(&set.at);
-        let flood = |is_in: &dyn Fn(usize) -> bool| {
-            let mut inside = vec![false; mesh.leaves.len()];
-            let mut open: Vec<usize> = held.iter().copied().filter(|&id| is_in(id)).collect();
-            for &id in &open {
-                inside[id] = true;
-            }
-            while let Some(id) = open.pop() {
-                for other in beside[id].iter().map(|&other| other as usize) {
-                    if is_in(other) && !std::mem::replace(&mut inside[other], true) {
-                        open.push(other);
-                    }
-                }
-            }
-            inside
+    fn new(field: &Field, beside: &Beside, energies: &[Range], set: &Set) -> Self {
+        let joined = |is_in: &dyn Fn(usize) -> bool| {
+            let mut from = field.mesh.holding(&set.at);
+            from.retain(|&id| is_in(id));
+            flood(beside, from, is_in)
         };
         Self {
-            wide: flood(&|id| energies[id][0] < set.wide),
-            outer: flood(&|id| energies[id][0] < set.below),
-            inner: flood(&|id| energies[id][1] < set.below),
+            wide: joined(&|id| energies[id][0] < set.wide),
+            outer: joined(&|id| energies[id][0] < set.below),
+            inner: joined(&|id| energies[id][1] < set.below),
         }
     }
 }
