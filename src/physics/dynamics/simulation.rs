@@ -9,7 +9,6 @@ use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
 use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
-use crate::contact::{Contact, PointFinder};
 use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
@@ -128,11 +127,6 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// What finds points of contact; `None` where the tiles pass through each other.
-    pub(super) fn finder(&self) -> Option<&'a PointFinder> {
-        self.problem.contact.as_ref().map(Contact::finder)
-    }
-
     /// Whether anything can move a tile that rests.
     pub(super) fn rest_lasts(&self) -> bool {
         self.settings.shaking.is_none() && self.settings.fans.iter().all(|fan| fan.amplitude == 0.0)
@@ -146,9 +140,9 @@ impl<'a> Simulation<'a> {
         let q = self.body.configuration(&phase.place);
         let contact = self.problem.contact.as_ref();
         let bound = contact.map_or(f64::INFINITY, |contact| contact.clearance_bound(&q));
-        let tile = match self.finder() {
-            Some(finder) if bound <= LARGE => {
-                finder.distance(&q, [self.settings.contact_range, LARGE])
+        let tile = match contact {
+            Some(contact) if bound <= LARGE => {
+                contact.distance(&q, [self.settings.contact_range, LARGE])
             }
             _ => bound,
         };
