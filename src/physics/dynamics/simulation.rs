@@ -1,13 +1,10 @@
 //! What a trajectory is made with and what comes of it.
 
 use nalgebra::{Vector2, Vector3};
-use rand_chacha::ChaCha8Rng;
 
 use super::body::{Body, Motion, Phase};
-use super::collision::Surface;
 use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
-use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -60,7 +57,8 @@ pub struct Run {
 /// The moving tile as a rigid body on the air table. See the [module](super) for the equations.
 pub struct Simulation<'a> {
     pub(super) problem: &'a Problem,
-    pub(super) body: Body,
+    /// The moving tile's mass and inertia.
+    pub body: Body,
     pub(super) settings: &'a MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
@@ -93,37 +91,6 @@ impl<'a> Simulation<'a> {
             body,
             settings,
             reach: circumradius + body.centre.norm(),
-        }
-    }
-
-    /// The moving tile's mass and inertia.
-    pub fn body(&self) -> &Body {
-        &self.body
-    }
-
-    /// The snapshot of a motion at time 0.
-    pub fn snapshot(&self, motion: &Motion) -> Snapshot {
-        let mut trajectory = Trajectory::new(self, motion);
-        trajectory.sense_contact();
-        trajectory.snapshot()
-    }
-
-    /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
-    /// trajectory by returning true; `rng` feeds the shaking.
-    pub fn run(
-        &self,
-        start: &Motion,
-        duration: f64,
-        rng: &mut ChaCha8Rng,
-        watch: &mut dyn FnMut(&Snapshot) -> bool,
-    ) -> Run {
-        let mut trajectory = Trajectory::new(self, start);
-        let stop = trajectory.advance(duration, rng, watch);
-        Run {
-            last: trajectory.snapshot(),
-            stop,
-            free_steps: trajectory.free_steps,
-            contact_steps: trajectory.contact_steps,
         }
     }
 
@@ -201,13 +168,6 @@ impl<'a> Simulation<'a> {
             } else {
                 self.settings.drag
             },
-        }
-    }
-
-    pub(super) fn surface(&self) -> Surface {
-        Surface {
-            restitution: self.settings.restitution,
-            friction: self.settings.friction,
         }
     }
 }

@@ -49,7 +49,7 @@ impl Checker<'_> {
     ) -> Fated {
         let mut rng = stream(self.settings.seed, aim);
         let aside = self.direction(lossless, &first, &mut rng);
-        let kinetic = |v| lossless.body().kinetic_energy(v);
+        let kinetic = |v| lossless.body.kinetic_energy(v);
         let aside = aside * (kinetic(&direction) / kinetic(&aside)).sqrt();
         let aimed = direction + aside * (ASIDE * aim as f64);
         let start = moving(lossless, first, aimed, energy);
@@ -74,7 +74,7 @@ impl Checker<'_> {
         let ahead = path.iter().find(|p| p.energy > enough)?;
         let step = first.configuration.step_to(&ahead.configuration);
         // The centre of mass moves along with the turn.
-        let lever = simulation.body().lever(first.configuration.theta);
+        let lever = simulation.body.lever(first.configuration.theta);
         let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
         Some((first.configuration, direction))
     }

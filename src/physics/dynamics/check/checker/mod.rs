@@ -227,7 +227,7 @@ impl<'a> Checker<'a> {
         q: &Configuration,
         rng: &mut ChaCha8Rng,
     ) -> Vector3<f64> {
-        let masses = simulation.body().masses();
+        let masses = simulation.body.masses();
         let mut direction = Vector3::zeros();
         for _ in 0..20 {
             direction = Vector3::from_fn(|i, _| normal(rng) / masses[i].sqrt());
@@ -314,7 +314,7 @@ fn moving(
     direction: Vector3<f64>,
     kinetic: f64,
 ) -> Motion {
-    let unit = simulation.body().kinetic_energy(&direction);
+    let unit = simulation.body.kinetic_energy(&direction);
     let factor = if unit > 0.0 {
         (kinetic.max(0.0) / unit).sqrt()
     } else {
