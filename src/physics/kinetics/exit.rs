@@ -168,7 +168,7 @@ impl Ends {
         if (0..inside.len()).any(|id| inside[id] && mesh.is_outer(id)) {
             return Err(ExitError::Open(asked.basin_energy));
         }
-        let energy = field.problem().energy(&asked.start);
+        let energy = field.problem.energy(&asked.start);
         let is_low = energy < asked.basin_energy;
         if is_low && mesh.holding(&asked.start).iter().any(|&id| inside[id]) {
             return Err(ExitError::Bound(asked.basin_energy));
@@ -206,7 +206,7 @@ impl Ends {
     /// proved.
     fn sets(field: &Field, bond: &Configuration, asked: &ExitSettings) -> [Set; 2] {
         let deep = field.deep();
-        let energy = field.problem().energy(&asked.start);
+        let energy = field.problem.energy(&asked.start);
         let half = 0.5 * (energy + field.level());
         let set = |at: &Configuration, below: f64| Set {
             at: *at,

@@ -34,7 +34,8 @@ const MOVED: f64 = 2.0;
 pub(super) struct Field<'a> {
     pub mesh: Octree,
     pub kt: f64,
-    problem: &'a Problem,
+    /// What all is asked about.
+    pub problem: &'a Problem,
     integrator: Integrator<'a>,
     costs: Mutex<Costs>,
 }
@@ -147,11 +148,6 @@ impl<'a> Field<'a> {
     /// The weight e^(-U/kT) at the level, as against that at the ground.
     pub fn weight(&self) -> f64 {
         libm::exp((self.ground() - self.level()) / self.kt)
-    }
-
-    /// What all is asked about.
-    pub fn problem(&self) -> &'a Problem {
-        self.problem
     }
 
     /// The energy (J) from which loads are counted.

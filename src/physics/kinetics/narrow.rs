@@ -23,7 +23,7 @@ const LEFT: f64 = 0.5;
 impl Field<'_> {
     /// Divides the cells about a state's well until what they hold is settled.
     pub(super) fn settle(&mut self, state: &Configuration) {
-        let limit = self.problem().energy(state) + DEEP * self.kt;
+        let limit = self.problem.energy(state) + DEEP * self.kt;
         for _ in 0..ROUNDS {
             let beside = self.mesh.joined(&|leaf| !leaf.blocked);
             let well = reaching(&self.mesh, &beside, state, limit);

@@ -114,7 +114,7 @@ impl Places {
             .collect();
         let rest = |node: usize| 1.0 - committors.iter().map(|h| h[node]).sum::<f64>();
         committors.push((0..nodes.len()).map(rest).collect());
-        let copies = field.mesh.chart.copies() as f64;
+        let copies = field.mesh.chart.copies as f64;
         let occupied = |place: usize| -> f64 {
             // What is another place's in cells at its rim is not counted.
             let is_others = |of: &Option<usize>| of.is_some_and(|of| of != place);
@@ -156,7 +156,7 @@ impl Places {
     /// What each place holds itself (m^2 rad): a basin below its limit, wherever committors are 1.
     pub fn inside(&self, field: &Field, settings: &RateSettings, beyond: f64) -> Vec<f64> {
         let beside = field.mesh.neighbours();
-        let copies = field.mesh.chart.copies() as f64;
+        let copies = field.mesh.chart.copies as f64;
         let held = |basin: &Basin| -> f64 {
             let reached = reaching(&field.mesh, &beside, &basin.at, basin.below);
             let parts = reached.iter().map(|&id| field.held_below(id, basin.below));
@@ -188,7 +188,7 @@ impl Places {
         beyond: f64,
         committors: &[Vec<f64>],
     ) -> RateBounds {
-        let copies = field.mesh.chart.copies() as f64;
+        let copies = field.mesh.chart.copies as f64;
         let scale = copies * field.weight();
         // Of what nothing leaves nothing is left but rounding, of either sign.
         let capacity = |place: usize| match self.is_closed(place) {
@@ -230,7 +230,7 @@ impl Places {
             left_out: &vec![false; field.mesh.leaves.len()],
         };
         let bracket = Bracket::new(&asked, self.count)?;
-        let copies = field.mesh.chart.copies() as f64;
+        let copies = field.mesh.chart.copies as f64;
         let scale = copies * field.weight();
         let places = 0..self.count;
         let rest = |place: usize| if place + 1 == self.count { beyond } else { 0.0 };

@@ -27,13 +27,10 @@ impl Field<'_> {
         let (mut sum, mut all) = (0.0, 0.0);
         for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
             let energy = element.energy(&nodes.of(id, values));
-            let middle = leaf.low.map(|low| (low + leaf.size() / 2) as f64);
-            let [_, phi, theta] = self.mesh.chart.coordinates(middle);
+            let [_, phi, theta] = self.mesh.chart.coordinates(leaf.at([0.5; 3]));
             let ray = self.mesh.chart.ray([phi, theta]);
-            let (_, slope) = self
-                .problem
-                .potential()
-                .energy_and_gradient(&ray.configuration(0.0));
+            let potential = self.problem.potential();
+            let (_, slope) = potential.energy_and_gradient(&ray.configuration(0.0));
             let rate = (slope.x * libm::cos(phi) + slope.y * libm::sin(phi)) * ray.length / self.kt;
             if rate.is_finite() {
                 sum += energy * rate.max(0.0);
@@ -81,15 +78,11 @@ impl Field<'_> {
     /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
     fn falls(&self, id: usize) -> Spread {
         let leaf = &self.mesh.leaves[id];
-        let ends = self.mesh.along(id);
+        let chart = &self.mesh.chart;
+        let ends = leaf.along(chart);
         let at = |aside: [f64; 2]| {
-            let size = leaf.size() as f64;
-            let [_, phi, theta] = self.mesh.chart.coordinates([
-                0.0,
-                leaf.low[1] as f64 + aside[0] * size,
-                leaf.low[2] as f64 + aside[1] * size,
-            ]);
-            let qs = self.mesh.chart.places([phi, theta], ends);
+            let [_, phi, theta] = chart.coordinates(leaf.at([0.0, aside[0], aside[1]]));
+            let qs = chart.places([phi, theta], ends);
             let weight = |q| self.integrator.power(self.problem.energy(&q));
             let [near, far] = qs.map(weight);
             Profile::falling((near - far).clamp(-MOST, MOST), ends)

@@ -72,7 +72,7 @@ impl Network {
             }
         }
         let conductor = |&id: &usize| {
-            let means = spreads[id].means(mesh.along(id));
+            let means = spreads[id].means(mesh.leaves[id].along(&mesh.chart));
             Conductor::new(id, sides[id], resistance[id].as_deref()?, means)
         };
         let conductors = parallel::map(&cells, conductor);

@@ -60,6 +60,11 @@ impl Leaf {
         std::array::from_fn(|i| self.low[i] as f64 + part[i] * self.size() as f64)
     }
 
+    /// Where it begins and ends in s.
+    pub fn along(&self, chart: &Chart) -> [f64; 2] {
+        [0.0, 1.0].map(|part| chart.coordinates(self.at([part, 0.0, 0.0]))[0])
+    }
+
     /// A place just beyond the middle of one of its sides: 2 i and 2 i + 1 are the lower and upper
     /// ones along coordinate i.
     pub fn beyond(&self, side: usize) -> Place {
@@ -175,13 +180,6 @@ impl Octree {
     /// Whether a cell lies along the outer end of the chart.
     pub fn is_outer(&self, id: usize) -> bool {
         self.chart.is_outer(self.leaves[id].corner(7))
-    }
-
-    /// Where a cell begins and ends in s.
-    pub fn along(&self, id: usize) -> [f64; 2] {
-        let leaf = &self.leaves[id];
-        let at = |low: i64| self.chart.coordinates([low as f64, 0.0, 0.0])[0];
-        [at(leaf.low[0]), at(leaf.low[0] + leaf.size())]
     }
 
     /// For each cell those that share a face with it.

@@ -122,7 +122,7 @@ impl<'a> Integrator<'a> {
     /// they are spread so.
     pub fn resistance(&self, chart: &Chart, leaf: &Leaf, spread: &Spread) -> Resistance {
         let mut lines = Lines::new(self, chart, leaf, false);
-        let ends = [0.0, 1.0].map(|part| lines.along(part));
+        let ends = leaf.along(chart);
         let mut cost = Resistance::zeros();
         lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
             if let Some(inverse) = point.metric.try_inverse() {

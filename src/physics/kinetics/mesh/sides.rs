@@ -66,7 +66,7 @@ pub(super) fn sides(
     for four in parts.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let (cell, side, ..) = four[0];
         let share = |part: usize| {
-            let (whole, [from, to]) = (mesh.along(cell), mesh.along(part));
+            let [whole, [from, to]] = [cell, part].map(|id| mesh.leaves[id].along(&mesh.chart));
             match side / 2 {
                 0 => 0.25,
                 _ => {

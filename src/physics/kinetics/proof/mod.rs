@@ -37,7 +37,7 @@ mod tests;
 mod wall;
 
 use super::field::Field;
-use super::mesh::{Nodes, Profile, System};
+use super::mesh::{Leaf, Nodes, Profile, System};
 use super::sets::{Beside, flood};
 use crate::configuration::Configuration;
 use crate::parallel;
@@ -114,7 +114,7 @@ struct Cells {
 /// the integrals that are asked for this close together; `None` where nothing can be proved on this
 /// mesh. Divides cells.
 pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Option<Capacity> {
-    let problem = field.problem();
+    let problem = field.problem;
     let bounds = problem.bounds().ok()?;
     // The centre of mass is the reference point, or coordinates are not upright.
     let metric = problem.mass_metric(0.0);
@@ -163,7 +163,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     // Where contact reaches to where tiles are free, as at corners, both are done without.
     let is_narrow = |id: usize| {
         let leaf = &mesh.leaves[id];
-        leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
+        leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf, NARROW)
     };
     let narrow: Vec<bool> = parallel::map(0..mesh.leaves.len(), is_narrow);
     // Dirichlet's side.
@@ -247,13 +247,8 @@ fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
             let limits = sets.iter().flat_map(|set| [set.below, set.wide]);
             limits.into_iter().any(|limit| low < limit && high >= limit)
         };
-        range(
-            ground,
-            Piece::whole(id, &leaves[id]),
-            leaves[id].level,
-            &is_open,
-            0,
-        )
+        let leaf = &leaves[id];
+        range(ground, Piece::whole(id, leaf), leaf, &is_open, 0)
     };
     parallel::map(0..leaves.len(), of)
 }
@@ -261,11 +256,11 @@ fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
 fn range(
     ground: &Ground,
     piece: Piece,
-    level: u8,
+    leaf: &Leaf,
     is_open: &dyn Fn(Range) -> bool,
     halved: usize,
 ) -> Range {
-    let place = ground.place(&piece, level);
+    let place = ground.place(&piece, leaf);
     let found = place
         .as_ref()
         .map_or([f64::NEG_INFINITY, f64::INFINITY], |place| {
@@ -277,21 +272,21 @@ fn range(
     let axis = place.map_or(halved % 3, |place| place.axis());
     let halves = piece
         .halves(axis)
-        .map(|half| range(ground, half, level, is_open, halved + 1));
+        .map(|half| range(ground, half, leaf, is_open, halved + 1));
     let [[a, b], [c, d]] = halves;
     [a.min(c).max(found[0]), b.max(d).min(found[1])]
 }
 
 /// Whether rays through a piece may have no length, looked at in so many halvings.
-fn is_narrow(ground: &Ground, piece: Piece, level: u8, halvings: usize) -> bool {
-    let place = ground.place(&piece, level);
+fn is_narrow(ground: &Ground, piece: Piece, leaf: &Leaf, halvings: usize) -> bool {
+    let place = ground.place(&piece, leaf);
     let is_clear = place.as_ref().is_some_and(|place| !place.is_narrow());
     if is_clear || halvings == 0 {
         return !is_clear && place.is_some();
     }
     let axis = place.map_or(halvings % 3, |place| place.axis());
     let mut halves = piece.halves(axis).into_iter();
-    halves.any(|half| is_narrow(ground, half, level, halvings - 1))
+    halves.any(|half| is_narrow(ground, half, leaf, halvings - 1))
 }
 
 impl Cells {
