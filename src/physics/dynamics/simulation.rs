@@ -59,7 +59,7 @@ pub struct Simulation<'a> {
     pub(super) problem: &'a Problem,
     /// The moving tile's mass and inertia.
     pub body: Body,
-    pub(super) settings: &'a MotionSettings,
+    pub(super) settings: MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
 }
@@ -70,17 +70,17 @@ impl<'a> Simulation<'a> {
     pub fn new(
         problem: &'a Problem,
         body: Body,
-        settings: &'a MotionSettings,
+        settings: &MotionSettings,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self::of_sound_settings(problem, body, settings))
+        Ok(Self::of_sound_settings(problem, body, settings.clone()))
     }
 
     /// With settings that are known to make sense.
     pub(super) fn of_sound_settings(
         problem: &'a Problem,
         body: Body,
-        settings: &'a MotionSettings,
+        settings: MotionSettings,
     ) -> Self {
         let circumradius = problem
             .contact
@@ -157,7 +157,7 @@ impl<'a> Simulation<'a> {
         velocity.xy().norm() + self.reach * velocity.z.abs()
     }
 
-    pub(super) fn forces(&self) -> Forces<'a> {
+    pub(super) fn forces(&self) -> Forces<'_> {
         Forces {
             potential: self.problem.potential(),
             fans: &self.settings.fans,

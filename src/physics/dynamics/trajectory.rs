@@ -57,7 +57,7 @@ impl Simulation<'_> {
 /// A trajectory under way.
 struct Trajectory<'a, 'b> {
     simulation: &'b Simulation<'a>,
-    forces: Forces<'a>,
+    forces: Forces<'b>,
     phase: Phase,
     time: f64,
     potential: f64,
@@ -144,7 +144,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
 
     /// Free flight until contact is near or the time is over.
     fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
-        let settings = self.simulation.settings;
+        let settings = &self.simulation.settings;
         let rho = self.simulation.problem.space.rho;
         let mut acceleration = self.forces.acceleration(&self.phase, self.time);
         while self.time < until {
@@ -207,7 +207,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     /// Contact until the tile has left, rests, or the time is over.
     fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let simulation = self.simulation;
-        let settings = simulation.settings;
+        let settings = &simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
         // The leapfrog's velocities belong to the middles of its steps: a step begins with the
         // push of half the step before and half of this one.

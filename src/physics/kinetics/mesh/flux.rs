@@ -91,25 +91,22 @@ impl Network {
         self.equations.solve(&entries, given, right, like)
     }
 
+    /// For each face 1 if it is the end of a place, and 0 otherwise.
+    pub fn given(&self, place: usize) -> Vec<f64> {
+        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
+        self.ends.iter().map(one).collect()
+    }
+
     /// From a place to all others, found from a guess of the potentials. Its capacity (rad) is no
     /// greater than theirs, but for the quadrature.
     ///
     /// # Errors
     /// Where the linear system is not solved.
     pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
-        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = self.ends.iter().map(one).collect();
+        let given = self.given(place);
         let none = vec![0.0; given.len()];
         let potentials = self.solved(&given, &none, like)?;
         Ok(self.flux(&potentials, &|_| 0.0, &given))
-    }
-
-    /// What flows from a place out of the conductors' sides, whatever it is, as a flux.
-    #[cfg(test)]
-    pub fn told(&self, place: usize, out: Vec<Vector6<f64>>) -> Flux {
-        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = self.ends.iter().map(one).collect();
-        self.weighed(out, &|_| 0.0, &given)
     }
 
     /// From a source in each cell to the places. Its cost is no less than the integral of the source
@@ -146,7 +143,7 @@ impl Network {
     }
 
     /// What flows out of the conductors' sides as a flux.
-    fn weighed(
+    pub fn weighed(
         &self,
         all: Vec<Vector6<f64>>,
         source: &dyn Fn(usize) -> f64,
