@@ -27,13 +27,10 @@ impl Field<'_> {
         let (mut sum, mut all) = (0.0, 0.0);
         for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
             let energy = element.energy(&nodes.of(id, values));
-            let middle = leaf.low.map(|low| (low + leaf.size() / 2) as f64);
-            let [_, phi, theta] = self.mesh.chart.coordinates(middle);
+            let [_, phi, theta] = self.mesh.chart.coordinates(leaf.at([0.5; 3]));
             let ray = self.mesh.chart.ray([phi, theta]);
-            let (_, slope) = self
-                .problem
-                .potential()
-                .energy_and_gradient(&ray.configuration(0.0));
+            let potential = self.problem.potential();
+            let (_, slope) = potential.energy_and_gradient(&ray.configuration(0.0));
             let rate = (slope.x * libm::cos(phi) + slope.y * libm::sin(phi)) * ray.length / self.kt;
             if rate.is_finite() {
                 sum += energy * rate.max(0.0);
@@ -43,7 +40,7 @@ impl Field<'_> {
         Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
     }
 
-    /// The cells as conductors between places, for fluxes that follow e^(-U/kT) along s.
+    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes that follow e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
         let count = self.mesh.leaves.len();
@@ -66,21 +63,26 @@ impl Field<'_> {
             costs.local[id] = Some(Box::new(cost));
         }
         costs.spreads = spreads;
-        Network::new(&self.mesh, nodes, pins, rim, &costs.spreads, &costs.local)
+        // A function that is 1 at a place's corners is so all over the cells that have no others.
+        let place = |id: usize| -> Option<usize> {
+            let corners = nodes.corners[id].iter();
+            let sources = corners.flat_map(|&n| &nodes.sources[n as usize]);
+            let mut places = sources.map(|&(of, _)| pins[of as usize]);
+            let first = places.next()??;
+            places.all(|other| other == Some(first)).then_some(first)
+        };
+        let (spreads, costs) = (&costs.spreads, &costs.local);
+        Network::new(&self.mesh, &place, &|_| false, rim, spreads, costs)
     }
 
     /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
     fn falls(&self, id: usize) -> Spread {
         let leaf = &self.mesh.leaves[id];
-        let ends = self.mesh.along(id);
+        let chart = &self.mesh.chart;
+        let ends = leaf.along(chart);
         let at = |aside: [f64; 2]| {
-            let size = leaf.size() as f64;
-            let [_, phi, theta] = self.mesh.chart.coordinates([
-                0.0,
-                leaf.low[1] as f64 + aside[0] * size,
-                leaf.low[2] as f64 + aside[1] * size,
-            ]);
-            let qs = self.mesh.chart.places([phi, theta], ends);
+            let [_, phi, theta] = chart.coordinates(leaf.at([0.0, aside[0], aside[1]]));
+            let qs = chart.places([phi, theta], ends);
             let weight = |q| self.integrator.power(self.problem.energy(&q));
             let [near, far] = qs.map(weight);
             Profile::falling((near - far).clamp(-MOST, MOST), ends)
@@ -119,7 +121,7 @@ impl Field<'_> {
         let (profile, costs) = self.costs(nodes, like);
         let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
         let (mesh, known) = (&self.mesh, &costs.layer.1);
-        let network = Network::between(mesh, place, is_left_out, rim, &spreads, known)?;
+        let network = Network::new(mesh, place, is_left_out, rim, &spreads, known)?;
         Some((network, profile))
     }
 

@@ -37,12 +37,9 @@ pub(super) fn sides(
     let mut parts: Vec<(usize, usize, u32, usize)> = Vec::new();
     for (id, leaf, _) in mesh.live() {
         for side in 0..6 {
-            let half = leaf.size() / 2;
-            let mut place = leaf.low.map(|low| low + half);
-            let (axis, is_upper) = (side / 2, side % 2 == 1);
-            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
+            let is_upper = side % 2 == 1;
             let face = ends.len() as u32;
-            let Some(other) = mesh.find(place) else {
+            let Some(other) = mesh.find(leaf.beyond(side)) else {
                 // Contact, or the rim.
                 if is_upper {
                     ends.push(Some(rim));
@@ -69,7 +66,7 @@ pub(super) fn sides(
     for four in parts.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let (cell, side, ..) = four[0];
         let share = |part: usize| {
-            let (whole, [from, to]) = (mesh.along(cell), mesh.along(part));
+            let [whole, [from, to]] = [cell, part].map(|id| mesh.leaves[id].along(&mesh.chart));
             match side / 2 {
                 0 => 0.25,
                 _ => {
@@ -94,13 +91,9 @@ pub(in crate::kinetics) fn spreads(mesh: &Octree, own: &[Option<Spread>]) -> Vec
     for (id, leaf, _) in mesh.live() {
         let mut spread = own[id].unwrap_or_default();
         for side in 2..6 {
-            let half = leaf.size() / 2;
-            let mut place = leaf.low.map(|low| low + half);
-            let (axis, is_upper) = (side / 2, side % 2 == 1);
-            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
-            let beyond = mesh.find(place).filter(|&other| {
+            let beyond = mesh.find(leaf.beyond(side)).filter(|&other| {
                 let level = mesh.leaves[other].level;
-                level < leaf.level || level == leaf.level && !is_upper
+                level < leaf.level || level == leaf.level && side % 2 == 0
             });
             if let Some(other) = beyond.and_then(|other| own[other]) {
                 spread.profiles[side - 2] = *other.of(side ^ 1);
