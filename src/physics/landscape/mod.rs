@@ -2,6 +2,7 @@
 
 pub mod approach;
 pub mod barrier_bounds;
+mod bounded;
 pub mod capture;
 pub mod catalogue;
 pub mod constrained;
@@ -9,7 +10,6 @@ pub mod exploration;
 mod foresight;
 pub mod map;
 pub mod meeting;
-mod metered;
 pub mod minimax;
 pub mod minimum;
 pub mod missing_states;
@@ -21,11 +21,11 @@ pub mod stationary;
 pub mod transition_network;
 pub mod volume;
 
-pub use barrier_bounds::{Claims, Uncertified};
+pub use barrier_bounds::Claims;
 pub use catalogue::{Catalogue, Kind};
 pub use exploration::LeftOut;
 pub use missing_states::{Completeness, CompletenessSettings};
 pub use results::{
     Alternative, Barrier, Pathway, PathwayCost, PathwayPoint, Place, Proportion, SaddleBounds,
-    State, StateKind, Uncaptured, highest_point, work,
+    State, StateKind, Uncaptured, Uncertified, highest_point, work,
 };

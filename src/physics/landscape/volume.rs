@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 use super::approach::Approach;
 use super::map::{evenly, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::interruption;
 use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
@@ -33,7 +32,6 @@ impl Volume {
     ) -> Self {
         let [planes, rows, columns] = [0, 1, 2].map(|k| axes[k].len());
         let energies = parallel::flat_map(0..planes * rows, |row| {
-            interruption::check();
             let row: Vec<_> = (0..columns)
                 .map(|column| configuration([row / rows, row % rows, column]))
                 .collect();

@@ -8,7 +8,6 @@ use ordered_float::OrderedFloat;
 
 use super::Milestone;
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::interruption;
 use crate::parallel;
 
 /// Neighbours per milestone that a roadmap of n milestones needs for its paths to tend to the best
@@ -91,7 +90,6 @@ pub fn neighbour_pairs(
     let k = k.min(milestones.len() - 1);
     let search = NeighbourSearch::new(milestones, space);
     let near: Vec<Vec<u32>> = parallel::map(milestones, |milestone| {
-        interruption::check();
         let found = search.nearest(&milestone.configuration, k + 1);
         found.into_iter().map(|(_, index)| index).collect()
     });

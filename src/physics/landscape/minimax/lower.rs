@@ -3,9 +3,9 @@
 use ordered_float::OrderedFloat;
 
 use crate::cell::{Cell, Quadratic};
-use crate::contact::cells::{CellContact, ContactCells, Cut};
-use crate::landscape::metered::Metered;
-use crate::potential::bounds::{CellBounds, Enclosure};
+use crate::contact::cells::{CellContact, Cut};
+use crate::landscape::bounded::Bounded;
+use crate::potential::bounds::Enclosure;
 
 /// What is known of a cell that is not proved blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,41 +52,18 @@ impl Assessment {
 /// deeper it lies.
 const OVERLAPPING: f64 = 1e30;
 
-/// Assesses a cell; `None` where it is proved blocked. `lever` (m) says how far a turn by one
-/// radian moves the tile.
-pub(super) fn assess(
-    bounds: &Metered,
-    contact: Option<&ContactCells>,
-    lever: f64,
-    cell: &Cell,
-) -> Option<Assessment> {
-    let verdict = contact.map_or_else(CellContact::open, |contact| contact.classify(cell));
-    bounds.count(work(contact, &verdict));
-    match verdict {
-        CellContact::Blocked => None,
-        _ => assess_open(&bounds.enclose(cell), &verdict, lever, cell),
+impl Bounded<'_> {
+    /// Assesses a cell; `None` where it is proved blocked.
+    pub(super) fn assess(&self, cell: &Cell) -> Option<Assessment> {
+        match self.classify(cell) {
+            CellContact::Blocked => None,
+            open => assess_open(&self.enclose(cell), &open, self.lever, cell),
+        }
     }
 }
 
-/// Units of work that contact with a cell takes, and bounds over what it leaves.
-pub(in crate::landscape) fn work(contact: Option<&ContactCells>, found: &CellContact) -> u64 {
-    let edges = contact.map_or(0, ContactCells::edges) as u64;
-    let bounds = match found {
-        CellContact::Open { cuts, corners, .. } => {
-            let cuts = cuts.len() as u64;
-            cuts + corners.len() as u64 * (2 * cuts + 2)
-        }
-        CellContact::Blocked => 0,
-    };
-    A_CELL + AN_EDGE * edges + A_CUT * bounds
-}
-
-/// Units of work that a cell takes, each edge that it may touch, and each cut in a bound.
-const A_CELL: u64 = 100;
-const AN_EDGE: u64 = 15;
-const A_CUT: u64 = 10;
-
-/// Assesses a cell of whose energy and contact this is known.
+/// Assesses a cell of whose energy and contact this is known. `lever` (m) says how far a turn by one
+/// radian moves the tile.
 pub(crate) fn assess_open(
     enclosure: &Enclosure,
     contact: &CellContact,

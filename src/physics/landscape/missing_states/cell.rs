@@ -3,13 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
+use super::exits::Opened;
 use crate::cell::{Cell, Quadratic};
-use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells, Cut, PossibleContact};
+use crate::contact::cells::{CellContact, Cut, PossibleContact};
 use crate::contact::{Constraint, EdgeOf, Touch, closest_admissible};
-use crate::landscape::metered::Metered;
-use crate::landscape::minimax::lower::{Lagrangian, work};
-use crate::potential::bounds::{CellBounds, Enclosure};
+use crate::landscape::bounded::Bounded;
+use crate::landscape::minimax::lower::Lagrangian;
+use crate::potential::bounds::Enclosure;
 
 /// Cells in which more contacts than these may be made are subdivided first.
 const MOST_CONTACTS: usize = 600;
@@ -35,19 +35,16 @@ pub(super) enum Verdict {
     Nothing,
     /// A step leads from each of them to a free one of lower energy.
     Falls,
-    /// A step leads from each of them into a wholly free box about this configuration, on which the
-    /// energy exceeds the cell's least, `lowest` (J), by at most the allowed rise.
-    Opens { into: Configuration, lowest: f64 },
+    /// A step leads from each of them into a wholly free box, on which the energy exceeds the cell's
+    /// least by at most the allowed rise.
+    Opens(Opened),
     /// None of this; what each coordinate's size costs, by which it should be halved.
     Open { lowest: f64, losses: [f64; 3] },
 }
 
 /// Proves cells.
 pub(super) struct CellProof<'a> {
-    pub bounds: &'a Metered<'a>,
-    pub contact: Option<&'a ContactCells>,
-    /// How far (m) a turn by one radian counts as moving the tile.
-    pub lever: f64,
+    pub bounded: &'a Bounded<'a>,
     /// Configurations above this energy (J) are of no concern.
     pub level: f64,
     /// Highest rise (J) on the way out of what is no trap.
@@ -56,14 +53,10 @@ pub(super) struct CellProof<'a> {
 
 impl CellProof<'_> {
     pub fn verdict(&self, cell: &Cell) -> Verdict {
-        let contact = self
-            .contact
-            .map_or_else(CellContact::open, |contact| contact.classify(cell));
-        self.bounds.count(work(self.contact, &contact));
-        let CellContact::Open { cuts, corners, .. } = contact else {
+        let CellContact::Open { cuts, corners, .. } = self.bounded.classify(cell) else {
             return Verdict::Nothing;
         };
-        let enclosure = self.bounds.enclose(&widened(cell, SHORT_FALL));
+        let enclosure = self.bounded.enclose(&widened(cell, SHORT_FALL));
         let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners).lower;
         if lowest > self.level {
             return Verdict::Nothing;
@@ -81,31 +74,30 @@ impl CellProof<'_> {
         opens.next().unwrap_or(open)
     }
 
-    /// The contacts that may be made by steps from the cell with components of at most `longest`
-    /// half sizes.
-    fn within_steps(&self, cell: &Cell, longest: f64) -> Option<Vec<PossibleContact>> {
-        self.possible(&widened(cell, longest))
-    }
-
+    /// The contacts that may be made in a cell, if they are not too many.
     fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
-        let Some(contact) = self.contact else {
+        let Some(contact) = &self.bounded.cells else {
             return Some(Vec::new());
         };
         let found = contact.possible(cell, MOST_CONTACTS);
         let count = found.as_ref().map_or(MOST_CONTACTS, Vec::len);
-        self.bounds.count(A_CONTACT * count as u64);
+        self.bounded.count(A_CONTACT * count as u64);
         found
     }
 
     /// Weights of a step's squared components.
     fn metric(&self) -> Matrix3<f64> {
-        Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.lever * self.lever))
+        Matrix3::from_diagonal(&Vector3::new(
+            1.0,
+            1.0,
+            self.bounded.lever * self.bounded.lever,
+        ))
     }
 
     /// A cell's half sizes (m).
     pub fn sizes(&self, cell: &Cell) -> [f64; 3] {
         let [x, y, theta] = cell.half;
-        [x, y, self.lever * theta]
+        [x, y, self.bounded.lever * theta]
     }
 
     /// What each coordinate's size costs of the fall (J) along a step: by how much it changes there,
@@ -146,7 +138,7 @@ impl CellProof<'_> {
         if !(0..3).any(gains) {
             return None;
         }
-        let contacts = self.within_steps(cell, longest)?;
+        let contacts = self.possible(&widened(cell, longest))?;
         let metric = self.metric();
         let force = -(metric.try_inverse()? * gradient);
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
@@ -170,7 +162,7 @@ impl CellProof<'_> {
         } else {
             let swept = swept(cell, &step);
             self.closes_nothing(&swept, &step)
-                && lowers(&self.bounds.enclose(&swept), &(-step / 2.0), &swept)
+                && lowers(&self.bounded.enclose(&swept), &(-step / 2.0), &swept)
         };
         Some(if falls { Ok(()) } else { losses })
     }
@@ -256,7 +248,7 @@ impl CellProof<'_> {
 
     /// Whether a step leads from every free configuration of the cell into a wholly free box.
     fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<Verdict> {
-        let contacts = self.within_steps(cell, longest)?;
+        let contacts = self.possible(&widened(cell, longest))?;
         let spare = 1e-9;
         let least = |c: &PossibleContact| spare - c.least(&cell.half);
         let step = self.opening_step(cell, &contacts, (Vector3::zeros(), longest), least)?;
@@ -271,12 +263,12 @@ impl CellProof<'_> {
         if !self.possible(&freed)?.is_empty() {
             return None;
         }
-        let known = self.bounds.enclose(&swept);
+        let known = self.bounded.enclose(&swept);
         let highest = known.form.greatest(&swept.half) + known.high;
-        (highest - lowest <= self.rise).then_some(Verdict::Opens {
-            into: freed.centre,
+        (highest - lowest <= self.rise).then_some(Verdict::Opens(Opened {
+            at: freed.centre,
             lowest,
-        })
+        }))
     }
 }
 

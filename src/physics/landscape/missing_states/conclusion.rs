@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::exits::{SAME, SHARP};
-use super::search::{Search, Waiting};
+use super::search::{Queue, Search, push};
 use super::{Completeness, OpenRegion, regions};
 use crate::configuration::Configuration;
 use crate::landscape::catalogue::Catalogue;
@@ -24,7 +24,7 @@ impl Search<'_> {
         let (mut judged, mut closed) = (BTreeSet::new(), Vec::new());
         loop {
             let reached: BTreeSet<usize> = self.explained.iter().map(|cell| cell.2).collect();
-            let mut again = Waiting::default();
+            let mut again = Queue::none();
             for ending in reached {
                 let at = self.exits.endings[ending].minimum.point;
                 if !judged.insert(ending) || listed.holds(self.problem, &at.q) {
@@ -44,7 +44,7 @@ impl Search<'_> {
                     .explained
                     .extract_if(.., |cell| cell.2 == ending && cell.1 < least)
                 {
-                    again.push(cell, lowest);
+                    push(&mut again, cell, lowest);
                 }
             }
             if again.is_empty() {
