@@ -7,9 +7,9 @@ use super::root::{root, straight_root};
 use super::well::{Estimate, Well};
 use crate::configuration::Configuration;
 use crate::interruption;
-use crate::landscape::constrained::Point;
 use crate::landscape::{Catalogue, Kind, Place};
 use crate::problem::Problem;
+use crate::roadmap::Point;
 use crate::tile::Pair;
 
 /// Relative error to which partition functions are integrated.

@@ -6,10 +6,10 @@ use ordered_float::OrderedFloat;
 use super::basin::Basin;
 use super::line::Weight;
 use crate::configuration::Configuration;
-use crate::landscape::constrained::Point;
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;
+use crate::roadmap::Point;
 
 /// Abscissas and weights of Gauss' rule of five points on [-1, 1].
 const GAUSS: [(f64, f64); 5] = [

@@ -2,8 +2,9 @@
 
 use ordered_float::OrderedFloat;
 
-use super::Milestone;
-use super::profile::{Profile, ProfileTolerance};
+use super::point::Point;
+use super::profile::Profile;
+use super::stretch::ProfileTolerance;
 use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
@@ -64,7 +65,7 @@ pub(crate) const SIDE_BY_SIDE: usize = 64;
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
     problem: &Problem,
-    milestones: &[Milestone],
+    milestones: &[Point],
     pairs: &[(u32, u32)],
     settings: &EdgeSettings,
 ) -> Vec<Edge> {
@@ -88,17 +89,17 @@ pub fn edges(
 /// Those of some pairs of milestones between which the straight motion is free.
 pub fn free_motions(
     problem: &Problem,
-    milestones: &[Milestone],
+    milestones: &[Point],
     pairs: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
-    let configurations: Vec<Configuration> = milestones.iter().map(|m| m.configuration).collect();
+    let configurations: Vec<Configuration> = milestones.iter().map(|m| m.q).collect();
     problem.free_motions(&configurations, pairs)
 }
 
 /// The costs of some straight motions, their energies asked together.
 pub(crate) fn costs_side_by_side(
     problem: &Problem,
-    ends: &[[&Milestone; 2]],
+    ends: &[[&Point; 2]],
     settings: &EdgeSettings,
 ) -> Vec<EdgeCosts> {
     let profiles = Profile::of_many(problem, ends, &settings.tolerance);
@@ -108,19 +109,19 @@ pub(crate) fn costs_side_by_side(
 }
 
 /// The costs of the straight motion between two milestones.
-pub fn costs(problem: &Problem, ends: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
+pub fn costs(problem: &Problem, ends: [&Point; 2], settings: &EdgeSettings) -> EdgeCosts {
     costs_side_by_side(problem, &[ends], settings)[0]
 }
 
 fn costs_of_profile(
     problem: &Problem,
     profile: &Profile,
-    [a, b]: [&Milestone; 2],
+    [a, b]: [&Point; 2],
     settings: &EdgeSettings,
 ) -> EdgeCosts {
     let peak = profile.peak();
     let work = profile.work();
-    let length = problem.space.distance(&a.configuration, &b.configuration);
+    let length = problem.space.distance(&a.q, &b.q);
     EdgeCosts {
         peak: peak.energy,
         peak_at: peak.t,

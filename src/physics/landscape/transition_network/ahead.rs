@@ -20,7 +20,7 @@ enum Goal {
 
 /// What is ahead of each node.
 pub(super) struct Ahead<'a> {
-    network: &'a Network,
+    network: &'a Network<'a>,
     pub cost: Cost,
     pub gone: Gone,
     goals: Vec<Goal>,
@@ -29,7 +29,7 @@ pub(super) struct Ahead<'a> {
 }
 
 impl<'a> Ahead<'a> {
-    pub fn new(network: &'a Network, ends: Ends, cost: Cost, gone: Gone) -> Self {
+    pub fn new(network: &'a Network<'a>, ends: Ends, cost: Cost, gone: Gone) -> Self {
         let goal = |&node: &usize| match network.nodes[node] {
             Some((q, energy)) => Goal::At(q, energy),
             None => Goal::Free(network.far_energies()),
@@ -59,9 +59,9 @@ impl<'a> Ahead<'a> {
         };
         let to_goal = |goal: &Goal| {
             let (distance, ends) = match goal {
-                Goal::At(at, there) => (self.network.space.distance(&q, at), [*there; 2]),
+                Goal::At(at, there) => (self.network.problem.space.distance(&q, at), [*there; 2]),
                 Goal::Free(there) => {
-                    let apart = self.network.space.free_distance - q.position().norm();
+                    let apart = self.network.problem.space.free_distance - q.position().norm();
                     (apart.max(0.0), *there)
                 }
             };
@@ -75,7 +75,7 @@ impl<'a> Ahead<'a> {
     }
 }
 
-impl Network {
+impl Network<'_> {
     /// What a way of at least this length (m) that leads up by `climb` (J) costs at least.
     pub(super) fn least_cost(&self, cost: Cost, length: f64, climb: f64) -> f64 {
         match cost {
@@ -91,7 +91,7 @@ impl Network {
             .nodes
             .iter()
             .flatten()
-            .filter(|(q, _)| self.space.is_far(q));
+            .filter(|(q, _)| self.problem.space.is_far(q));
         far.fold(
             [f64::INFINITY, f64::NEG_INFINITY],
             |[low, high], (_, energy)| [low.min(*energy), high.max(*energy)],
