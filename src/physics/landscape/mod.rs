@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod constrained;
 pub mod exploration;
 mod foresight;
+pub mod grid;
 mod known;
 pub mod map;
 pub mod meeting;

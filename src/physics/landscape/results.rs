@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::budget::Ended;
 use crate::configuration::Configuration;
 use crate::potential::Unbounded;
+use crate::roadmap::knot;
 
 /// States whose energies differ by less than this share are as deep as each other.
 pub const SAME_ENERGY: f64 = 1e-6;
@@ -151,12 +152,7 @@ pub type Pathway = Vec<PathwayPoint>;
 /// Mechanical work against the energy along a pathway, forwards and backwards (J): the sums of its
 /// climbs and of its falls.
 pub fn work(pathway: &Pathway) -> [f64; 2] {
-    let mut work = [0.0; 2];
-    for pair in pathway.windows(2) {
-        let climb = pair[1].energy - pair[0].energy;
-        work[usize::from(climb < 0.0)] += climb.abs();
-    }
-    work
+    knot::work(pathway.iter().map(|point| point.energy))
 }
 
 /// What is proved of the highest energy on the best way between two places.

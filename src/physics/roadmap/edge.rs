@@ -2,6 +2,7 @@
 
 use ordered_float::OrderedFloat;
 
+use super::knot::work;
 use super::point::Point;
 use super::profile::Profile;
 use super::stretch::ProfileTolerance;
@@ -120,13 +121,12 @@ fn costs_of_profile(
     settings: &EdgeSettings,
 ) -> EdgeCosts {
     let peak = profile.peak();
-    let work = profile.work();
     let length = problem.space.distance(&a.q, &b.q);
     EdgeCosts {
         peak: peak.energy,
         peak_at: peak.t,
         length,
-        work: [work.0, work.1],
+        work: profile.work(),
         minus_ln_probability: improbabilities(profile.energies(steps(length, settings)), settings),
     }
 }
@@ -148,12 +148,6 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     let highest = (0..energies.len())
         .max_by_key(|&k| OrderedFloat(energies[k]))
         .unwrap_or(0);
-    let mut work = [0.0; 2];
-    for pair in energies.windows(2) {
-        let climb = pair[1] - pair[0];
-        work[0] += climb.max(0.0);
-        work[1] += (-climb).max(0.0);
-    }
     let count = steps(length, settings);
     let evenly = (0..=count).map(|k| {
         let s = k as f64 / count as f64 * length;
@@ -168,7 +162,7 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
         peak: energies[highest],
         peak_at: along[highest] / length.max(f64::MIN_POSITIVE),
         length,
-        work,
+        work: work(energies.iter().copied()),
         minus_ln_probability: improbabilities(evenly, settings),
     }
 }

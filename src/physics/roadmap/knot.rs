@@ -51,3 +51,14 @@ pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
             }
         })
 }
+
+/// Mechanical work against energies (J) that come one after the other, forwards and backwards (J): the
+/// sums of all climbs and of all falls.
+pub fn work(energies: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+    let mut work = [0.0; 2];
+    for (here, next) in energies.clone().zip(energies.skip(1)) {
+        work[0] += (next - here).max(0.0);
+        work[1] += (here - next).max(0.0);
+    }
+    work
+}

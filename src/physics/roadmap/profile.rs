@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
-use super::knot::{Knot, cubic, inner_extremes};
+use super::knot::{Knot, cubic, inner_extremes, work};
 use super::point::Point;
 use super::stretch::{Bends, Motion, ProfileTolerance, Stretch};
 use crate::order::Order;
@@ -130,14 +130,8 @@ impl Profile {
     }
 
     /// Mechanical work against the energy, forwards and backwards (J): the sum of all climbs.
-    pub fn work(&self) -> (f64, f64) {
-        let mut work = (0.0, 0.0);
-        for pair in self.knots.windows(2) {
-            let climb = pair[1].energy - pair[0].energy;
-            work.0 += climb.max(0.0);
-            work.1 += (-climb).max(0.0);
-        }
-        work
+    pub fn work(&self) -> [f64; 2] {
+        work(self.knots.iter().map(|knot| knot.energy))
     }
 
     /// The energy (J) at `count + 1` evenly spaced points from end to end.

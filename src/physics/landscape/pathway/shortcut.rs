@@ -237,6 +237,6 @@ fn motion(problem: &Problem, [a, b]: [&Point; 2], limits: &Limits) -> (f64, f64)
     let length = problem.space.distance(&a.q, &b.q);
     (
         profile.peak().energy,
-        profile.work().0 + limits.per_metre * length,
+        profile.work()[0] + limits.per_metre * length,
     )
 }

@@ -6,10 +6,42 @@
 //! and the climb D of the way: climbs add up to D at least, lengths to d, and -ln of transition
 //! probabilities as [`improbability_at_least`] says.
 
+use std::collections::HashSet;
+
 use super::Network;
-use super::routes::{Cost, Ends, Gone};
 use crate::configuration::Configuration;
 use crate::roadmap::edge::improbability_at_least;
+
+/// By which cost paths are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cost {
+    /// Mechanical work against the energy (J).
+    Work,
+    /// -ln of the transition probabilities.
+    Probability,
+    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
+    /// exceed `highest` (J).
+    Below {
+        /// No link's peak on the path may exceed this (J).
+        highest: f64,
+        /// Energy (J) for each metre of the way.
+        per_metre: f64,
+    },
+}
+
+/// Between which nodes a search goes.
+#[derive(Clone, Copy)]
+pub(super) struct Ends<'a> {
+    pub from: usize,
+    pub goals: &'a HashSet<usize>,
+}
+
+/// In which direction links are gone that a search finds one after the other.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Gone {
+    Forwards,
+    Backwards,
+}
 
 /// A place where a search may end.
 enum Goal {

@@ -2,12 +2,11 @@
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
-use std::iter::Peekable;
 
 use ordered_float::OrderedFloat;
 use petgraph::unionfind::UnionFind;
 
-use super::routes::Ends;
+use super::ahead::Ends;
 use super::{Link, Network, Route};
 use crate::parallel;
 
@@ -28,35 +27,6 @@ pub struct Merge {
 /// A link by its peak (J) and, of equal ones, its length (m), which tells what it takes to weigh it, and
 /// its number.
 type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
-
-/// Links in ascending order, to which some come back.
-struct Waiting {
-    ascending: Peekable<std::vec::IntoIter<ByPeak>>,
-    again: BinaryHeap<Reverse<ByPeak>>,
-}
-
-impl Waiting {
-    fn new(mut ascending: Vec<ByPeak>) -> Self {
-        ascending.sort_unstable();
-        Self {
-            ascending: ascending.into_iter().peekable(),
-            again: BinaryHeap::new(),
-        }
-    }
-
-    fn extend(&mut self, links: impl Iterator<Item = ByPeak>) {
-        self.again.extend(links.map(Reverse));
-    }
-
-    fn next(&mut self) -> Option<ByPeak> {
-        let first = self.ascending.peek();
-        let again = self.again.peek().map(|Reverse(again)| again);
-        if again.is_some_and(|again| first.is_none_or(|first| again < first)) {
-            return self.again.pop().map(|Reverse(again)| again);
-        }
-        self.ascending.next()
-    }
-}
 
 impl Network<'_> {
     /// Works out which motions minimax paths use, so that merges need to look at later links only: the
@@ -92,13 +62,14 @@ impl Network<'_> {
             !joined.equiv(link.from, link.to)
         });
         let by_peak = |number| self.by_peak(number);
-        let mut waiting = Waiting::new(parallel::map(&left, |&number| by_peak(number)));
+        let by_peak = parallel::map(&left, |&number| Reverse(by_peak(number)));
+        let mut waiting = BinaryHeap::from(by_peak);
         // Once a link has to be weighed, others that follow and join other parts of the forest; all
         // that are looked at meanwhile, and the parts that they touch.
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
         loop {
-            let next = waiting.next();
-            if let Some((_, _, number)) = next {
+            let next = waiting.pop();
+            if let Some(Reverse((_, _, number))) = next {
                 let Link { from, to, .. } = self.links[number as usize];
                 let parts = [from, to].map(|node| joined.find_mut(node));
                 if parts[0] == parts[1] || self.is_blocked(number as usize) {
@@ -121,7 +92,7 @@ impl Network<'_> {
                     break;
                 }
                 self.weigh(&open);
-                waiting.extend(aside.drain(..).map(|number| self.by_peak(number)));
+                waiting.extend(aside.drain(..).map(|number| Reverse(self.by_peak(number))));
                 open.clear();
                 touched.clear();
             }

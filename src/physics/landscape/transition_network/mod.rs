@@ -22,8 +22,9 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
 
+pub use ahead::Cost;
 pub use forest::Merge;
-pub use routes::{Cost, Route};
+pub use routes::Route;
 
 use crate::configuration::Configuration;
 use crate::contact::Known;

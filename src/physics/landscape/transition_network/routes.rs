@@ -9,28 +9,11 @@ use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
 use super::Network;
-use super::ahead::Ahead;
+use super::ahead::{Ahead, Cost, Ends, Gone};
 use crate::roadmap::edge::EdgeCosts;
 
 /// A path through the network: links with the direction in which each is gone.
 pub type Route = Vec<(usize, bool)>;
-
-/// By which cost paths are compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cost {
-    /// Mechanical work against the energy (J).
-    Work,
-    /// -ln of the transition probabilities.
-    Probability,
-    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
-    /// exceed `highest` (J).
-    Below {
-        /// No link's peak on the path may exceed this (J).
-        highest: f64,
-        /// Energy (J) for each metre of the way.
-        per_metre: f64,
-    },
-}
 
 impl Network<'_> {
     /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
@@ -202,17 +185,3 @@ type Waiting = Reverse<([OrderedFloat<f64>; 2], u32, u32)>;
 
 /// What it costs to reach a node, and the link that was gone last, once it is reached.
 type Reached = Option<(f64, Option<u32>)>;
-
-/// Between which nodes a search goes.
-#[derive(Clone, Copy)]
-pub(super) struct Ends<'a> {
-    pub from: usize,
-    pub goals: &'a HashSet<usize>,
-}
-
-/// In which direction links are gone that a search finds one after the other.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Gone {
-    Forwards,
-    Backwards,
-}
