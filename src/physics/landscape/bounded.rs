@@ -6,7 +6,7 @@ use crate::budget::Budget;
 use crate::cell::Cell;
 use crate::configuration::ConfigurationSpace;
 use crate::contact::Contact;
-use crate::contact::cells::{CellContact, ContactCells};
+use crate::contact::cells::{ContactCells, Cuts};
 use crate::potential::CellBounds;
 use crate::potential::bounds::Enclosure;
 
@@ -49,21 +49,19 @@ impl<'a> Bounded<'a> {
         self.bounds.enclose(cell)
     }
 
-    /// What contact says about a cell. With that the work is counted for bounds over what it leaves.
-    pub fn classify(&self, cell: &Cell) -> CellContact {
-        let Some(cells) = &self.cells else {
-            self.count(A_CELL);
-            return CellContact::open();
+    /// What contact says about a cell, `None` where it is blocked. With that the work is counted for
+    /// bounds over what it leaves.
+    pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
+        let found = match &self.cells {
+            Some(cells) => cells.classify(cell),
+            None => Some(Cuts::default()),
         };
-        let found = cells.classify(cell);
-        let bounds = match &found {
-            CellContact::Open { cuts, corners, .. } => {
-                let cuts = cuts.len() as u64;
-                cuts + corners.len() as u64 * (2 * cuts + 2)
-            }
-            CellContact::Blocked => 0,
-        };
-        self.count(A_CELL + AN_EDGE * cells.edges() as u64 + A_CUT * bounds);
+        let bounds = found.as_ref().map_or(0, |cuts| {
+            let all = cuts.all.len() as u64;
+            all + cuts.corners.len() as u64 * (2 * all + 2)
+        });
+        let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
+        self.count(A_CELL + AN_EDGE * edges + A_CUT * bounds);
         found
     }
 

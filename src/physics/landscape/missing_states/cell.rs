@@ -5,7 +5,7 @@ use ordered_float::OrderedFloat;
 
 use super::exits::Opened;
 use crate::cell::{Cell, Quadratic};
-use crate::contact::cells::{CellContact, Cut, PossibleContact};
+use crate::contact::cells::{Cuts, PossibleContact};
 use crate::contact::{Constraint, EdgeOf, Touch, closest_admissible};
 use crate::landscape::bounded::Bounded;
 use crate::landscape::minimax::lower::Lagrangian;
@@ -53,16 +53,16 @@ pub(super) struct CellProof<'a> {
 
 impl CellProof<'_> {
     pub fn verdict(&self, cell: &Cell) -> Verdict {
-        let CellContact::Open { cuts, corners, .. } = self.bounded.classify(cell) else {
+        let Some(cuts) = self.bounded.classify(cell) else {
             return Verdict::Nothing;
         };
         let enclosure = self.bounded.enclose(&widened(cell, SHORT_FALL));
-        let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners).lower;
+        let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts).lower;
         if lowest > self.level {
             return Verdict::Nothing;
         }
         let unknown = enclosure.high - enclosure.low;
-        let losses = match self.falls(cell, &enclosure, &cuts, &corners) {
+        let losses = match self.falls(cell, &enclosure, &cuts) {
             Some(Ok(())) => return Verdict::Falls,
             Some(Err(losses)) => losses,
             None => self.sizes(cell),
@@ -118,16 +118,10 @@ impl CellProof<'_> {
     /// Whether one step leads downhill from every free configuration of the cell; if the one that is
     /// tried does not, what each coordinate's size costs. Short ones show the most, where the
     /// energy's slope is bounded; `room` is known of all that they sweep.
-    fn falls(
-        &self,
-        cell: &Cell,
-        room: &Enclosure,
-        cuts: &[Cut],
-        corners: &[[Cut; 2]],
-    ) -> Option<Result<(), [f64; 3]>> {
+    fn falls(&self, cell: &Cell, room: &Enclosure, cuts: &Cuts) -> Option<Result<(), [f64; 3]>> {
         let is_smooth = room.slope.is_finite();
         let longest = if is_smooth { SHORT_FALL } else { FALL };
-        let out = self.pushed_out(cell, cuts, corners);
+        let out = self.pushed_out(cell, cuts);
         let gradient = slope(&room.form, &out);
         // A step costs at least a third of what its components cost one by one.
         let gains = |i: usize| {
@@ -154,7 +148,7 @@ impl CellProof<'_> {
             return Some(losses);
         }
         let lowers = |known: &Enclosure, from: &Vector3<f64>, swept: &Cell| {
-            self.is_lowered(cell, &step, (known, from, swept), cuts, corners)
+            self.is_lowered(cell, &step, (known, from, swept), cuts)
         };
         // What is within a short step is known already, and so is that the step closes nothing.
         let falls = if is_smooth {
@@ -168,10 +162,9 @@ impl CellProof<'_> {
     }
 
     /// The offset from the centre, within the cell, of about the nearest free configuration.
-    fn pushed_out(&self, cell: &Cell, cuts: &[Cut], corners: &[[Cut; 2]]) -> Vector3<f64> {
+    fn pushed_out(&self, cell: &Cell, cuts: &Cuts) -> Vector3<f64> {
         let rows: Vec<Constraint> = cuts
-            .iter()
-            .chain(corners.iter().map(Cut::easier))
+            .easiest()
             .map(|cut| Constraint {
                 touch: NO_TOUCH,
                 gap: cut.form.value,
@@ -228,8 +221,7 @@ impl CellProof<'_> {
         cell: &Cell,
         step: &Vector3<f64>,
         (known, from, swept): (&Enclosure, &Vector3<f64>, &Cell),
-        cuts: &[Cut],
-        corners: &[[Cut; 2]],
+        cuts: &Cuts,
     ) -> bool {
         let change = change(&known.form, from, step);
         // The greatest change is minus the least of its negative.
@@ -237,7 +229,7 @@ impl CellProof<'_> {
             form: Quadratic::default().minus(1.0, &change),
             ..Enclosure::default()
         };
-        let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts, corners).lower;
+        let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts).lower;
         let slack = known.change(step, &swept.half) + 2.0 * known.form.rounding(&swept.half);
         let bend = quadratic(&known.form, step);
         // A part t of the step changes the form by t times its change, less t (1 - t) / 2 times

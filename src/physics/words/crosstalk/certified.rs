@@ -11,8 +11,8 @@ use ordered_float::OrderedFloat;
 use super::{Couple, Stage};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells};
-use crate::landscape::minimax::lower::{Assessment, assess_open};
+use crate::contact::cells::ContactCells;
+use crate::landscape::minimax::lower::{Assessment, assess};
 use crate::potential::bounds::Enclosure;
 use crate::subdivision::Waiting;
 use crate::tile::Magnet;
@@ -145,10 +145,9 @@ impl Stage {
     ) -> Vec<Open> {
         let cell = &open.cell;
         let lever = self.pair.moving.radius_of_gyration();
-        let verdict = contact.classify(cell);
-        if verdict == CellContact::Blocked {
+        let Some(cuts) = contact.classify(cell) else {
             return Vec::new();
-        }
+        };
         let by_magnets: Vec<Enclosure> = self
             .magnets
             .iter()
@@ -166,9 +165,7 @@ impl Stage {
             if box_bound >= wanted[*number] {
                 continue;
             }
-            let Some(found) = assess_open(&known, &verdict, lever, cell) else {
-                return Vec::new();
-            };
+            let found = assess(&known, &cuts, lever, cell);
             let bound = found.lower.max(*before);
             if bound >= wanted[*number] {
                 continue;
