@@ -3,14 +3,14 @@
 use std::collections::HashSet;
 
 use crate::surfaces::{DoubleWell, MuellerBrown};
+use crate::surveys;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
-    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, RoadmapSettings,
-    neighbour,
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
 };
 
 /// A landscape in x and y with a well in theta, around 0, so that minima are points.
@@ -52,7 +52,7 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
 /// A barrier counts as settled when it moves by less than this fraction.
 pub const SETTLED: f64 = 0.005;
 
-pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Exploration {
+pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Exploration<'_> {
     let edge = EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -74,7 +74,7 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Explora
         neighbours: neighbour::neighbours_per_milestone(milestones.count),
         edges: edge,
     };
-    let roadmap = Roadmap::build(problem, &roadmap, &mut |_| ());
+    let roadmap = surveys::weighed(problem, &roadmap);
     let settings = ExplorationSettings {
         edge,
         settled: SETTLED,
@@ -83,7 +83,7 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Explora
         most_rounds: 8,
         seed,
     };
-    Exploration::new(problem, roadmap, &[], &settings)
+    surveys::survey(problem, roadmap, &settings)
 }
 
 /// The saddle energy (J) between the states at two configurations.

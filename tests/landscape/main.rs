@@ -21,6 +21,7 @@ mod ranking;
 mod roadmap;
 mod seam;
 mod surfaces;
+mod surveys;
 mod symmetry;
 mod transition_network;
 mod volume;

@@ -10,13 +10,14 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::capture::{FarStarts, ends};
 use tilebind::landscape::map::{EnergyMap, Window};
 use tilebind::landscape::minimax::{Certifier, Effort, End};
-use tilebind::landscape::minimum::{Known, Outcome, drift};
+use tilebind::landscape::minimum::{Known, Outcome};
 use tilebind::potential::Potential;
 use tilebind::potential::bounds::{CellBounds, Enclosure};
 use tilebind::problem::Problem;
 
 use crate::analytic::{SETTLED, survey};
 use crate::designs;
+use crate::minimum::drift;
 use crate::surfaces::{ROUNDING, check_bounds};
 
 const SPACE: ConfigurationSpace = ConfigurationSpace {

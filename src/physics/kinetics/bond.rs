@@ -8,9 +8,9 @@ use super::volume::Estimate;
 use super::well::Well;
 use crate::configuration::Configuration;
 use crate::interruption;
-use crate::landscape::constrained::Point;
 use crate::landscape::{Catalogue, Kind, Place};
 use crate::problem::Problem;
+use crate::roadmap::Point;
 
 /// Relative error to which partition functions are integrated.
 pub const TOLERANCE: f64 = 2e-3;

@@ -10,8 +10,8 @@ use std::collections::{HashMap, VecDeque};
 use super::frame::Frame;
 use super::line::Lines;
 use crate::configuration::Configuration;
-use crate::landscape::constrained::Point;
 use crate::problem::Problem;
+use crate::roadmap::Point;
 
 /// Spacing of the grid's nodes, as a share of the moving tile's circumradius.
 const SPACING: f64 = 1.0 / 128.0;

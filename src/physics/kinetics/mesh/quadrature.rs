@@ -9,7 +9,7 @@ use super::octree::Leaf;
 use super::profile::{Resistance, Spread};
 use super::wall::Ray;
 use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells};
+use crate::contact::cells::ContactCells;
 use crate::interruption;
 use crate::problem::Problem;
 
@@ -79,12 +79,8 @@ impl<'a> Integrator<'a> {
         let found = contact.map(|cells| cells.classify(&chart.around(leaf.low, leaf.level)));
         let cut = match found {
             None => false,
-            Some(CellContact::Blocked) => return (None, true),
-            Some(CellContact::Open {
-                cuts,
-                corners,
-                depth,
-            }) => !(cuts.is_empty() && corners.is_empty() && depth == 0.0),
+            Some(None) => return (None, true),
+            Some(Some(cuts)) => !cuts.is_none(),
         };
         let mut lines = Lines::new(self, chart, leaf, cut);
         let middle = lines.ray([0.5; 2]);

@@ -3,15 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::level::ordered;
+use super::level::{Seeds, ordered};
 use super::store::Store;
-
-/// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
-/// them.
-pub(super) struct Seeds {
-    pub from: Vec<(u32, f64)>,
-    pub to: Vec<(u32, f64)>,
-}
 
 /// What a flood from one end of a query finds on its way to the other.
 pub(super) struct Watershed {

@@ -6,12 +6,11 @@ mod shortcut;
 
 use std::collections::HashSet;
 
-use super::constrained::Point;
 use super::results::{Pathway, PathwayPoint, highest_point};
-use super::transition_network::{Cost, Network, Route, Way};
+use super::transition_network::{Cost, Network, Route};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
-use crate::roadmap::Milestone;
+use crate::roadmap::Point;
 
 pub use legs::of_configurations;
 use legs::of_milestones;
@@ -44,7 +43,6 @@ pub struct Lowest {
 /// are halved until the energy between two points is linear to within `bend` (J); energies are
 /// measured by `depth` (J).
 pub fn lowest(
-    problem: &Problem,
     network: &Network,
     from: usize,
     [goals, ends]: [&HashSet<usize>; 2],
@@ -55,11 +53,11 @@ pub fn lowest(
         highest: limits.highest,
         per_metre: limits.per_metre,
     };
-    let (end, _, route) = network.cheapest(problem, from, ends, cost)?;
+    let (end, _, route) = network.cheapest(from, ends, cost)?;
     let peak = |way: &Pathway| highest_point(way).map_or(f64::INFINITY, |point| point.energy);
-    let mut pathway = along(problem, network, &route, Some(&limits), bend);
+    let mut pathway = along(network, &route, Some(&limits), bend);
     if peak(&pathway) > limits.highest + HIGHER * depth {
-        let plain = along(problem, network, &route, None, bend);
+        let plain = along(network, &route, None, bend);
         pathway = [pathway, plain]
             .into_iter()
             .min_by(|a, b| peak(a).total_cmp(&peak(b)))?;
@@ -109,24 +107,19 @@ pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -
 
 /// The pathway along a route. Stretches of straight motions are cut short within the limits; steps
 /// are halved until the energy between two points is linear to within `bend` (J).
-pub fn along(
-    problem: &Problem,
-    network: &Network,
-    route: &Route,
-    limits: Option<&Limits>,
-    bend: f64,
-) -> Pathway {
-    let mut all: Vec<Milestone> = Vec::new();
+pub fn along(network: &Network, route: &Route, limits: Option<&Limits>, bend: f64) -> Pathway {
+    let problem = network.problem;
+    let mut all: Vec<Point> = Vec::new();
     for stretch in stretches(network, route) {
         let points = match stretch {
             Stretch::Way(points) => points,
             Stretch::Straight(points) => {
                 let shorter = limits.map(|limits| shortened(problem, &points, limits));
                 let points = shorter.unwrap_or(points).into_iter();
-                points.map(|q| Milestone::new(problem, q)).collect()
+                points.map(|q| Point::new(problem, q)).collect()
             }
         };
-        let ends = [all.last(), points.first()].map(|end| end.map(|it| it.configuration));
+        let ends = [all.last(), points.first()].map(|end| end.map(|it| it.q));
         let repeated = usize::from(!all.is_empty() && ends[0] == ends[1]);
         all.extend(points.into_iter().skip(repeated));
     }
@@ -149,18 +142,10 @@ fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, 
     });
 }
 
-fn milestone(point: &Point) -> Milestone {
-    Milestone {
-        configuration: point.q,
-        energy: point.energy,
-        gradient: point.gradient,
-    }
-}
-
 enum Stretch {
     Straight(Vec<Configuration>),
     /// Along which the energy is known.
-    Way(Vec<Milestone>),
+    Way(Vec<Point>),
 }
 
 /// A route's links, neighbouring straight motions taken together.
@@ -173,15 +158,14 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
             ends.reverse();
         }
         match network.way(number) {
-            Way::Same => {}
-            Way::Points(points) => {
-                let mut way: Vec<Milestone> = points.iter().map(milestone).collect();
+            Some(points) => {
+                let mut way = points.to_vec();
                 if !forwards {
                     way.reverse();
                 }
                 all.push(Stretch::Way(way));
             }
-            Way::Straight => {
+            None => {
                 let ends = ends.map(|node| network.nodes[node as usize].map(|n| n.0));
                 let [Some(a), Some(b)] = ends else { continue };
                 match all.last_mut() {

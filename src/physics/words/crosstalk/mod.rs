@@ -19,7 +19,6 @@ mod traps;
 use super::Word;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::Contact;
-use crate::parallel;
 use crate::potential::{Energy, Interaction};
 use crate::problem::Problem;
 use crate::tile::{Magnet, Pair, Tile};
@@ -318,13 +317,4 @@ fn energies(magnets: &[Energy], q: &Configuration) -> Vec<f64> {
         .iter()
         .map(|energy| energy.potential.energy(q))
         .collect()
-}
-
-/// Work in order on all threads.
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    let heeded = |item| {
-        crate::interruption::check();
-        work(item)
-    };
-    parallel::map(items, heeded)
 }

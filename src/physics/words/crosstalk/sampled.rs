@@ -7,8 +7,9 @@
 
 use ordered_float::OrderedFloat;
 
-use super::{Couple, Stage, energies, in_parallel};
+use super::{Couple, Stage, energies};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
 use crate::words::Word;
@@ -38,9 +39,8 @@ impl Stage {
     /// The lowest energy (J) found of each couple, and its pose.
     pub(super) fn sampled(&self, couples: &[Couple]) -> Vec<(f64, Configuration)> {
         let tilts = tilts();
-        let best_by_tilt = in_parallel(&tilts, |tilt| self.best_at(*tilt, couples));
-        let numbers: Vec<usize> = (0..couples.len()).collect();
-        in_parallel(&numbers, |&number| {
+        let best_by_tilt = parallel::map(&tilts, |tilt| self.best_at(*tilt, couples));
+        parallel::map(0..couples.len(), |number| {
             let couple = &couples[number];
             let mut starts: Vec<(f64, Setting)> =
                 best_by_tilt.iter().map(|best| best[number]).collect();

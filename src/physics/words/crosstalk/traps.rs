@@ -6,9 +6,10 @@
 use ordered_float::OrderedFloat;
 
 use super::sampled::{Setting, tilts};
-use super::{Couple, Stage, energies, in_parallel};
+use super::{Couple, Stage, energies};
 use crate::configuration::Configuration;
 use crate::order::Order;
+use crate::parallel;
 use crate::words::Word;
 
 /// Minima of the grid that are polished, of a word.
@@ -27,12 +28,11 @@ impl Stage {
         let mut tilts = tilts();
         tilts.order_by(f64::total_cmp);
         let slides = self.slides();
-        let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
+        let rows = parallel::map(&tilts, |tilt| -> Vec<Vec<f64>> {
             let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
             slides.iter().map(at).collect()
         });
-        let numbers: Vec<usize> = (0..words.len()).collect();
-        in_parallel(&numbers, |&number| {
+        parallel::map(0..words.len(), |number| {
             let level = |i: usize, j: usize| rows[i][j][number];
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..tilts.len() {

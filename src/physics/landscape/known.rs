@@ -1,17 +1,32 @@
-//! Slides: stretches of known motions along which contact leaves the tiles one way only, so that
-//! every motion that comes there goes on as the known one did.
+//! What is known of where motions end: in minima that were verified, and where motions did that slid
+//! along the same stretches. On these contact leaves the tiles one way only, so that every motion that
+//! comes there goes on as the known one did.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::constrained::Heading;
-use super::minimum::Outcome;
+use super::stationary::Stationary;
 use crate::configuration::Configuration;
 use crate::contact::Touch;
 use crate::problem::Problem;
 
+/// A minimum this close (m, metric of the space) to a verified one is the same, found again.
+const SAME: f64 = 1e-7;
 /// How far (m, metric of the space) a configuration may lie outside a stretch and count as within.
 const ROUNDING: f64 = 1e-9;
+
+/// Where a descent ended.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// At a minimum.
+    Minimum(Box<Stationary>),
+    /// The tiles are far apart.
+    Free,
+    /// No step goes down from here, but no minimum could be verified: the accuracy of the energy is
+    /// exhausted, or corners of both tiles meet.
+    Stuck(Configuration),
+}
 
 /// A step of a motion with the same two contacts pressed on at both ends.
 #[derive(Clone, Debug)]
@@ -53,31 +68,52 @@ fn two(heading: &Heading) -> Option<[Touch; 2]> {
     Some(pressed)
 }
 
-/// Stretches of motions, and where each of these ended.
+/// What is known of where motions end.
 #[derive(Clone, Debug, Default)]
-pub struct Slides(HashMap<[Touch; 2], Vec<(Stretch, Arc<Outcome>)>>);
+pub struct Known {
+    /// Minima around which all is known to lie higher: a motion that ends in one of them need not
+    /// look around again.
+    minima: Vec<Configuration>,
+    /// Stretches of motions, and where these ended: one that comes on one of them need not be followed
+    /// any farther.
+    slides: HashMap<[Touch; 2], Vec<(Stretch, Arc<Outcome>)>>,
+}
 
-impl Slides {
+impl Known {
+    /// These minima.
+    pub fn minima(minima: impl Iterator<Item = Configuration>) -> Self {
+        Self {
+            minima: minima.collect(),
+            slides: HashMap::new(),
+        }
+    }
+
     /// Adds the stretches of a motion that ended so.
-    pub fn add(&mut self, stretches: Vec<Stretch>, outcome: &Outcome) {
+    pub(super) fn add(&mut self, stretches: Vec<Stretch>, outcome: &Outcome) {
         let outcome = Arc::new(outcome.clone());
         for stretch in stretches {
-            let known = self.0.entry(stretch.pressed).or_default();
+            let known = self.slides.entry(stretch.pressed).or_default();
             known.push((stretch, outcome.clone()));
         }
     }
 
     /// Where a motion that heads this way from a configuration ends, if it is on a stretch.
-    pub fn lead(
+    pub(super) fn lead(
         &self,
         problem: &Problem,
         q: &Configuration,
         heading: &Heading,
     ) -> Option<&Outcome> {
-        let known = self.0.get(&two(heading)?)?;
+        let known = self.slides.get(&two(heading)?)?;
         let on = known
             .iter()
             .find(|(stretch, _)| stretch.holds(problem, q, heading));
         on.map(|(_, outcome)| &**outcome)
+    }
+
+    /// Whether a configuration is one of the minima.
+    pub(super) fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
+        let is_same = |known: &Configuration| problem.space.distance(known, q) <= SAME;
+        self.minima.iter().any(is_same)
     }
 }
