@@ -66,7 +66,7 @@ fn minima_where_the_outlines_fit_need_no_milestones() {
         };
         let Point { q, energy, .. } = minimum.point;
         if energy < -0.01 * problem.depth() {
-            assert!(survey.state_at(&problem, &q, 1e-5).is_some(), "{q:?}");
+            assert!(survey.state_at(&q, 1e-5).is_some(), "{q:?}");
             found += 1;
         }
     }
@@ -83,7 +83,7 @@ fn tilted_traps_of_faces_that_slide_are_found_with_any_milestones() {
         [0.054928775, 0.439586631, 0.026799278, -0.37194e-3],
         [0.067551874, -0.437652637, 0.030267079, -0.25002e-3],
     ] {
-        let found = survey.state_at(&problem, &Configuration::new(x, y, theta), 1e-6);
+        let found = survey.state_at(&Configuration::new(x, y, theta), 1e-6);
         let found = &survey.states[found.unwrap()].minimum.point;
         assert!((found.energy - energy).abs() < 1e-8, "{found:?}");
     }

@@ -160,7 +160,7 @@ fn the_survey_finds_both_wells_and_the_saddle_on_the_seam() {
         let survey = survey(&problem, 3.0 * HEIGHT, 3.0 * HEIGHT, seed);
         assert_eq!(survey.states.len(), 2);
         let nodes = AT_ORIGIN.wells().map(|well| {
-            let state = survey.state_at(&problem, &well, 1e-5).expect("a minimum");
+            let state = survey.state_at(&well, 1e-5).expect("a minimum");
             assert!(survey.states[state].minimum.point.energy < 1e-12);
             survey.states[state].node
         });

@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
             [&goal, &goal],
             [self.problem.depth(), BEND * self.problem.depth()],
         )
-        .map_or_else(Pathway::new, |lowest| lowest.pathway)
+        .map_or_else(Pathway::new, |(_, pathway)| pathway)
     }
 
     /// Adds a configuration to the network, joined by its descent and by the straight motions to

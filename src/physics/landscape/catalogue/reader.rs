@@ -8,7 +8,7 @@ use super::Catalogue;
 use crate::configuration::Configuration;
 use crate::landscape::exploration::Exploration;
 use crate::landscape::meeting::{magnet_pairs, touching_faces};
-use crate::landscape::pathway::{self, Lowest};
+use crate::landscape::pathway;
 use crate::landscape::results::{
     Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
 };
@@ -202,7 +202,7 @@ impl Reader<'_> {
         };
         let is_reported = |goal: &usize| *goal == self.survey.free || ids.contains_key(goal);
         let reported: HashSet<usize> = goals.iter().copied().filter(is_reported).collect();
-        let Lowest { end, pathway } = pathway::lowest(
+        let (end, pathway) = pathway::lowest(
             &self.survey.network,
             node,
             [goals, &reported],

@@ -103,11 +103,6 @@ fn known_way(
     goals.insert(survey.free);
     let depth = problem.depth();
     let scale = [depth, 2e-3 * depth];
-    let way = pathway::lowest(&survey.network, from, [&goals, &goals], scale)?;
-    Some(
-        way.pathway
-            .iter()
-            .map(|point| point.configuration)
-            .collect(),
-    )
+    let (_, way) = pathway::lowest(&survey.network, from, [&goals, &goals], scale)?;
+    Some(way.iter().map(|point| point.configuration).collect())
 }

@@ -28,26 +28,17 @@ pub(super) const AMONG_FAR: f64 = 0.01;
 /// is not taken unseen.
 const HIGHER: f64 = 1e-7;
 
-/// The best way between two nodes.
-#[derive(Clone, Debug)]
-pub struct Lowest {
-    /// The node that it reaches.
-    pub end: usize,
-    /// From the first node to the one it reaches; never empty. Where detours could be cut short, it
-    /// may lie below what the network holds.
-    pub pathway: Pathway,
-}
-
 /// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
 /// highest energy the one with the least work to one of the `ends`, and of those the shortest. Steps
 /// are halved until the energy between two points is linear to within `bend` (J); energies are
-/// measured by `depth` (J).
+/// measured by `depth` (J). The node that it reaches, and the pathway, never empty: where detours could
+/// be cut short, it may lie below what the network holds.
 pub fn lowest(
     network: &Network,
     from: usize,
     [goals, ends]: [&HashSet<usize>; 2],
     [depth, bend]: [f64; 2],
-) -> Option<Lowest> {
+) -> Option<(usize, Pathway)> {
     let limits = Limits::below(highest(network, from, goals, depth)?, depth);
     let cost = Cost::Below {
         highest: limits.highest,
@@ -62,7 +53,7 @@ pub fn lowest(
             .into_iter()
             .min_by(|a, b| peak(a).total_cmp(&peak(b)))?;
     }
-    (!pathway.is_empty()).then_some(Lowest { end, pathway })
+    (!pathway.is_empty()).then_some((end, pathway))
 }
 
 /// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
