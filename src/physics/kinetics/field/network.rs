@@ -1,6 +1,6 @@
 //! The cells of a mesh as conductors of fluxes.
 
-use std::sync::{MutexGuard, PoisonError};
+use std::sync::PoisonError;
 
 use super::Field;
 use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
@@ -10,15 +10,15 @@ use crate::parallel;
 /// hardly follow.
 const MOST: f64 = 4.0;
 
-/// What fluxes cost in cells (1/rad), as far as it is known.
+/// What is known of fluxes in cells.
 #[derive(Default)]
 pub(super) struct Costs {
-    /// Spread as one profile says for the whole mesh: it, and what they cost.
-    layer: (Option<Profile>, Vec<Option<Box<Resistance>>>),
-    /// Spread as the energy is: how that is from each cell, over its sides in the end, and the costs.
+    /// How e^(-U/kT) falls, from each cell.
     own: Vec<Option<Spread>>,
-    spreads: Vec<Spread>,
-    local: Vec<Option<Box<Resistance>>>,
+    /// How fluxes were spread last where that was the same for the whole mesh.
+    profile: Option<Profile>,
+    /// What fluxes cost in each cell (1/rad), spread so.
+    known: Vec<Option<(Spread, Box<Resistance>)>>,
 }
 
 impl Field<'_> {
@@ -40,29 +40,16 @@ impl Field<'_> {
         Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
     }
 
-    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes that follow e^(-U/kT) along s.
+    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes
+    /// that follow e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let count = self.mesh.leaves.len();
-        costs.own.resize(count, None);
-        let is_known = |id: &usize| costs.own[*id].is_some();
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(|id| !is_known(id)).collect();
-        let found: Vec<_> = parallel::map(&new, |&id| self.falls(id));
+        costs.own.resize(self.mesh.leaves.len(), None);
+        let new = self.live(|id| costs.own[id].is_none());
+        let found = parallel::map(&new, |&id| Some(self.falls(id)));
         for (id, spread) in new.into_iter().zip(found) {
-            costs.own[id] = Some(spread);
+            costs.own[id] = spread;
         }
-        let spreads = spreads(&self.mesh, &costs.own);
-        costs.local.resize(count, None);
-        costs.spreads.resize(count, Spread::default());
-        let is_new = |id: &usize| costs.local[*id].is_none() || costs.spreads[*id] != spreads[*id];
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(is_new).collect();
-        let found = self.resistances(&new, |id| spreads[id]);
-        for (id, cost) in new.into_iter().zip(found) {
-            costs.local[id] = Some(Box::new(cost));
-        }
-        costs.spreads = spreads;
         // A function that is 1 at a place's corners is so all over the cells that have no others.
         let place = |id: usize| -> Option<usize> {
             let corners = nodes.corners[id].iter();
@@ -71,8 +58,36 @@ impl Field<'_> {
             let first = places.next()??;
             places.all(|other| other == Some(first)).then_some(first)
         };
-        let (spreads, costs) = (&costs.spreads, &costs.local);
-        Network::new(&self.mesh, &place, &|_| false, rim, spreads, costs)
+        let spreads = spreads(&self.mesh, &costs.own);
+        self.spread(&mut costs, &spreads, &place, &|_| false, rim)
+    }
+
+    /// Undivided cells with free configurations of which something holds.
+    fn live(&self, holds: impl Fn(usize) -> bool) -> Vec<usize> {
+        let cells = self.mesh.live().map(|(id, ..)| id);
+        cells.filter(|&id| holds(id)).collect()
+    }
+
+    /// The cells as conductors of fluxes that are spread so.
+    fn spread(
+        &self,
+        Costs { known, .. }: &mut Costs,
+        spreads: &[Spread],
+        place: &dyn Fn(usize) -> Option<usize>,
+        is_left_out: &dyn Fn(usize) -> bool,
+        rim: usize,
+    ) -> Option<Network> {
+        known.resize_with(spreads.len(), || None);
+        let new = self.live(|id| known[id].as_ref().is_none_or(|it| it.0 != spreads[id]));
+        let found = parallel::map(&new, |&id| {
+            let (chart, leaf) = (&self.mesh.chart, &self.mesh.leaves[id]);
+            let cost = self.integrator.resistance(chart, leaf, &spreads[id]);
+            Some((spreads[id], Box::new(cost)))
+        });
+        for (id, cost) in new.into_iter().zip(found) {
+            known[id] = cost;
+        }
+        Network::new(&self.mesh, place, is_left_out, rim, known)
     }
 
     /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
@@ -94,19 +109,6 @@ impl Field<'_> {
         }
     }
 
-    fn resistances(
-        &self,
-        cells: &[usize],
-        spread: impl Fn(usize) -> Spread + Sync,
-    ) -> Vec<Resistance> {
-        let resistance = |&id: &usize| {
-            let leaf = &self.mesh.leaves[id];
-            self.integrator
-                .resistance(&self.mesh.chart, leaf, &spread(id))
-        };
-        parallel::map(cells, resistance)
-    }
-
     /// The cells as conductors between places given by the cells that they are made of, through none
     /// of the cells left out, for fluxes like a function's; with how fluxes are spread, all over the
     /// mesh in the same way.
@@ -118,30 +120,12 @@ impl Field<'_> {
         rim: usize,
         like: &[f64],
     ) -> Option<(Network, Profile)> {
-        let (profile, costs) = self.costs(nodes, like);
-        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
-        let (mesh, known) = (&self.mesh, &costs.layer.1);
-        let network = Network::new(mesh, place, is_left_out, rim, &spreads, known)?;
-        Some((network, profile))
-    }
-
-    /// What fluxes like a function's cost in all cells.
-    fn costs(&self, nodes: &Nodes, like: &[f64]) -> (Profile, MutexGuard<'_, Costs>) {
         let found = self.profile(nodes, like);
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let (known, of) = &mut costs.layer;
-        let profile = known.filter(|known| known.is_like(&found));
-        let profile = profile.unwrap_or_else(|| {
-            of.clear();
-            *known.insert(found)
-        });
-        of.resize(self.mesh.leaves.len(), None);
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(|id| of[*id].is_none()).collect();
-        let found = self.resistances(&new, |_| Spread::even(profile));
-        for (id, cost) in new.into_iter().zip(found) {
-            of[id] = Some(Box::new(cost));
-        }
-        (profile, costs)
+        let known = costs.profile.filter(|known| known.is_like(&found));
+        let profile = *costs.profile.insert(known.unwrap_or(found));
+        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
+        let network = self.spread(&mut costs, &spreads, place, is_left_out, rim)?;
+        Some((network, profile))
     }
 }

@@ -48,19 +48,18 @@ impl Network {
     /// Between places given by the cells that they are made of, and the rim, which is the place `rim`,
     /// through none of the cells that are left out; `None` where the chart holds what is blocked.
     ///
-    /// `resistance` has what fluxes cost in a cell, spread as `spreads` says.
+    /// `costs` has how fluxes are spread in a cell, and what they cost so.
     pub fn new(
         mesh: &Octree,
         place: &dyn Fn(usize) -> Option<usize>,
         is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
-        spreads: &[Spread],
-        resistance: &[Option<Box<Resistance>>],
+        costs: &[Option<(Spread, Box<Resistance>)>],
     ) -> Option<Self> {
         if !mesh.chart.is_fitted() {
             return None;
         }
-        let (sides, mut ends) = sides(mesh, rim, spreads);
+        let (sides, mut ends) = sides(mesh, rim, costs);
         let mut cells = Vec::new();
         for (id, ..) in mesh.live().filter(|(id, ..)| !is_left_out(*id)) {
             let Some(place) = place(id) else {
@@ -72,8 +71,9 @@ impl Network {
             }
         }
         let conductor = |&id: &usize| {
-            let means = spreads[id].means(mesh.leaves[id].along(&mesh.chart));
-            Conductor::new(id, sides[id], resistance[id].as_deref()?, means)
+            let (spread, resistance) = costs[id].as_ref()?;
+            let means = spread.means(mesh.leaves[id].along(&mesh.chart));
+            Conductor::new(id, sides[id], resistance, means)
         };
         let conductors = parallel::map(&cells, conductor);
         let conductors = conductors.into_iter().collect::<Option<Vec<_>>>()?;

@@ -1,7 +1,7 @@
 //! The sides of cells, and the faces that they are made of.
 
 use super::octree::Octree;
-use super::profile::Spread;
+use super::profile::{Resistance, Spread};
 
 /// What lies beyond a cell's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl Side {
 pub(super) fn sides(
     mesh: &Octree,
     rim: usize,
-    spreads: &[Spread],
+    costs: &[Option<(Spread, Box<Resistance>)>],
 ) -> (Vec<[Side; 6]>, Vec<Option<usize>>) {
     let mut sides = vec![[Side::Closed; 6]; mesh.leaves.len()];
     let mut ends = Vec::new();
@@ -67,12 +67,12 @@ pub(super) fn sides(
         let (cell, side, ..) = four[0];
         let share = |part: usize| {
             let [whole, [from, to]] = [cell, part].map(|id| mesh.leaves[id].along(&mesh.chart));
-            match side / 2 {
-                0 => 0.25,
-                _ => {
-                    let profile = spreads[cell].of(side);
+            match &costs[cell] {
+                Some((spread, _)) if side >= 2 => {
+                    let profile = spread.of(side);
                     0.5 * (profile.share(to, whole) - profile.share(from, whole))
                 }
+                _ => 0.25,
             }
         };
         let faces: Vec<_> = four.iter().map(|part| (part.2, share(part.3))).collect();
