@@ -16,6 +16,9 @@ mod minimum;
 mod missing_states;
 mod neighbours;
 mod pathways;
+#[allow(dead_code)]
+#[path = "../shared/plain.rs"]
+mod plain;
 mod queries;
 mod ranking;
 mod roadmap;

@@ -1,11 +1,12 @@
 //! Milestones and edges against what their definitions say.
 
+use crate::plain::Plain;
 use crate::surfaces::DoubleWell;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
 use tilebind::potential::Potential;
-use tilebind::potential::dipole::{ScalarDipoles, dipoles};
+use tilebind::potential::dipole::dipoles;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, Point, ProfileTolerance, edge, milestone,
@@ -199,7 +200,7 @@ fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
     let problem = design.problem();
     let pair = problem.pair.clone().expect("two tiles");
     let [fixed, moving] = [&pair.fixed, &pair.moving].map(|tile| dipoles(&tile.magnets));
-    let scalar = ScalarDipoles::new(&fixed, &moving);
+    let scalar = Plain::new(&fixed, &moving);
     let depth = problem.depth();
     let tolerance = ProfileTolerance {
         relative: 0.0,

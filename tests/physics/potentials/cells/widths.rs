@@ -11,7 +11,7 @@ use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, Shields};
 
-use super::paper_tiles;
+use super::super::kinds::paper_tile;
 use crate::designs;
 
 /// Mean of the logarithm of the widths (J) over cells about contact that have bounds, and how many
@@ -40,7 +40,7 @@ fn mean_width(bounds: &dyn CellBounds, half_side: f64, smallest: f64) -> (f64, u
 
 #[test]
 fn enclosures_are_as_wide_as_they_were() {
-    let (a, b) = paper_tiles();
+    let [a, b] = ["NNNS", "NSSS"].map(paper_tile);
     let shield = Shield {
         attenuation: 0.4,
         length: 0.03,

@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::Potential;
 use tilebind::potential::cuboid::CuboidPotential;
-use tilebind::potential::cuboid::block::{Block, exact};
 use tilebind::potential::cuboid::limits::{Limits, face_distances};
+use tilebind::potential::cuboid::{Block, exact};
 use tilebind::tile::{Magnet, Tile};
 
 use crate::designs;

@@ -5,8 +5,8 @@ use nalgebra::Vector2;
 use serde::Deserialize;
 use tilebind::Configuration;
 use tilebind::potential::{CuboidPotential, DipolePotential, Potential};
-use tilebind::tile::Magnet;
-use tilebind::units::MU0;
+
+use super::kinds::paper_tile;
 
 #[derive(Deserialize)]
 struct Reference {
@@ -24,34 +24,7 @@ struct Values {
 }
 
 fn references() -> Vec<Reference> {
-    serde_json::from_str(include_str!("../fixtures/physics.json")).unwrap()
-}
-
-/// The magnets of a 43 cm square with this code on every face.
-fn magnets(code: &str) -> Vec<Magnet> {
-    let size = [0.010, 0.010, 0.003];
-    let mut magnets = Vec::new();
-    for face in 0..4 {
-        let outwards = face as f64 * std::f64::consts::FRAC_PI_2;
-        let normal = Vector2::new(outwards.cos(), outwards.sin());
-        let tangent = Vector2::new(-normal.y, normal.x);
-        for (k, pole) in code.chars().enumerate() {
-            let s = (k as f64 - 1.5) * 0.040;
-            magnets.push(Magnet {
-                position: normal * (0.215 - 0.005) + tangent * s,
-                angle: outwards
-                    + if pole == 'S' {
-                        std::f64::consts::PI
-                    } else {
-                        0.0
-                    },
-                moment: 1.2 * size.iter().product::<f64>() / MU0,
-                size,
-                face,
-            });
-        }
-    }
-    magnets
+    serde_json::from_str(include_str!("../../fixtures/physics.json")).unwrap()
 }
 
 /// How far the independent numbers may be off: relative, and absolute (J, N, N m). The forces and
@@ -97,7 +70,7 @@ fn check(potential: &impl Potential, pose: [f64; 3], values: &Values, tolerance:
 
 #[test]
 fn dipoles_agree_with_the_independent_numbers() {
-    let potential = DipolePotential::new(&magnets("NNNS"), &magnets("NSSS"));
+    let potential = DipolePotential::new(&paper_tile("NNNS").magnets, &paper_tile("NSSS").magnets);
     let tolerance = Tolerance {
         relative: 1e-9,
         energy: 0.0,
@@ -111,7 +84,7 @@ fn dipoles_agree_with_the_independent_numbers() {
 
 #[test]
 fn blocks_agree_with_the_independent_numbers() {
-    let potential = CuboidPotential::new(&magnets("NNNS"), &magnets("NSSS"));
+    let potential = CuboidPotential::new(&paper_tile("NNNS").magnets, &paper_tile("NSSS").magnets);
     let tolerance = Tolerance {
         relative: 1e-7,
         energy: 2e-12,
@@ -126,8 +99,8 @@ fn blocks_agree_with_the_independent_numbers() {
 /// The dipole is 35 % too weak at a gap of 1 mm for these magnets.
 #[test]
 fn the_error_of_the_dipole_is_known() {
-    let dipoles = DipolePotential::new(&magnets("NNNS"), &magnets("NSSS"));
-    let blocks = CuboidPotential::new(&magnets("NNNS"), &magnets("NSSS"));
+    let dipoles = DipolePotential::new(&paper_tile("NNNS").magnets, &paper_tile("NSSS").magnets);
+    let blocks = CuboidPotential::new(&paper_tile("NNNS").magnets, &paper_tile("NSSS").magnets);
     let relative = |dipole: f64, block: f64| (dipole - block) / block.abs();
     let error = |q: Configuration| relative(dipoles.energy(&q), blocks.energy(&q));
     for reference in references() {

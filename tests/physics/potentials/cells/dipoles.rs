@@ -1,99 +1,21 @@
 //! Enclosures of point dipoles' energy over cells.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
+use tilebind::potential::CellBounds;
 use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{DipoleBounds, Enclosure};
-use tilebind::potential::dipole::{ScalarDipoles, dipoles};
-use tilebind::potential::{CellBounds, DipolePotential, Potential};
+use tilebind::potential::dipole::dipoles;
 use tilebind::tile::Tile;
 use tilebind::units::MU0_OVER_4PI;
 
-use super::{assert_encloses, paper_tiles, pixel_tile};
-
-#[test]
-fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
-    for level in Level::available() {
-        check_random_cells(level);
-    }
-}
-
-fn check_random_cells(level: Level) {
-    let (a, b) = paper_tiles();
-    let bounds = DipoleBounds::with_level(&a, &b, level);
-    let potential = DipolePotential::new(&a.magnets, &b.magnets);
-    let contact = Contact::new(&a.outline, &b.outline);
-    let mut rng = ChaCha8Rng::seed_from_u64(11);
-    let (mut tested, mut near) = (0, 0);
-    for _ in 0..3000 {
-        let size = 10f64.powf(rng.random_range(-4.0..-0.5));
-        let cell = Cell {
-            centre: Configuration::new(
-                rng.random_range(0.35..0.6),
-                rng.random_range(-0.3..0.3),
-                rng.random_range(-0.4..0.4),
-            ),
-            half: std::array::from_fn(|_| size * rng.random_range(0.05..1.0)),
-        };
-        let enclosure = bounds.enclose(&cell);
-        assert!(enclosure.low <= 0.0 && enclosure.high >= 0.0);
-        let free = assert_encloses(&enclosure, &potential, &contact, &cell, &mut rng);
-        tested += free;
-        near += if size > 0.01 { free } else { 0 };
-    }
-    assert!(tested > 10_000 && near > 3_000, "{tested} {near}");
-}
-
-#[test]
-fn the_remainder_is_of_third_order() {
-    let (a, b) = paper_tiles();
-    let bounds = DipoleBounds::new(&a, &b);
-    let width = |h: f64| {
-        let enclosure = bounds.enclose(&Cell {
-            centre: Configuration::new(0.46, 0.03, 0.1),
-            half: [h, h, 4.0 * h],
-        });
-        enclosure.high - enclosure.low
-    };
-    let ratio = width(1e-3) / width(1e-4);
-    assert!((ratio - 1000.0).abs() < 400.0, "{ratio}");
-}
-
-#[test]
-fn a_cell_of_no_size_gives_the_energy_and_its_gradient() {
-    let (a, b) = paper_tiles();
-    let bounds = DipoleBounds::new(&a, &b);
-    let potential = DipolePotential::new(&a.magnets, &b.magnets);
-    let q = Configuration::new(0.44, -0.07, 0.08);
-    let enclosure = bounds.enclose(&Cell {
-        centre: q,
-        half: [0.0; 3],
-    });
-    let (energy, gradient) = potential.energy_and_gradient(&q);
-    assert!((enclosure.form.value - energy).abs() < 1e-14);
-    for i in 0..3 {
-        assert!((enclosure.form.gradient[i] - gradient[i]).abs() < 1e-12);
-        let h = 1e-5;
-        let mut step = Vector3::zeros();
-        step[i] = h;
-        let there = potential.energy_and_gradient(&q.moved(step)).1;
-        let back = potential.energy_and_gradient(&q.moved(-step)).1;
-        let slope = (there - back) / (2.0 * h);
-        let [xx, yy, tt, xy, xt, yt] = enclosure.form.hessian;
-        let row = [[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]][i];
-        for j in 0..3 {
-            assert!(
-                (slope[j] - row[j]).abs() < 1e-5 * (1.0 + row[j].abs()),
-                "{i} {j}"
-            );
-        }
-    }
-    assert!(enclosure.high < 1e-11, "{}", enclosure.high);
-}
+use super::super::kinds::{paper_tile, pixel_tile};
+use super::assert_encloses;
+use crate::plain::Plain;
 
 /// A number as the unevaluated sum of two, good to some 30 digits (Dekker 1971,
 /// doi:10.1007/BF01397083; Shewchuk 1997, doi:10.1007/PL00009321).
@@ -192,7 +114,7 @@ fn exact_energy(fixed: &Tile, moving: &Tile, q: &Configuration) -> Double {
 
 #[test]
 fn rounding_is_covered() {
-    let (a, b) = paper_tiles();
+    let [a, b] = ["NNNS", "NSSS"].map(paper_tile);
     let mut rng = ChaCha8Rng::seed_from_u64(6);
     let contact = Contact::new(&a.outline, &b.outline);
     let (mut tested, mut largest): (i32, f64) = (0, 0.0);
@@ -233,7 +155,7 @@ fn groups_enclose_what_their_magnets_do() {
     let (a, b) = (pixel_tile(48, 1), pixel_tile(48, 3));
     let bounds = DipoleBounds::new(&a, &b);
     let each = DipoleBounds::with_level(&a, &b, Level::best());
-    let potential = ScalarDipoles::new(&dipoles(&a.magnets), &dipoles(&b.magnets));
+    let potential = Plain::new(&dipoles(&a.magnets), &dipoles(&b.magnets));
     let contact = Contact::new(&a.outline, &b.outline);
     let mut rng = ChaCha8Rng::seed_from_u64(12);
     let (mut tested, mut wider) = (0, 0.0f64);
@@ -248,7 +170,14 @@ fn groups_enclose_what_their_magnets_do() {
             half: std::array::from_fn(|_| size * rng.random_range(0.05..1.0)),
         };
         let (enclosure, one_by_one) = (bounds.enclose(&cell), each.enclose(&cell));
-        tested += assert_encloses(&enclosure, &potential, &contact, &cell, &mut rng);
+        tested += assert_encloses(
+            &enclosure,
+            &potential,
+            &contact,
+            &cell,
+            [0.0, 1e-9],
+            &mut rng,
+        );
         let width = |known: &Enclosure| known.high - known.low;
         // Of larger cells, in which dipoles come near each other at any angle, less is asked.
         if size < 2e-3 {

@@ -1,7 +1,7 @@
 //! Bounds of the energy of shielded dipoles over a cell.
 //!
 //! Most pairs have a second-order form with a bound of what it leaves out (see
-//! [`Forms`](kernel::Forms)). The others, near each other or where the factor changes too fast,
+//! [`Forms`]). The others, near each other or where the factor changes too fast,
 //! have an interval each, the product of those of the energy and of the two factors:
 //!
 //! * the energy over the distances and angles within reach, as for bare dipoles ([`NearPair`]);
@@ -13,12 +13,11 @@
 //! times the bound of its slope. Assumed, not proved: sine, cosine, arc and exponential functions
 //! of the platform are right to 8 units in the last place.
 
-use super::kernel::{self, Columns, Forms};
-use super::potential::shielded;
-use super::{Shield, Shields};
+use super::{CellBounds, Enclosure, Interval, NearPair, depths, ends};
 use crate::cell::Cell;
 use crate::potential::batch::Level;
-use crate::potential::bounds::{CellBounds, Enclosure, Interval, NearPair, depths, ends};
+use crate::potential::shielding::kernel::{Columns, Forms, Magnet, magnets};
+use crate::potential::shielding::{Shield, Shields};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
 use nalgebra::{Rotation2, Vector2};
@@ -30,8 +29,8 @@ const MARGIN: f64 = 1e-11;
 #[derive(Clone, Debug)]
 pub struct ShieldedBounds {
     level: Level,
-    fixed: Vec<kernel::Magnet>,
-    moving: Vec<kernel::Magnet>,
+    fixed: Vec<Magnet>,
+    moving: Vec<Magnet>,
     /// Distances (m) of the magnets to their own outlines.
     fixed_depths: Vec<f64>,
     moving_depths: Vec<f64>,
@@ -51,8 +50,8 @@ impl ShieldedBounds {
 
     /// The same for the given instruction set.
     pub fn with_level(fixed: &Tile, moving: &Tile, shields: &Shields, level: Level) -> Self {
-        let first = shielded(fixed, &shields.fixed);
-        let second = shielded(moving, &shields.moving);
+        let first = magnets(fixed, &shields.fixed);
+        let second = magnets(moving, &shields.moving);
         Self {
             level,
             fixed_depths: depths(fixed),
@@ -60,7 +59,7 @@ impl ShieldedBounds {
             columns: Columns::new(&first),
             extent: first.iter().map(|m| m.position.norm()).fold(0.0, f64::max),
             fixed: first,
-            levers: ends(second.iter().map(kernel::Magnet::lever)),
+            levers: ends(second.iter().map(Magnet::lever)),
             moving: second,
         }
     }
@@ -104,7 +103,7 @@ impl ShieldedBounds {
 
 /// The values of a factor over distances (m) and cosines.
 fn factor_range(shield: &Shield, distances: Interval, cosines: Interval) -> Interval {
-    let value = |r: f64, cosine: f64| shield.factor(r, cosine).value;
+    let value = |r: f64, cosine: f64| shield.factor(r, cosine);
     let Interval {
         low: near,
         high: far,
