@@ -34,7 +34,7 @@ mod far;
 pub mod limits;
 mod multipole;
 mod panel;
-pub(in crate::potential) mod quadrature;
+pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;
 
 mod sum;
