@@ -38,7 +38,7 @@ pub mod batch;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
-pub mod disc;
+pub mod faces;
 pub(crate) mod groups;
 pub mod interaction;
 mod lever;

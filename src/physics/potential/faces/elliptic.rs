@@ -2,25 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::Complex;
-
-type C = Complex<f64>;
-
-/// The square root with a real part that is not negative; made of square roots of real numbers, so
-/// that it is the same on every machine.
-pub fn sqrt(z: C) -> C {
-    let length = (z.re * z.re + z.im * z.im).sqrt();
-    let large = ((length + z.re.abs()) / 2.0).sqrt();
-    if large == 0.0 {
-        return C::new(0.0, 0.0);
-    }
-    let small = z.im / (2.0 * large);
-    if z.re >= 0.0 {
-        C::new(large, small)
-    } else {
-        C::new(small.abs(), large.copysign(z.im))
-    }
-}
+use super::complex::{C, sqrt};
 
 /// Three integrals over phi from 0 to pi/2, with `D = sqrt(cos^2 phi + kc^2 sin^2 phi)`.
 #[derive(Clone, Copy, Debug)]

@@ -2,31 +2,17 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Complex;
-
-use super::elliptic::{Complete, sqrt};
-
-type C = Complex<f64>;
-
-/// The integral of `1 / r` over a disc, and its derivatives by the place.
-#[derive(Clone, Copy, Debug)]
-pub struct Value {
-    /// (m)
-    pub value: C,
-    /// By the distance from the axis.
-    pub outwards: C,
-    /// By the height over the disc.
-    pub upwards: C,
-}
+use super::complex::{C, sqrt};
+use super::elliptic::Complete;
 
 /// The integral V of `1 / r` (m) over a disc of a radius R (m), at the distance s from its axis and the
-/// height h over it (m).
+/// height h over it (m); its derivatives by both.
 ///
-/// With `a^2 = (R + s)^2 + h^2`, `kc = sqrt((R - s)^2 + h^2) / a`, `q = (R - s) / (R + s)`, K, C and P
-/// the integrals of [`Complete`]:
+/// With `a^2 = (R + s)^2 + h^2`, `kc = sqrt((R - s)^2 + h^2) / a`, `q = (R - s) / (R + s)`, and K, C
+/// and P the integrals of [`Complete`]:
 ///
 /// ```text
-/// dV/ds = -4 R C / a            (the rim, by the divergence theorem)
+/// dV/ds = -4 R C / a                    (the rim, by the divergence theorem)
 /// dV/dh = 2 h (K + q P) / a - 2 pi      (minus the solid angle)
 /// V = 4 R^2 K / a + s dV/ds + h dV/dh   (V grows like a length)
 /// ```
@@ -35,10 +21,9 @@ pub struct Value {
 /// Edges: at the disc itself dV/dh jumps by 4 pi, and V is even in h; at the rim the derivatives grow
 /// like the logarithm of the distance.
 ///
-/// At complex places, s and h those of `x + i v` in the plane through the axis, x and v real, V is
-/// continued from x: that works for all v along which no point of the disc is met by x turned with
-/// `|v|` (see [`super::pair`]).
-pub fn potential(radius: f64, s: C, h: C) -> Value {
+/// At complex places, `x + i v` with x and v real, V is continued from x; see [`super::line`] for the
+/// v to which that is possible.
+pub fn potential(radius: f64, s: C, h: C) -> (C, [C; 2]) {
     let [inwards, under] = [s, h].map(|z| if z.re < 0.0 { -1.0 } else { 1.0 });
     let (s, h) = (s * inwards, h * under);
     let [near, far] = [s - radius, s + radius].map(|d| sqrt(d * d + h * h));
@@ -46,14 +31,10 @@ pub fn potential(radius: f64, s: C, h: C) -> Value {
     // There are two continuations of `q P`, one infinite at q = kc, one at q = -kc; they differ by
     // the jump of the solid angle.
     let over = (q + kc).norm_sqr() > (q - kc).norm_sqr();
-    let sign = if over { 1.0 } else { -1.0 };
+    let (sign, jump) = if over { (1.0, 2.0 * PI) } else { (-1.0, 0.0) };
     let all = Complete::new(kc, q * sign);
-    let jump = if over { 2.0 * PI } else { 0.0 };
     let outwards = -all.tilted / far * (4.0 * radius);
     let upwards = h / far * (all.first + q * all.third) * 2.0 - jump;
-    Value {
-        value: all.first / far * (4.0 * radius * radius) + s * outwards + h * upwards,
-        outwards: outwards * inwards,
-        upwards: upwards * under,
-    }
+    let value = all.first / far * (4.0 * radius * radius) + s * outwards + h * upwards;
+    (value, [outwards * inwards, upwards * under])
 }
