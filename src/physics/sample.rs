@@ -39,6 +39,7 @@ pub fn tile(sides: usize, side: f64, code: &str, coded: &[usize]) -> Tile {
                 angle: libm::atan2(out.y, out.x),
                 moment: Strength::Remanence(1.2).moment(BAR),
                 size: BAR,
+                form: Default::default(),
                 face,
             }
         })

@@ -108,6 +108,7 @@ pub(super) fn magnet(
         angle: direction(outward, axis),
         moment,
         size,
+        form: Default::default(),
         face: number,
     })
 }

@@ -19,6 +19,7 @@ pub(super) fn bar(keys: MagnetKeys, model: MagnetModel) -> Bar {
             .strength
             .unwrap_or(Strength::Remanence(1.2))
             .moment(size),
+        form: Default::default(),
         inset: keys.inset.unwrap_or(0.0),
         pitch: keys.pitch.unwrap_or(paper.pitch),
         model,
@@ -30,6 +31,7 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
     let Bar {
         size,
         moment,
+        form: _,
         inset,
         pitch,
         model,

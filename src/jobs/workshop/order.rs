@@ -110,6 +110,7 @@ mod tests {
             },
             moment: 0.3,
             size: [0.01, 0.01, 0.003],
+            form: Default::default(),
             face: 0,
         });
         magnets.collect()

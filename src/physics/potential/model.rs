@@ -1,12 +1,16 @@
 //! How magnets are modelled.
 
+use super::{BodyPotential, CuboidPotential, DipolePotential, Potential};
+use crate::tile::Magnet;
+use crate::tile::magnet::Form;
+
 /// How magnets are modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MagnetModel {
     /// Point dipoles at the blocks' centres.
     #[default]
     Dipole,
-    /// Uniformly magnetised blocks.
+    /// Uniformly magnetised blocks and discs.
     Cuboid,
 }
 
@@ -14,6 +18,26 @@ impl MagnetModel {
     /// What design files call each model.
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+
+    /// Whether magnets have to be taken for [`BodyPotential`]'s bodies: blocks that lie have formulas of
+    /// their own, and so have dipoles that do.
+    pub fn is_of_bodies(self, magnets: &[Magnet]) -> bool {
+        magnets.iter().any(|magnet| match self {
+            Self::Dipole => magnet.form.stands.is_some(),
+            Self::Cuboid => magnet.form != Form::default(),
+        })
+    }
+
+    /// The energy of two tiles' magnets, without shields.
+    pub fn potential(self, first: &[Magnet], second: &[Magnet]) -> Box<dyn Potential + Send> {
+        match self {
+            _ if self.is_of_bodies(first) || self.is_of_bodies(second) => {
+                Box::new(BodyPotential::new(self, first, second))
+            }
+            Self::Dipole => Box::new(DipolePotential::new(first, second)),
+            Self::Cuboid => Box::new(CuboidPotential::new(first, second)),
+        }
+    }
 
     /// What design files call this model.
     pub fn name(self) -> &'static str {

@@ -32,7 +32,7 @@ mod cloud;
 pub(in crate::potential) mod correction;
 mod far;
 pub mod limits;
-mod multipole;
+pub(in crate::potential) mod multipole;
 mod panel;
 pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;

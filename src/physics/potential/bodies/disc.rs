@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::complex::{C, sqrt};
+use super::complex::{C, LEAST, sqrt};
 use super::elliptic::Complete;
 
 /// The integral V of `1 / r` (m) over a disc of a radius R (m), at the distance s from its axis and the
@@ -26,6 +26,7 @@ use super::elliptic::Complete;
 pub fn potential(radius: f64, s: C, h: C) -> (C, [C; 2]) {
     let [inwards, under] = [s, h].map(|z| if z.re < 0.0 { -1.0 } else { 1.0 });
     let (s, h) = (s * inwards, h * under);
+    let h = C::new(h.re.max(LEAST), h.im);
     let [near, far] = [s - radius, s + radius].map(|d| sqrt(d * d + h * h));
     let (kc, q) = (near / far, -(s - radius) / (s + radius));
     // There are two continuations of `q P`, one infinite at q = kc, one at q = -kc; they differ by

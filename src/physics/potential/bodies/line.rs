@@ -28,8 +28,8 @@ use std::f64::consts::PI;
 use nalgebra::Vector2;
 
 use super::complex::C;
+use super::face::{Face, Integral};
 use super::panels::panels;
-use super::{Face, Integral};
 
 /// About what share of the integral is lost.
 const LOST: f64 = 1e-15;
@@ -73,7 +73,10 @@ fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
         })
         .collect();
     // ln rho is the imaginary part of the angle of the singular place.
-    let ln_rho = singular.iter().map(|place| place.im).fold(f64::INFINITY, f64::min);
+    let ln_rho = singular
+        .iter()
+        .map(|place| place.im)
+        .fold(f64::INFINITY, f64::min);
     let steps = (-libm::log(LOST) / (2.0 * ln_rho)).ceil().max(STEPS[0]);
     let mut found = Vec::new();
     if steps <= STEPS[1] {
@@ -84,7 +87,9 @@ fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
             found.push((k as f64 * step, if own { step } else { 2.0 * step }));
         }
     } else {
-        panels([0.0, PI / 2.0], &singular, 1e-5, &mut |phi, weight| found.push((phi, 2.0 * weight)));
+        panels([0.0, PI / 2.0], &singular, 1e-5, &mut |phi, weight| {
+            found.push((phi, 2.0 * weight))
+        });
     }
     found
 }

@@ -28,7 +28,11 @@ impl Complete {
     /// 275), and q enters as itself, not as its square, so that no branch is left.
     pub fn new(kc: C, q: C) -> Self {
         let one = C::new(1.0, 0.0);
-        let mut k = if kc.norm_sqr() < LEAST * LEAST { C::new(LEAST, 0.0) } else { kc };
+        let mut k = if kc.norm_sqr() < LEAST * LEAST {
+            C::new(LEAST, 0.0)
+        } else {
+            kc
+        };
         let (mut e, mut m) = (k, one);
         let mut all = [[one, one, one], [-one, one, one], [one, one / q, q]];
         loop {
@@ -45,12 +49,19 @@ impl Complete {
                 break;
             }
             let root = sqrt(e);
-            let closer = if (root * m.conj()).re < 0.0 { -root } else { root };
+            let closer = if (root * m.conj()).re < 0.0 {
+                -root
+            } else {
+                root
+            };
             k = closer * 2.0;
             e = k * m;
         }
-        let [first, tilted, third] =
-            all.map(|[a, b, p]| (a * m + b) / (m * (m + p)) * FRAC_PI_2);
-        Self { first, tilted, third }
+        let [first, tilted, third] = all.map(|[a, b, p]| (a * m + b) / (m * (m + p)) * FRAC_PI_2);
+        Self {
+            first,
+            tilted,
+            third,
+        }
     }
 }

@@ -4,6 +4,10 @@ use nalgebra::Complex;
 
 pub type C = Complex<f64>;
 
+/// A height over a face's plane is no less than this: what is in the plane is taken for what is right
+/// above it, and complex heights have a side.
+pub const LEAST: f64 = 1e-150;
+
 /// The square root with a real part that is not negative.
 pub fn sqrt(z: C) -> C {
     let length = (z.re * z.re + z.im * z.im).sqrt();

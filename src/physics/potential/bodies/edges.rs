@@ -15,8 +15,8 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::complex::C;
+use super::face::{Face, Integral};
 use super::panels::panels;
-use super::{Face, Integral};
 
 /// An edge: its middle, its direction, half its length (m), and the normal outwards.
 struct Edge {
@@ -35,7 +35,12 @@ fn edges(face: &Face, [a, b]: [f64; 2]) -> [Edge; 4] {
         half,
         normal,
     };
-    [edge(x, a, y, b), edge(-x, a, y, b), edge(y, b, x, a), edge(-y, b, x, a)]
+    [
+        edge(x, a, y, b),
+        edge(-x, a, y, b),
+        edge(y, b, x, a),
+        edge(-y, b, x, a),
+    ]
 }
 
 /// The integral of two flat rectangles with these half sides (m).
@@ -60,20 +65,26 @@ pub fn integral([first, second]: [&Face; 2], halves: [[f64; 2]; 2]) -> Integral 
             }
         }
         let shortest = 1e-6 * edge.half;
-        panels([-edge.half, edge.half], &singular, shortest, &mut |place, weight| {
-            let point = edge.middle + edge.along * place;
-            for other in &others {
-                let way = point - other.middle;
-                let (along, aside) = (way.dot(&other.along), way.dot(&other.normal));
-                let inner = inner(other.half - along, aside, height) - inner(-other.half - along, aside, height);
-                sum.value -= weight * edge.normal.dot(&other.normal) * inner;
-            }
-            let from = Vector3::new(point.x, point.y, first.centre.z) - second.centre;
-            let (potential, _) = second.potential([from.x, from.y, from.z].map(C::from));
-            let share = weight * potential.re;
-            sum.gradient -= edge.normal * share;
-            sum.slope -= share * edge.normal.dot(&Vector2::new(-from.y, from.x));
-        });
+        panels(
+            [-edge.half, edge.half],
+            &singular,
+            shortest,
+            &mut |place, weight| {
+                let point = edge.middle + edge.along * place;
+                for other in &others {
+                    let way = point - other.middle;
+                    let (along, aside) = (way.dot(&other.along), way.dot(&other.normal));
+                    let inner = inner(other.half - along, aside, height)
+                        - inner(-other.half - along, aside, height);
+                    sum.value -= weight * edge.normal.dot(&other.normal) * inner;
+                }
+                let from = Vector3::new(point.x, point.y, first.centre.z) - second.centre;
+                let (potential, _) = second.potential([from.x, from.y, from.z].map(C::from));
+                let share = weight * potential.re;
+                sum.gradient -= edge.normal * share;
+                sum.slope -= share * edge.normal.dot(&Vector2::new(-from.y, from.x));
+            },
+        );
     }
     sum
 }

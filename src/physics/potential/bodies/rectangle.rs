@@ -1,10 +1,6 @@
 //! The potential of a uniformly charged rectangle, at real and at complex places.
 
-use super::complex::{C, ln, sqrt};
-
-/// A height over the rectangle's plane is no less than this: what is in the plane is taken for what is
-/// right above it, and complex heights have a side.
-const LEAST: f64 = 1e-150;
+use super::complex::{C, LEAST, ln, sqrt};
 
 /// The integral V of `1 / r` (m) over a rectangle with half sides a and b (m), at a place x, y along its
 /// sides from its middle and h over it (m); its derivatives by the three.
@@ -46,7 +42,11 @@ pub fn potential([a, b]: [f64; 2], [x, y, h]: [C; 3]) -> (C, [C; 3]) {
 /// `ln((v + r) / d)` where `r^2 = v^2 + d^2`; the larger of `r + v` and `r - v` is taken.
 fn logarithm(v: C, r: C, d: C) -> C {
     let large = if v.re < 0.0 { r - v } else { r + v };
-    let ln = if d == C::default() { C::default() } else { ln(large / d) };
+    let ln = if d == C::default() {
+        C::default()
+    } else {
+        ln(large / d)
+    };
     if v.re < 0.0 { -ln } else { ln }
 }
 
