@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::design::{STARTER, Shape, Start};
+use tilebind::design::{STARTER, Shape, ShopMagnet, Start};
 use tilebind::output::{Command, Output};
 use tilebind::request;
 
@@ -21,6 +21,7 @@ Examples:
   tilebind init
   tilebind init my-tile.toml
   tilebind init hexagon.toml --sides 6 --side 0.12 --magnets 3 --shape arc
+  tilebind init small.toml --side \"10 cm\" --magnet \"10 x 5 x 2 mm N42\"
   tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
     /// The file to write; - is standard output
@@ -46,6 +47,11 @@ pub struct Init {
     /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
     #[arg(long, value_parser = shape(), hide_possible_values = true)]
     shape: Option<Shape>,
+
+    /// The magnets as a shop describes them, length x width x height, magnetised through the
+    /// last: \"10 x 5 x 2 mm N42\" [default: those that fit]
+    #[arg(long, value_name = "BLOCK", value_parser = ShopMagnet::parse)]
+    magnet: Option<ShopMagnet>,
 }
 
 fn shape() -> Word<Shape> {
@@ -78,7 +84,7 @@ impl Init {
     /// The design asked for.
     fn text(&self) -> Result<String, Failure> {
         let asked = (self.sides, self.side, self.magnets, self.shape);
-        if asked == (None, None, None, None) {
+        if asked == (None, None, None, None) && self.magnet.is_none() {
             return Ok(STARTER.to_owned());
         }
         let usual = Start::default();
@@ -87,6 +93,7 @@ impl Init {
             side: self.side.unwrap_or(usual.side),
             magnets: self.magnets.unwrap_or(usual.magnets),
             shape: self.shape.unwrap_or(usual.shape),
+            magnet: self.magnet,
         };
         let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
         // A name that no quotes or control characters end.

@@ -14,8 +14,9 @@ use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::potential::MagnetModel;
 use physics::tile::barcode::Pole;
+use physics::tile::strength::{PULL_SPREAD, Strength};
 use physics::tile::{Magnet, Tile};
-use physics::units::si;
+use physics::units::{MU0, si, to_digits};
 
 /// Weight of a gram (N).
 pub const GRAM: f64 = 9.806_65e-3;
@@ -82,7 +83,66 @@ pub fn text(design: &Design, inspection: &Inspection, columns: usize) -> String 
         }));
     }
     write_table(&mut text, &rows);
+    for kind in &design.sold {
+        text.push_str(&sold(kind));
+    }
     text
+}
+
+/// What a shop's grade or pull says of magnets, and how sure that is.
+fn sold((strength, size): &(Strength, [f64; 3])) -> String {
+    let millimetres = size.map(|x| four(x * 1e3)).join(" x ");
+    let block = format!(
+        "magnets {millimetres} mm, magnetised through {} mm",
+        four(size[0] * 1e3)
+    );
+    match strength {
+        Strength::Grade(grade) => {
+            let [least, usual, most] = grade.remanence;
+            let [low, high] = grade.energy_range().map(|factor| 100.0 * (factor - 1.0));
+            format!(
+                "{block}, {}: remanence {usual} T ({least} to {most} T as makers state it: energies \
+                 {low:+.0} to {high:+.0} %)\n",
+                grade.name
+            )
+        }
+        Strength::Pull(force) => {
+            let found = remanence(strength, *size);
+            let [low, high] = pulled_range(found);
+            format!(
+                "{block}, that pull {} off thick steel: remanence {} T if block and plate are ideal; \
+                 what sellers state is {} to {} of that, so it may be {} to {} T\n",
+                self::force(*force),
+                three(found),
+                PULL_SPREAD[0],
+                PULL_SPREAD[1],
+                three(low),
+                three(high),
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+/// Of a block of this size (T).
+fn remanence(strength: &Strength, size: [f64; 3]) -> f64 {
+    MU0 * strength.moment(size) / size.iter().product::<f64>()
+}
+
+/// Where a remanence (T) that is taken from a pull may lie, as sellers state pulls: the pull goes with
+/// its square.
+fn pulled_range(remanence: f64) -> [f64; 2] {
+    let [least, most] = PULL_SPREAD;
+    [most, least].map(|share| remanence / share.sqrt())
+}
+
+/// Significant digits of a number, without zeros at its end.
+fn four(value: f64) -> String {
+    to_digits(value, 4).to_string()
+}
+
+fn three(value: f64) -> String {
+    to_digits(value, 3).to_string()
 }
 
 fn row(hold: &Hold) -> [String; 4] {
@@ -234,7 +294,7 @@ pub fn json(design: &Design, inspection: &Inspection) -> Value {
     let models: Vec<Value> = inspection.models.iter().map(hold).collect();
     let name = |tile: &Tile, face: usize| tile.faces[face].name.clone();
     let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
-    json!({
+    let mut value = json!({
         "tilebind": env!("CARGO_PKG_VERSION"),
         "design": { "name": design.name, "sha256": design.sha256 },
         "bound": { "pose": pose(&inspection.bound), "energy_J": positive_zero(bond.energy) },
@@ -252,7 +312,30 @@ pub fn json(design: &Design, inspection: &Inspection) -> Value {
         "fixed": faces(fixed),
         "moving": faces(moving),
         "wrong": wrong(design, inspection),
-    })
+    });
+    if !design.sold.is_empty() {
+        value["magnets"] = design.sold.iter().map(sold_entry).collect();
+    }
+    value
+}
+
+/// Magnets that are given by a grade or a pull.
+fn sold_entry((strength, size): &(Strength, [f64; 3])) -> Value {
+    let found = remanence(strength, *size);
+    let mut entry = json!({ "size_m": size, "remanence_T": found });
+    match strength {
+        Strength::Grade(grade) => {
+            let [least, _, most] = grade.remanence;
+            entry["grade"] = json!(grade.name);
+            entry["remanence_range_T"] = json!([least, most]);
+        }
+        Strength::Pull(force) => {
+            entry["pull_N"] = json!(force);
+            entry["remanence_range_T"] = json!(pulled_range(found));
+        }
+        _ => {}
+    }
+    entry
 }
 
 fn hold(hold: &Hold) -> Value {

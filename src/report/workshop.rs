@@ -238,7 +238,9 @@ fn purchases(parts: &[(&str, &Tile, Part)]) -> Vec<Vec<String>> {
                 "{grade} ({own} T: forces {:+.0} %)",
                 100.0 * ((own / remanence).powi(2) - 1.0)
             ),
-            None if remanence < grade::GRADES[0].1 => "weaker than N35 (1.19 T)".to_owned(),
+            None if remanence < grade::sold()[0].remanence[1] => {
+                "weaker than N35 (1.19 T)".to_owned()
+            }
             None => "none: stronger than N52 (1.46 T)".to_owned(),
         };
         vec![

@@ -66,7 +66,7 @@ pub use error::{DesignError, Place};
 pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
 pub use schema::{SCHEMA, STARTER};
-pub use starting::{Shape, Start, StartError};
+pub use starting::{Shape, ShopMagnet, Start, StartError};
 pub use units::{angle, length};
 pub use word_set::WordSet;
 
@@ -77,6 +77,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use crate::checksum::sha256;
+use build::BuiltTile;
 use drawings::Drawings;
 use error::Result;
 use faults::Faults;
@@ -86,6 +87,7 @@ use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
 use physics::tile::Pair;
+use physics::tile::strength::Strength;
 use reader::Section;
 use source::Source;
 use tile::{TILES, TileEntry};
@@ -117,6 +119,9 @@ pub struct Design {
     pub interaction: Interaction,
     /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
     pub pitch: Option<f64>,
+    /// The kinds of magnets that are given by what shops say of them, a grade or a pull, each with
+    /// its size (m).
+    pub sold: Vec<(Strength, [f64; 3])>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
@@ -210,7 +215,7 @@ impl Design {
         root.allow(&ROOT_KEYS);
         let table = table(&root);
         let keys = magnet_keys(&root);
-        let model = potential::read(&root);
+        let model = potential::read(&root, MagnetModel::default());
         let name = root.get("name").map(|name| name.line()).transpose();
         let description = root.string("description");
         let entries = tile_entries(&root)?;
@@ -226,6 +231,7 @@ impl Design {
         let (shields, doubt) = shields?;
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
+        let sold = sold(&built);
         let [fixed, moving] = built.map(|built| built.tile);
         let design = Self {
             name: name?.map_or_else(|| stem(source.file), str::to_owned),
@@ -243,6 +249,7 @@ impl Design {
                 shields,
             },
             pitch: keys.pitch,
+            sold,
             drawings: Vec::new(),
             warnings,
         };
@@ -289,6 +296,21 @@ impl Design {
         }
         Ok(())
     }
+}
+
+/// The kinds of magnets whose strength is a grade or a pull.
+fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, [f64; 3])> {
+    let mut sold = Vec::new();
+    for tile in built {
+        for (magnet, placing) in tile.tile.magnets.iter().zip(&tile.placings) {
+            if let Some(strength @ (Strength::Grade(_) | Strength::Pull(_))) = placing.strength
+                && !sold.contains(&(strength, magnet.size))
+            {
+                sold.push((strength, magnet.size));
+            }
+        }
+    }
+    sold
 }
 
 const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";

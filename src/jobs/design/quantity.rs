@@ -59,6 +59,12 @@ const FIELD: Kind = Kind {
     others: &[(1000.0, "mT"), (1e4, "G")],
     units: units::FIELD,
 };
+const FORCE: Kind = Kind {
+    unit: "N",
+    rule: "a pull is in newtons; shops state it in kilograms: pull = \"1.8 kg\"",
+    others: &[],
+    units: units::FORCE,
+};
 const DIPOLE: Kind = Kind {
     unit: "A m^2",
     rule: "magnetic moments are in A m^2",
@@ -127,6 +133,8 @@ pub(super) const FRONT_GAIN: Quantity =
 pub(super) const MASS: Quantity = WEIGHT.positive((1e-6, 1e3), (1e-3, 10.0));
 pub(super) const REMANENCE: Quantity = FIELD.positive((1e-3, 2.5), (0.05, 1.6));
 pub(super) const SURFACE_FIELD: Quantity = FIELD.positive((1e-5, 1.25), (0.01, 0.8));
+/// Of a magnet off thick steel.
+pub(super) const PULL: Quantity = FORCE.positive((1e-4, 1e5), (0.01, 2e3));
 pub(super) const MOMENT: Quantity = DIPOLE.positive((1e-9, 1e4), (1e-4, 100.0));
 
 impl Quantity {
