@@ -68,8 +68,9 @@
 //!
 //! # Limits
 //!
-//! - Point dipoles are too weak near contact (see `results/README.md`); they are the default
-//!   because they are fast and rank codes and shapes alike.
+//! - Magnets are blocks where a design says nothing. Point dipoles, the paper's model, are faster and
+//!   too weak near contact, or far too strong for thin magnets (see `results/README.md`): results with
+//!   them say what blocks have.
 //! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
 //!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds.
 //! - Work is counted, not timed (see [`budget`]): results are the same bytes on any number of threads,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use tilebind::budget::Ended;
+use tilebind::design::Design;
 use tilebind::landscape::minimax::End;
 use tilebind::output::Command;
 use tilebind::query::{self, Answer, QueryError, Request};
@@ -81,11 +82,11 @@ impl Barrier {
             let table = csv::pathway(&answer.barrier.pathway);
             interrupt::without(|| output.write_file(table))?;
         }
-        print(&json::text(&self.entry(&answer)))
+        print(&json::text(&self.entry(&design, &answer)))
     }
 
     /// The barrier as in report.json, its ends given by their poses.
-    fn entry(&self, answer: &Answer) -> Value {
+    fn entry(&self, design: &Design, answer: &Answer) -> Value {
         let mut entry = barriers([&answer.barrier]).json()[0].take();
         entry["from"] = json!(self.request.from.to_array());
         if let End::At(pose) = self.request.to {
@@ -93,6 +94,7 @@ impl Barrier {
         }
         // Why the bounds are null, where they are.
         entry["uncertified"] = json!(answer.uncertified.map(|why| why.to_string()));
+        entry["model"] = json!(design.interaction.model.name());
         // What ended the narrowing before it was done: "work" or "clock", of which only the latter
         // makes another run differ.
         entry["ended_by"] = json!(answer.ended.map(Ended::name));

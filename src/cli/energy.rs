@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
+use tilebind::design::Design;
 use tilebind::query::poses;
 use tilebind::report::json;
 use tilebind::request;
@@ -55,6 +56,8 @@ struct Entry {
     /// Negative where the tiles overlap.
     clearance_m: f64,
     free: bool,
+    /// How magnets are modelled.
+    model: &'static str,
 }
 
 impl Energy {
@@ -68,7 +71,7 @@ impl Energy {
             input::doubt_pose(&design, pose);
         }
         let problem = design.problem();
-        let entries: Vec<Entry> = poses.iter().map(|q| entry(&problem, q)).collect();
+        let entries: Vec<Entry> = poses.iter().map(|q| entry(&problem, &design, q)).collect();
         print(&json::text(&entries))
     }
 }
@@ -80,7 +83,7 @@ fn read(file: &Path) -> Result<Vec<Configuration>, Failure> {
     poses::read(&text).map_err(|error| wrong(&error))
 }
 
-fn entry(problem: &Problem, q: &Configuration) -> Entry {
+fn entry(problem: &Problem, design: &Design, q: &Configuration) -> Entry {
     let (energy, gradient) = problem.energy_and_gradient(q);
     let free = problem.is_clear(q);
     let clearance = problem.clearance(q);
@@ -93,5 +96,6 @@ fn entry(problem: &Problem, q: &Configuration) -> Entry {
         // Tiles that touch may overlap by a rounding error.
         clearance_m: json::positive_zero(if free { clearance.max(0.0) } else { clearance }),
         free,
+        model: design.interaction.model.name(),
     }
 }

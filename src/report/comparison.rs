@@ -11,6 +11,7 @@ use crate::plots::ranking as picture;
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use physics::landscape::minimax::Ordering;
+use physics::potential::MagnetModel;
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]
@@ -88,6 +89,10 @@ impl Comparison {
             1 => "1 design".to_owned(),
             many => format!("{many} designs"),
         };
+        let of = match self.model() {
+            Some(model) => format!("{of}, magnets as {model}"),
+            None => of,
+        };
         match self.designs.first() {
             Some(best) if docking.count() > 0 => format!(
                 "{of}, ranked by {}: {} is first with {}",
@@ -132,12 +137,19 @@ impl Comparison {
 
     /// A design's name, with the model where models differ.
     pub fn name(&self, design: &Assessment) -> String {
-        let models = |d: &Assessment| d.model != self.designs[0].model;
-        if self.designs.iter().any(models) {
-            format!("{} ({})", design.name, design.model)
-        } else {
-            design.name.clone()
+        match self.model() {
+            Some(_) => design.name.clone(),
+            None => format!("{} ({})", design.name, design.model),
         }
+    }
+
+    /// The model of all, `dipoles` or `blocks`; `None` where they differ.
+    fn model(&self) -> Option<&'static str> {
+        let first = &self.designs.first()?.model;
+        let same = self.designs.iter().all(|design| design.model == *first);
+        let mut known = MagnetModel::NAMES.into_iter();
+        let (_, model) = known.find(|(name, _)| same && name == first)?;
+        Some(model.plural())
     }
 
     /// The figures that designs are known by, and for each the design that has most of it.

@@ -42,9 +42,16 @@ pub fn headline(design: &Design, inspection: &Inspection) -> String {
         );
         format!("{fixed} and {moving}")
     };
+    let magnets = match inspection.models[1] {
+        blocks if bond.model == MagnetModel::Dipole => format!(
+            "(magnets as point dipoles; as blocks {})",
+            si(blocks.energy, "J", DIGITS)
+        ),
+        _ => "(magnets as blocks)".to_owned(),
+    };
     match bond.energy < 0.0 {
         true => format!(
-            "{}: faces {faces} bind with {}; straight apart takes {}",
+            "{}: faces {faces} bind with {} {magnets}; straight apart takes {}",
             design.name,
             si(bond.energy, "J", DIGITS),
             force(bond.pull_off)
@@ -101,7 +108,7 @@ fn sold((strength, size): &(Strength, [f64; 3])) -> String {
             let [least, usual, most] = grade.remanence;
             let [low, high] = grade.energy_range().map(|factor| 100.0 * (factor - 1.0));
             format!(
-                "{block}, {}: remanence {usual} T ({least} to {most} T as makers state it: energies \
+                "{block}, {}: remanence {usual:.2} T ({least:.2} to {most:.2} T as makers state it: energies \
                  {low:+.0} to {high:+.0} %)\n",
                 grade.name
             )
@@ -147,7 +154,7 @@ fn three(value: f64) -> String {
 
 fn row(hold: &Hold) -> [String; 4] {
     [
-        model(hold.model).to_owned(),
+        hold.model.plural().to_owned(),
         si(hold.energy, "J", DIGITS),
         force(hold.contact),
         match hold.pull_off_gap {
@@ -155,13 +162,6 @@ fn row(hold: &Hold) -> [String; 4] {
             gap => format!("{} at {}", force(hold.pull_off), si(gap, "m", 2)),
         },
     ]
-}
-
-fn model(model: MagnetModel) -> &'static str {
-    match model {
-        MagnetModel::Dipole => "dipoles",
-        MagnetModel::Cuboid => "blocks",
-    }
 }
 
 fn tiles(design: &Design) -> [(&'static str, &Tile); 2] {
@@ -298,6 +298,7 @@ pub fn json(design: &Design, inspection: &Inspection) -> Value {
         "tilebind": env!("CARGO_PKG_VERSION"),
         "design": { "name": design.name, "sha256": design.sha256 },
         "bound": { "pose": pose(&inspection.bound), "energy_J": positive_zero(bond.energy) },
+        "model": bond.model.name(),
         "pull_contact_N": bond.contact,
         "pull_contact_g": bond.contact / GRAM,
         "pull_off_N": bond.pull_off,

@@ -15,7 +15,6 @@ use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
 use physics::order::Order;
-use physics::potential::MagnetModel;
 use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Tile};
 use physics::units::si;
@@ -156,12 +155,8 @@ fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
     ];
     let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
     for hold in &inspection.models {
-        let name = match hold.model {
-            MagnetModel::Dipole => "dipoles",
-            MagnetModel::Cuboid => "blocks",
-        };
         let row = [
-            name.to_owned(),
+            hold.model.plural().to_owned(),
             minus(&si(hold.energy, "J", 4)),
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),
