@@ -252,7 +252,8 @@ impl Face {
         let places: Vec<String> = self
             .magnets
             .iter()
-            .map(|s| format!("{:.0}", s * 1e3))
+            // To a micrometre.
+            .map(|s| format!("{}", (s * 1e6).round() / 1e3 + 0.0))
             .collect();
         Some([
             name.to_owned(),

@@ -28,6 +28,8 @@
 //!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
 //!   physical units or with a `unit`, curves to within [`physics::tile::profile::CHORD_ERROR`]. A face
 //!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
+//! - Faces that are to meet may differ by what no cutter resolves, up to 50 um or a thousandth of
+//!   their length: see `tolerance`, which says what is made of them.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
 
@@ -56,6 +58,7 @@ mod svg;
 mod syntax;
 mod target;
 mod tile;
+mod tolerance;
 mod units;
 mod word_places;
 mod word_set;
@@ -80,9 +83,10 @@ use crate::checksum::sha256;
 use build::BuiltTile;
 use drawings::Drawings;
 use error::Result;
+use face::FaceContent;
 use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
-use physics::configuration::ConfigurationSpace;
+use physics::configuration::{Configuration, ConfigurationSpace};
 use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
@@ -90,6 +94,7 @@ use physics::tile::Pair;
 use physics::tile::strength::Strength;
 use reader::Section;
 use source::Source;
+use target::Bound;
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
@@ -226,20 +231,23 @@ impl Design {
         faults.check()?;
         let (table, keys, contents, target) = (table?, keys?, contents?, target?);
         let [fixed, moving] = [0, 1].map(|i| build::build(&entries[i], &contents[i]));
-        let built = [fixed?, moving?];
+        let mut built = [fixed?, moving?];
+        let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
         let sold = sold(&built);
         let [fixed, moving] = built.map(|built| built.tile);
+        warnings.extend(too_near);
+        warnings.extend(target.doubt);
         let design = Self {
             name: name?.map_or_else(|| stem(source.file), str::to_owned),
             description: description?.unwrap_or_default().to_owned(),
             sha256: sha256(source.text),
             table,
             pair: Arc::new(Pair {
-                bound: target.configuration(&fixed, &moving)?,
+                bound,
                 target: target.faces,
                 fixed,
                 moving,
@@ -295,6 +303,38 @@ impl Design {
             ));
         }
         Ok(())
+    }
+}
+
+/// The bound configuration, and a doubt where the target faces overlap a little there; where only
+/// that helps, the moving tile is built anew with its face drawn back by the overlap.
+fn bound(
+    target: &target::Target,
+    entries: &[TileEntry; 2],
+    contents: &[Vec<FaceContent>; 2],
+    built: &mut [BuiltTile; 2],
+) -> Result<(Configuration, Option<DesignError>)> {
+    let met = target.meet(&built[0].tile, &built[1].tile)?;
+    let overlap = match met {
+        Bound::At(bound, doubt) => return Ok((bound, doubt)),
+        Bound::Overlap(overlap) => overlap,
+    };
+    // With room for what rounding makes of a corner.
+    let drawn = overlap * (1.0 + 1e-6);
+    let mut moving = contents[1].clone();
+    moving[target.faces.1].fit += drawn;
+    built[1] = build::build(&entries[1], &moving)?;
+    let doubt = target.overlapping(
+        overlap,
+        &format!(
+            "the moving face is drawn back by {}, as `fit` does it",
+            tolerance::micrometres(drawn)
+        ),
+    );
+    match target.meet(&built[0].tile, &built[1].tile)? {
+        Bound::At(bound, _) => Ok((bound, Some(doubt))),
+        // Not the face's line, but something beside it is in the way.
+        Bound::Overlap(_) => Err(target.blocked(overlap)),
     }
 }
 

@@ -7,6 +7,7 @@ mod excess;
 mod geometry;
 mod shields;
 mod starter;
+mod tolerance;
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
