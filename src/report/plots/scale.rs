@@ -1,5 +1,6 @@
 //! Energies as positions and colours.
 
+use super::style::minus;
 use physics::order::Order;
 use physics::units::si;
 
@@ -27,11 +28,6 @@ pub const VIK: [[u8; 3]; 17] = [
     [116, 21, 6],
     [89, 0, 8],
 ];
-
-/// Colours of the hatching of what is blocked.
-pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
-/// Steps of colour in a heat map.
-pub const COLOURS: usize = 250;
 
 /// Colour of a position from -1 (most negative) over 0 to 1.
 pub fn colour(position: f64) -> [u8; 3] {
@@ -148,11 +144,6 @@ pub fn round_step(step: f64) -> f64 {
         .find(|m| m * power >= step * (1.0 - 1e-9))
         .unwrap_or(10.0);
     multiple * power
-}
-
-/// A number's text with a true minus sign.
-pub fn minus(text: &str) -> String {
-    text.replace('-', "\u{2212}")
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ pub fn document<'a>(request: &'a Request, answer: &'a Answer) -> Document<'a> {
     let set = file::of_words(&headline, words, bar, request.side());
     let mut pictures = Vec::new();
     if let Some(map) = &map {
-        pictures.push(map.picture().off_page());
+        pictures.push(map.picture());
         pictures.push(histogram("Gaps of all pairs of words", request.gaps(words)).into());
     }
     if !answer.frontier.is_empty() {
