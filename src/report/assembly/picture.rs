@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use plotters::style::RGBColor;
+
 use crate::document::rows;
 use crate::plots::composition::{Composition, Panel};
 use crate::plots::key::{Sign, key as explained};
-use crate::plots::style::Colour;
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::assembly::{Assembly, TileSet};
 
@@ -79,9 +80,9 @@ fn key(kinds: &[(&str, String)]) -> Vec<(String, String)> {
 }
 
 /// A colour as tile sets name it, such as `#0072B2`.
-fn colour(hex: &str) -> Colour {
+fn colour(hex: &str) -> RGBColor {
     let part = |k: usize| u8::from_str_radix(&hex[k..k + 2], 16).unwrap_or(0);
-    Colour::new(part(1), part(3), part(5))
+    RGBColor(part(1), part(3), part(5))
 }
 
 /// Draws it.

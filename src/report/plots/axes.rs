@@ -1,8 +1,16 @@
 //! Axes, and where values stand between them.
 
-use super::canvas::{Anchor, Box4, Canvas, Pixel};
-use super::scale::{EnergyScale, round_step};
-use super::style::{GRID, INK, LABEL, SMALL, minus};
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::{Drawable, PointCollection};
+use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, TRANSPARENT};
+
+use super::canvas::{Box4, Canvas, Pixel};
+use super::recorder::Recorder;
+use super::scale::{EnergyScale, round_numbers};
+use super::style::{Anchor, GRID, INK, LABEL, SMALL, UNITS, minus, stroke, unit};
 use physics::units::prefix_of;
 
 /// Space left of and below the names of axes (pixels).
@@ -44,18 +52,16 @@ pub struct Axis {
 impl Axis {
     /// An axis of multiples of a unit with about `count` marks at round numbers.
     pub fn even(range: [f64; 2], unit: f64, count: usize, name: impl Into<String>) -> Self {
-        let [low, high] = range.map(|end| end / unit);
-        let step = round_step((high - low) / count as f64);
-        let decimals = (-libm::log10(step).floor()).max(0.0) as usize;
-        let numbers = (low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64;
-        let mark = |k: i64| {
-            let value = k as f64 * step;
-            (value, minus(&format!("{value:.decimals$}")))
-        };
+        let ends = range.map(|end| end / unit);
+        let numbers = round_numbers(ends, count + 1);
+        let steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+        let step = steps.fold(ends[1] - ends[0], f64::min);
+        let decimals = (-(libm::log10(step) + 1e-9).floor()).max(0.0) as usize;
+        let mark = |value| (value, minus(&format!("{value:.decimals$}")));
         Self {
             spacing: Spacing::Even(unit),
-            ends: [low, high],
-            marks: numbers.map(mark).collect(),
+            ends,
+            marks: numbers.into_iter().map(mark).collect(),
             name: name.into(),
         }
     }
@@ -77,19 +83,46 @@ impl Axis {
         }
     }
 
-    /// How far along the axis a value stands, from 0 to 1.
-    fn share(&self, value: f64) -> f64 {
-        part(self.spacing.of(value), self.ends)
+    /// As plotters has it.
+    fn spaced(&self) -> RangedCoordf64 {
+        (self.ends[0]..self.ends[1]).into()
+    }
+}
+
+/// Along the axis are values as they are spaced.
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, place: &f64, limit: (i32, i32)) -> i32 {
+        self.spaced().map(place, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        let room = 1e-9 * (self.ends[1] - self.ends[0]);
+        let within = self.ends[0] - room..=self.ends[1] + room;
+        let places = self.marks.iter().map(|mark| mark.0);
+        places.filter(|place| within.contains(place)).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.spaced().range()
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, place: &f64) -> String {
+        let mark = self.marks.iter().find(|mark| mark.0 == *place);
+        mark.map_or_else(String::new, |(_, text)| text.clone())
     }
 }
 
 /// A rectangle between axes.
-#[derive(Clone, Debug)]
 pub struct Plot {
     /// Pixels.
     pub frame: Box4,
-    pub x: Axis,
-    pub y: Axis,
+    spacing: [Spacing; 2],
+    chart: ChartContext<'static, Recorder, Cartesian2d<Axis, Axis>>,
 }
 
 impl Plot {
@@ -102,59 +135,66 @@ impl Plot {
         [x, y]: [Axis; 2],
         grid: bool,
     ) -> Self {
-        let frame = [
-            left + margin[3],
-            top + margin[0],
-            right - margin[1],
-            bottom - margin[2],
-        ];
-        let plot = Self { frame, x, y };
-        let [inner, high, far, low] = frame;
-        let across = |place: f64| inner + (far - inner) * part(place, plot.x.ends);
-        let up = |place: f64| low + (high - low) * part(place, plot.y.ends);
-        let marks = |axis: &Axis| {
-            let [from, to] = axis.ends;
-            let room = 1e-9 * (to - from);
-            let mut marks = axis.marks.clone();
-            marks.retain(|(place, _)| (from - room..=to + room).contains(place));
-            marks
-        };
-        let (below, beside) = (marks(&plot.x), marks(&plot.y));
-        if grid {
-            for x in below.iter().map(|mark| across(mark.0)) {
-                canvas.line(&[(x, low), (x, high)], GRID, 1.0);
-            }
-            for y in beside.iter().map(|mark| up(mark.0)) {
-                canvas.line(&[(inner, y), (far, y)], GRID, 1.0);
-            }
+        let spacing = [x.spacing, y.spacing];
+        let names = [x.name.clone(), y.name.clone()];
+        let area = canvas.root.clone().shrink(
+            (unit(left), unit(top)),
+            (unit(right - left), unit(bottom - top)),
+        );
+        let [edge, foot] = [margin[3], margin[2]].map(|wide| wide.min(EDGE));
+        let built = ChartBuilder::on(&area)
+            .margin_top(unit(margin[0]))
+            .margin_right(unit(margin[1]))
+            .margin_bottom(unit(foot))
+            .margin_left(unit(edge))
+            .x_label_area_size(unit(margin[2] - foot))
+            .y_label_area_size(unit(margin[3] - edge))
+            .build_cartesian_2d(x, y);
+        let mut chart = built.expect("without a title nothing is drawn that could fail");
+        let mut mesh = chart.configure_mesh();
+        if !grid {
+            mesh.disable_mesh();
         }
-        canvas.line(&[(inner, high), (inner, low), (far, low)], INK, 1.0);
-        for (place, text) in below {
-            let x = across(place);
-            canvas.line(&[(x, low), (x, low + 5.0)], INK, 1.0);
-            canvas.write(SMALL, &text, (x, low + 10.0), Anchor::Top);
+        let drawn = mesh
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(stroke(GRID, 1.0))
+            .axis_style(stroke(INK, 1.0))
+            .set_all_tick_mark_size(unit(5.0))
+            .label_style(SMALL.style(Anchor::Middle))
+            .axis_desc_style(LABEL.style(Anchor::Middle))
+            .x_desc(&names[0])
+            .y_desc(&names[1])
+            .draw();
+        canvas.done(drawn);
+        let area = chart.plotting_area();
+        let [across, up] = [area.get_x_axis_pixel_range(), area.get_y_axis_pixel_range()];
+        let frame = [across.start, up.start, across.end, up.end];
+        Self {
+            frame: frame.map(|end| f64::from(end) / UNITS),
+            spacing,
+            chart,
         }
-        for (place, text) in beside {
-            let y = up(place);
-            canvas.line(&[(inner - 5.0, y), (inner, y)], INK, 1.0);
-            canvas.write(SMALL, &text, (inner - 10.0, y), Anchor::Right);
-        }
-        let below = ((inner + far) / 2.0, bottom - EDGE);
-        canvas.write(LABEL, &plot.x.name, below, Anchor::Bottom);
-        if !plot.y.name.is_empty() {
-            let beside = (left + EDGE, (high + low) / 2.0);
-            canvas.write_upwards(LABEL, &plot.y.name, beside);
-        }
-        plot
+    }
+
+    /// A point as it is spaced, which series are made of.
+    pub fn place(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.spacing[0].of(x), self.spacing[1].of(y))
     }
 
     /// Where a point lies (pixels).
     pub fn at(&self, x: f64, y: f64) -> Pixel {
-        let [left, top, right, bottom] = self.frame;
-        (
-            left + (right - left) * self.x.share(x),
-            bottom + (top - bottom) * self.y.share(y),
-        )
+        let (x, y) = self.chart.backend_coord(&self.place(x, y));
+        (f64::from(x) / UNITS, f64::from(y) / UNITS)
+    }
+
+    /// Draws a series, within the plot.
+    pub fn series<E, S: IntoIterator<Item = E>>(&mut self, canvas: &mut Canvas, series: S)
+    where
+        for<'b> &'b E: PointCollection<'b, (f64, f64)>,
+        E: Drawable<Recorder>,
+    {
+        let drawn = self.chart.draw_series(series).map(drop);
+        canvas.done(drawn);
     }
 
     /// A level line across the plot.
@@ -171,10 +211,6 @@ impl Plot {
     }
 }
 
-fn part(place: f64, [low, high]: [f64; 2]) -> f64 {
-    (place - low) / (high - low)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,7 +221,11 @@ mod tests {
             axis.marks.into_iter().map(|(_, label)| label).collect()
         };
         let wide = labels(Axis::even([-0.73, 0.73], 1.0, 7, "x (m)"));
-        assert_eq!(wide, ["\u{2212}0.5", "0.0", "0.5"]);
+        assert_eq!(
+            wide[..4],
+            ["\u{2212}0.6", "\u{2212}0.4", "\u{2212}0.2", "0.0"]
+        );
+        assert_eq!(wide.len(), 7);
         let gaps = labels(Axis::even([0.0, 86.0], 1.0, 9, "gap (mm)"));
         assert_eq!(gaps[..3], ["0", "10", "20"]);
         assert_eq!(gaps.len(), 9);

@@ -1,12 +1,18 @@
 //! A chart: series of points over an axis, with what they may be off by.
 
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::types::RangedCoordi32;
+use plotters::prelude::{Circle, EmptyElement, LineSeries, PathElement, PointSeries, Polygon};
+use plotters::series::DashedLineSeries;
+use plotters::style::{Color, RGBColor, WHITE};
+
 use super::axes::{Axis, Plot, Spacing};
-use super::canvas::{Box4, Canvas, Pixel};
+use super::canvas::{Box4, Canvas, DASH, DISC, Pixel, RIM};
 use super::composition::{Composition, Panel, remark};
 use super::key::{Meanings, Sign, key};
 use super::picture::PictureError;
 use super::sheet::Sheet;
-use super::style::{COLOURS, Colour, INK};
+use super::style::{COLOURS, INK, stroke, unit};
 use super::{Drawing, Figure};
 use crate::csv::{number, table};
 use crate::document::{Unit, told};
@@ -160,11 +166,14 @@ impl Dimension {
 
     /// Marks at powers of ten, or at 1, 2 and 5 times these where there are few.
     fn powers(&self, [low, high]: [f64; 2]) -> Vec<(f64, String)> {
-        let powers = low.floor() as i32..=high.ceil() as i32;
-        let count = (high - low) as usize;
-        let multiples: &[f64] = if count < 2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let powers = RangedCoordi32::from(low.floor() as i32..high.ceil() as i32);
+        let multiples: &[f64] = match high - low < 2.0 {
+            true => &[1.0, 2.0, 5.0],
+            false => &[1.0],
+        };
         let all = powers
-            .step_by(count / MOST_POWERS + 1)
+            .key_points(BoldPoints(MOST_POWERS))
+            .into_iter()
             .flat_map(|power| multiples.iter().map(move |m| m * 10f64.powi(power)))
             .filter(|value| *value >= self.offset);
         let none = (self.offset > 0.0).then_some(0.0);
@@ -374,89 +383,103 @@ pub fn plotted(
         ),
         y.axis(up, if height < 320.0 { 5 } else { 7 }),
     ];
-    let plot = Plot::new(canvas, place, margin, axes, true);
-    if plot.y.ends[0] < 0.0 && plot.y.ends[1] > 0.0 && !y.is_logarithmic {
+    let is_crossed = !y.is_logarithmic && axes[1].ends[0] < 0.0 && axes[1].ends[1] > 0.0;
+    let mut plot = Plot::new(canvas, place, margin, axes, true);
+    if is_crossed {
         canvas.line(&plot.level(0.0), INK, 1.2);
     }
-    let [_, top, _, bottom] = plot.frame;
-    // What is less than any number has its place at the foot.
-    let at = |x: f64, y: f64| {
-        let (x, y) = plot.at(x, y);
-        (x, y.min(bottom))
-    };
-    let series_count = series.len();
-    for (number, series) in series.iter().enumerate() {
-        let colour = COLOURS[series.colour];
+    for (number, series_drawn) in series.iter().enumerate() {
         let known = |point: &Point| x.holds(point.x) && point.y.is_finite();
-        for run in series.points.split(|point| !known(point)) {
-            let placed = |point: &Point| Placed {
-                at: at(point.x, point.y),
-                ends: point.ends.map(|ends| ends.map(|end| at(point.x, end))),
-            };
-            let run: Vec<Placed> = run.iter().map(placed).collect();
-            let line: Vec<Pixel> = run.iter().map(|placed| placed.at).collect();
-            match series.look {
-                // Later curves are thinner, so that an earlier one can be seen beneath.
-                Look::Line => {
-                    let later = (series_count - 1 - number) as f64 / series_count as f64;
-                    banded(canvas, &run, colour, 2.0 + 2.0 * later);
-                }
-                Look::Steps => canvas.line(&line, colour, 2.0),
-                Look::Dashed => canvas.dashed(&line, colour),
-                Look::Dots | Look::Rings => {
-                    for Placed { at, ends } in &run {
-                        ends.iter().for_each(|ends| canvas.line(ends, colour, 2.0));
-                        match series.look {
-                            Look::Rings => canvas.circle(*at, colour),
-                            _ => canvas.disc(*at, colour),
-                        }
-                    }
-                }
-                Look::Bars => bars(canvas, &line, at(0.0, 0.0).1, colour),
-            }
+        for run in series_drawn.points.split(|point| !known(point)) {
+            // Later curves are thinner, so that an earlier one can be seen beneath.
+            let later = (series.len() - 1 - number) as f64 / series.len() as f64;
+            drawn(canvas, &mut plot, series_drawn, run, 2.0 + 2.0 * later);
         }
         // What is more than any number.
-        for point in series
-            .points
-            .iter()
-            .filter(|point| point.y == f64::INFINITY)
-        {
-            let x = plot.at(point.x, 0.0).0;
+        let beyond = series_drawn.points.iter();
+        for point in beyond.filter(|point| point.y == f64::INFINITY) {
+            let (x, top) = (plot.at(point.x, 0.0).0, plot.frame[1]);
             let arrow = [(x - 5.0, top + 10.0), (x, top + 2.0), (x + 5.0, top + 10.0)];
-            canvas.line(&arrow, colour, 2.0);
+            canvas.line(&arrow, COLOURS[series_drawn.colour], 2.0);
         }
     }
     plot
 }
 
-/// A point with the ends between which it lies (pixels).
-#[derive(Clone, Copy, Debug)]
-struct Placed {
-    at: Pixel,
-    ends: Option<[Pixel; 2]>,
-}
-
-/// A curve without a break, with its band.
-fn banded(canvas: &mut Canvas, run: &[Placed], colour: Colour, width: f64) {
-    for bounded in run.split(|placed| placed.ends.is_none()) {
-        let ends: Vec<[Pixel; 2]> = bounded.iter().filter_map(|placed| placed.ends).collect();
-        match ends[..] {
-            [] => {}
-            [ends] => canvas.line(&ends, colour.faint(0.5), 4.0),
-            _ => {
-                let low = ends.iter().map(|ends| ends[0]);
-                let high = ends.iter().rev().map(|ends| ends[1]);
-                canvas.area(&low.chain(high).collect::<Vec<_>>(), colour.faint(0.25));
+/// Draws a series' points without a break, a line through them so wide (pixels).
+fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[Point], width: f64) {
+    let colour = COLOURS[series.colour];
+    let line: Vec<_> = run.iter().map(|one| plot.place(one.x, one.y)).collect();
+    match series.look {
+        Look::Line => {
+            bands(canvas, plot, run, colour);
+            plot.series(canvas, LineSeries::new(line.clone(), stroke(colour, width)));
+            discs(canvas, plot, line, colour);
+        }
+        Look::Steps => plot.series(canvas, LineSeries::new(line, stroke(colour, 2.0))),
+        Look::Dashed => {
+            let (dash, style) = (unit(DASH), stroke(colour, 2.0));
+            plot.series(canvas, DashedLineSeries::new(line, dash, dash, style));
+        }
+        Look::Dots | Look::Rings => {
+            let ends = run.iter().filter_map(|one| Some((one.x, one.ends?)));
+            let ends = ends.map(|(x, ends)| ends.map(|end| plot.place(x, end)));
+            let ends = ends.map(|ends| PathElement::new(ends, stroke(colour, 2.0)));
+            let ends: Vec<_> = ends.collect();
+            plot.series(canvas, ends);
+            match series.look {
+                Look::Rings => {
+                    let style = stroke(colour, 1.8);
+                    let rings = PointSeries::<_, _, Circle<_, _>, _>::new(line, unit(RIM), style);
+                    plot.series(canvas, rings);
+                }
+                _ => discs(canvas, plot, line, colour),
             }
         }
+        Look::Bars => {
+            let tops: Vec<Pixel> = run.iter().map(|one| plot.at(one.x, one.y)).collect();
+            bars(canvas, &tops, plot.at(0.0, 0.0).1, colour);
+        }
     }
-    let line: Vec<Pixel> = run.iter().map(|placed| placed.at).collect();
-    canvas.line(&line, colour, width);
-    line.iter().for_each(|at| canvas.disc(*at, colour));
+}
+
+/// Discs with white rims.
+fn discs(canvas: &mut Canvas, plot: &mut Plot, at: Vec<(f64, f64)>, colour: RGBColor) {
+    let disc = |at, radius, style| {
+        EmptyElement::at(at)
+            + Circle::new((0, 0), unit(RIM), WHITE.filled())
+            + Circle::new((0, 0), radius, style)
+    };
+    plot.series(
+        canvas,
+        PointSeries::of_element(at, unit(DISC), colour.filled(), &disc),
+    );
+}
+
+/// The bands between the ends of points.
+fn bands(canvas: &mut Canvas, plot: &mut Plot, run: &[Point], colour: RGBColor) {
+    for bounded in run.split(|point| point.ends.is_none()) {
+        let end = |k: usize| {
+            let ends = bounded
+                .iter()
+                .filter_map(move |one| Some((one.x, one.ends?[k])));
+            ends.map(|(x, end)| plot.place(x, end)).collect::<Vec<_>>()
+        };
+        let (low, high) = (end(0), end(1));
+        let corners: Vec<_> = low.into_iter().chain(high.into_iter().rev()).collect();
+        match corners.len() {
+            0 => {}
+            2 => plot.series(
+                canvas,
+                LineSeries::new(corners, stroke(colour.mix(0.5), 4.0)),
+            ),
+            _ => plot.series(canvas, [Polygon::new(corners, colour.mix(0.25).filled())]),
+        }
+    }
 }
 
 /// Bars from a height (pixels) to points, as wide as these are apart.
-fn bars(canvas: &mut Canvas, tops: &[Pixel], zero: f64, colour: Colour) {
+fn bars(canvas: &mut Canvas, tops: &[Pixel], zero: f64, colour: RGBColor) {
     let step = tops.windows(2).map(|pair| pair[1].0 - pair[0].0);
     let half = 0.46 * step.fold(f64::INFINITY, f64::min).min(40.0);
     for (x, y) in tops {

@@ -1,12 +1,14 @@
 //! A committor as a map of colours, with its reactive flux.
 
+use plotters::style::WHITE;
+
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas, Pixel};
 use super::composition::{Composition, Panel, remark};
 use super::heat::{Marked, bar, cells};
 use super::picture::PictureError;
 use super::scale::colour;
-use super::style::{FIXED_FILL, INK, WHITE};
+use super::style::{FIXED_FILL, INK};
 use super::{Figure, Sheet};
 use jobs::design::Design;
 use physics::kinetics::map::Map;

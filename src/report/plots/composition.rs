@@ -1,9 +1,9 @@
 //! Pictures of several panels: laid out side by side as the width allows, or each on its own.
 
-use super::canvas::{Anchor, Box4, Canvas};
+use super::canvas::{Box4, Canvas};
 use super::picture::{Picture, PictureError};
 use super::sheet::Sheet;
-use super::style::{SMALL, SOFT, TITLE, Text};
+use super::style::{Anchor, SMALL, SOFT, TITLE, Text};
 
 /// Space above the panels (pixels): with a title, with a note alone, with neither.
 const HEADS: [f64; 3] = [50.0, 28.0, 6.0];
@@ -116,12 +116,12 @@ impl Composition<'_> {
             places.push((key, [0.0, top, width, top + height]));
             top += height;
         }
-        let mut canvas = Canvas::default();
+        let mut canvas = Canvas::new([width, top].map(f64::ceil));
         self.head(&mut canvas, sheet, width);
         for (panel, place) in places {
             (panel.draw)(&mut canvas, place);
         }
-        Picture::new(sheet, &self.title, [width, top].map(f64::ceil), &canvas)
+        Picture::new(sheet, &self.title, &canvas)
     }
 
     fn head(&self, canvas: &mut Canvas, sheet: &Sheet, width: f64) {

@@ -5,7 +5,7 @@
 //! where their lines join. Copies of a state under a symmetry are one line.
 
 use super::axes::{Axis, Plot, Spacing};
-use super::canvas::{Anchor, Box4, Canvas, Pixel, Spot, corners};
+use super::canvas::{Box4, Canvas, Pixel, Spot, corners};
 use super::composition::{Composition, Panel, left_out, remark};
 use super::energy;
 use super::labels::Labels;
@@ -14,7 +14,7 @@ use super::merge_tree::{Join, Tree, merge};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::sheet::Sheet;
-use super::style::{GREEN, INK, SMALL, SOFT};
+use super::style::{Anchor, GREEN, INK, SMALL, SOFT};
 use crate::csv::table;
 use physics::landscape::{Kind, Place, State};
 

@@ -3,13 +3,13 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
-use super::canvas::{Anchor, Box4, Canvas};
+use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
 use super::key::{POLES, key};
 use super::marks::{View, extent};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{GRID, LABEL, SMALL, SOFT, minus};
+use super::style::{Anchor, GRID, LABEL, SMALL, SOFT, minus};
 use super::{energy, length};
 use crate::csv::table;
 use physics::landscape::{Pathway, PathwayPoint};

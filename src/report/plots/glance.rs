@@ -2,11 +2,13 @@
 
 use nalgebra::Vector2;
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::Canvas;
 use super::marks::{ORIGIN, View, extent};
 use super::picture::{Picture, PictureError};
 use super::sheet::Sheet;
-use super::style::{BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus};
+use super::style::{
+    Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
+};
 use crate::inspection::{force, pole, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
@@ -38,7 +40,7 @@ pub fn draw(
     inspection: &Inspection,
     sheet: &Sheet,
 ) -> Result<Picture, PictureError> {
-    let (mut canvas, middle) = (Canvas::default(), SIZE[0] / 2.0);
+    let (mut canvas, middle) = (Canvas::new(SIZE), SIZE[0] / 2.0);
     let canvas = &mut canvas;
     canvas.write(
         TITLE.bold(),
@@ -74,7 +76,7 @@ pub fn draw(
     }
     figures(canvas, inspection);
     faults(canvas, design, inspection);
-    Picture::new(sheet, &design.name, SIZE, canvas)
+    Picture::new(sheet, &design.name, canvas)
 }
 
 /// Names of the faces, inside of their magnets with the letters of their codes.

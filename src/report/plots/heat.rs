@@ -1,13 +1,14 @@
 //! Maps of colours: images of grids, and the bars that tell what colours mean.
 
 use super::axes::Plot;
-use super::canvas::{Anchor, Bitmap, Box4, Canvas, middle};
+use super::canvas::{Bitmap, Box4, Canvas, middle};
 use super::composition::Panel;
 use super::scale::{EnergyScale, colour};
-use super::style::{Colour, INK, SMALL, WHITE};
+use super::style::{Anchor, INK, SMALL};
 use ordered_float::OrderedFloat;
 use physics::landscape::map::{Grid, Sample};
 use physics::order::Order;
+use plotters::style::{RGBColor, WHITE};
 
 /// Steps of colour.
 const COLOURS: usize = 250;
@@ -69,7 +70,7 @@ pub fn cells(
 pub fn cell(canvas: &mut Canvas, place: Box4, fill: [u8; 3], text: &str) {
     let [left, top, right, bottom] = place;
     let [r, g, b] = fill;
-    canvas.block(place, Colour::new(r, g, b));
+    canvas.block(place, RGBColor(r, g, b));
     if right - left >= SMALL.width(text) + 2.0 && bottom - top >= 17.0 {
         let bright = 0.3 * f64::from(r) + 0.59 * f64::from(g) + 0.11 * f64::from(b);
         let ink = if bright > 130.0 { INK } else { WHITE };

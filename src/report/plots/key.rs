@@ -1,10 +1,12 @@
 //! What marks, lines and colours mean.
 
-use super::canvas::{Anchor, Canvas, Pixel};
+use plotters::style::RGBColor;
+
+use super::canvas::{Canvas, Pixel};
 use super::composition::Panel;
 use super::heat;
 use super::marks::{Mark, marker};
-use super::style::{BLUE, Colour, INK, SMALL, SOFT, VERMILLION};
+use super::style::{Anchor, BLUE, INK, SMALL, SOFT, VERMILLION};
 
 /// A sign that a key explains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,11 +14,11 @@ pub enum Sign {
     Mark(Mark),
     Pathway,
     Blocked,
-    Block(Colour),
-    Line(Colour),
-    Dashed(Colour),
-    Dot(Colour),
-    Circle(Colour),
+    Block(RGBColor),
+    Line(RGBColor),
+    Dashed(RGBColor),
+    Dot(RGBColor),
+    Circle(RGBColor),
     Start,
 }
 
@@ -42,7 +44,7 @@ const GAP: f64 = 22.0;
 const LINE: f64 = 25.0;
 
 /// The square at which a path starts.
-pub fn start(canvas: &mut Canvas, (x, y): Pixel, colour: Colour) {
+pub fn start(canvas: &mut Canvas, (x, y): Pixel, colour: RGBColor) {
     canvas.block([x - 3.0, y - 3.0, x + 3.0, y + 3.0], colour);
 }
 

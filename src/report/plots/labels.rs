@@ -3,9 +3,10 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
+use plotters::style::{Color, WHITE};
 
-use super::canvas::{Anchor, Box4, Canvas, Pixel, middle};
-use super::style::{SOFT, Text, WHITE};
+use super::canvas::{Box4, Canvas, Pixel, middle};
+use super::style::{Anchor, SOFT, Text};
 
 /// Width and height (pixels) of a text with its ground.
 fn extent(font: Text, text: &str) -> (f64, f64) {
@@ -21,14 +22,14 @@ fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
 fn join(canvas: &mut Canvas, anchor: Pixel, place: Box4) {
     let nearest = nearest(anchor, place);
     if libm::hypot(nearest.0 - anchor.0, nearest.1 - anchor.1) > 14.0 {
-        canvas.line(&[anchor, nearest], WHITE.faint(0.7), 2.4);
+        canvas.line(&[anchor, nearest], WHITE.mix(0.7), 2.4);
         canvas.line(&[anchor, nearest], SOFT, 1.0);
     }
 }
 
 /// Writes a text on a pale ground.
 fn write(canvas: &mut Canvas, text: &str, font: Text, place: Box4) {
-    canvas.block(place, WHITE.faint(0.85));
+    canvas.block(place, WHITE.mix(0.85));
     canvas.write(font, text, middle(place), Anchor::Middle);
 }
 

@@ -1,9 +1,10 @@
 //! Marks on pictures: of states and saddles, tiles.
 
 use nalgebra::{Rotation2, Vector2};
+use plotters::style::{RGBColor, WHITE};
 
-use super::canvas::{Anchor, Box4, Canvas, Pixel, around, middle};
-use super::style::{BLUE, Colour, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION, WHITE, YELLOW};
+use super::canvas::{Box4, Canvas, Pixel, around, middle};
+use super::style::{Anchor, BLUE, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION, YELLOW};
 use physics::configuration::Configuration;
 use physics::landscape::StateKind;
 use physics::tile::{Magnet, Pair, Tile};
@@ -35,7 +36,7 @@ pub fn marker(canvas: &mut Canvas, mark: Mark, at: Pixel, radius: f64) {
         Mark::Bond => canvas.outlined(&around(at, 10, &[1.35 * radius, 0.6 * radius]), YELLOW),
         Mark::Trap => canvas.outlined(&around(at, 20, &[0.85 * radius]), WHITE),
         Mark::Free => {
-            let (r, grey) = (0.8 * radius, Colour::new(200, 200, 200));
+            let (r, grey) = (0.8 * radius, RGBColor(200, 200, 200));
             let corners = [(-r, -r), (r, -r), (r, r), (-r, r)];
             canvas.outlined(&corners.map(|(x, y)| (at.0 + x, at.1 + y)), grey);
         }
@@ -98,7 +99,7 @@ impl View {
     }
 
     /// Draws a tile at `q` with its magnets, north poles red and south poles blue.
-    pub fn tile(&self, canvas: &mut Canvas, tile: &Tile, q: &Configuration, fill: Colour) {
+    pub fn tile(&self, canvas: &mut Canvas, tile: &Tile, q: &Configuration, fill: RGBColor) {
         let corners = tile.outline.vertices().iter();
         let corners: Vec<_> = corners.map(|v| self.pixel(q.transform(*v))).collect();
         canvas.outlined(&corners, fill);

@@ -1,10 +1,10 @@
 //! A matrix: a number of every two of some things, as a colour.
 
-use super::canvas::{Anchor, Box4, Canvas, Spot, corners};
+use super::canvas::{Box4, Canvas, Spot, corners};
 use super::composition::{Composition, Panel};
 use super::heat::{Marked, bar, cell};
 use super::picture::PictureError;
-use super::style::{GRID, SMALL, VERMILLION};
+use super::style::{Anchor, GRID, SMALL, VERMILLION};
 use super::{Drawing, Figure, Sheet};
 
 const WIDTH: f64 = 860.0;
@@ -85,7 +85,7 @@ impl Matrix {
         };
         for (row, shares) in self.shares.iter().enumerate() {
             for (column, share) in shares.iter().enumerate() {
-                let fill = share.map_or(GRID.rgb, colour);
+                let fill = share.map_or([GRID.0; 3], colour);
                 let text = share.map_or(String::new(), |share| format!("{share:.2}"));
                 cell(canvas, place(row, column, 0.3), fill, &text);
                 let spot = Spot {

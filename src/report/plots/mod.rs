@@ -40,6 +40,7 @@ mod picture;
 pub mod poses;
 mod profiles;
 pub mod ranking;
+mod recorder;
 pub(crate) mod scale;
 pub(crate) mod scene;
 pub mod sheet;

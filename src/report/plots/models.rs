@@ -1,11 +1,11 @@
 //! What the model of the magnets costs: the energy of point dipoles against that of blocks, and
 //! the error of the dipoles, as the bound tiles are drawn apart along the target face's normal.
 
-use super::canvas::{Anchor, Box4, Canvas};
+use super::canvas::{Box4, Canvas};
 use super::chart::{Dimension, Look, Series, plotted};
 use super::composition::{Composition, Panel};
 use super::scene::Scene;
-use super::style::{COLOURS, INK, LABEL, minus};
+use super::style::{Anchor, COLOURS, INK, LABEL, minus};
 use super::{energy, length};
 use crate::csv::table;
 use physics::landscape::StateKind;

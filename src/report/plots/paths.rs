@@ -1,12 +1,14 @@
 //! Paths of docking tiles.
 
+use plotters::style::RGBColor;
+
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
 use super::key::{POLES, Sign, key, start};
 use super::marks::View;
 use super::picture::PictureError;
-use super::style::{Colour, GREEN, INK};
+use super::style::{GREEN, INK};
 use super::{Figure, Sheet};
 use crate::csv::table;
 use jobs::design::Design;
@@ -119,4 +121,4 @@ fn paths(
 }
 
 /// Paths that end free, most of them.
-const FAINT: Colour = Colour::new(150, 150, 150);
+const FAINT: RGBColor = RGBColor(150, 150, 150);

@@ -9,8 +9,9 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use tiny_skia::{Path, PathSegment, Point, Transform};
 
-use super::canvas::{Bitmap, Canvas, Shape};
-use super::style::Colour;
+use super::canvas::{Bitmap, Canvas};
+use super::picture::PictureError;
+use super::recorder::Shape;
 use crate::packing::deflated;
 
 /// Points of print in a millimetre.
@@ -23,35 +24,25 @@ const CONTENT: i32 = 4;
 const INFO: i32 = 5;
 const FIRST: i32 = 6;
 
-/// The file: a canvas of so many pixels, a pixel being so many mm.
-pub fn page(title: &str, size: [f64; 2], canvas: &Canvas, millimetres: f64) -> Vec<u8> {
+/// The file: a canvas, a unit being so many mm.
+pub fn page(title: &str, canvas: &Canvas, millimetres: f64) -> Result<Vec<u8>, PictureError> {
     let scale = (millimetres * POINTS_A_MILLIMETRE) as f32;
-    let [width, height] = size.map(|side| side as f32 * scale);
+    let size = canvas.root.dim_in_pixel();
+    let [width, height] = [size.0, size.1].map(|side| side as f32 * scale);
     let mut content = Content::new();
-    // Pixels with y downwards.
+    // Units with y downwards.
     content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
     content.set_line_join(LineJoinStyle::RoundJoin);
-    let (mut images, mut opacities) = (Vec::new(), BTreeSet::new());
-    for shape in &canvas.shapes {
-        match shape {
-            Shape::Image(bitmap, place) => {
-                let [left, top, right, bottom] = place.map(|c| c as f32);
-                content.save_state();
-                content.transform([right - left, 0.0, 0.0, top - bottom, left, bottom]);
-                content.x_object(Name(image_name(images.len()).as_bytes()));
-                content.restore_state();
-                images.push(bitmap);
-            }
-            Shape::Spot(..) => {}
-            Shape::Line(_, colour, width) => {
-                content.set_line_width(*width as f32);
-                coloured(&mut content, &mut opacities, *colour, shape);
-            }
-            Shape::Area(_, fill) => coloured(&mut content, &mut opacities, *fill, shape),
-            Shape::Words(words) => {
-                coloured(&mut content, &mut opacities, words.font.colour, shape);
-            }
-        }
+    let (images, mut opacities) = (&canvas.images, BTreeSet::new());
+    for (k, (_, place)) in images.iter().enumerate() {
+        let [left, top, right, bottom] = place.map(|c| c as f32);
+        content.save_state();
+        content.transform([right - left, 0.0, 0.0, top - bottom, left, bottom]);
+        content.x_object(Name(image_name(k).as_bytes()));
+        content.restore_state();
+    }
+    for shape in canvas.shapes()?.iter() {
+        paint(&mut content, &mut opacities, shape);
     }
 
     let mut pdf = Pdf::new();
@@ -80,7 +71,7 @@ pub fn page(title: &str, size: [f64; 2], canvas: &Canvas, millimetres: f64) -> V
     states.finish();
     resources.finish();
     page.finish();
-    for (k, bitmap) in images.iter().enumerate() {
+    for (k, (bitmap, _)) in images.iter().enumerate() {
         write_image(&mut pdf, image(k), bitmap);
     }
     for (k, percent) in opacities.iter().enumerate() {
@@ -91,16 +82,18 @@ pub fn page(title: &str, size: [f64; 2], canvas: &Canvas, millimetres: f64) -> V
     }
     pdf.stream(reference(CONTENT), &deflated(&content.finish()))
         .filter(Filter::FlateDecode);
-    pdf.finish()
+    Ok(pdf.finish())
 }
 
-/// Draws a shape in a colour; `opacities` are the degrees in use, in percent.
-fn coloured(content: &mut Content, opacities: &mut BTreeSet<u32>, colour: Colour, shape: &Shape) {
-    let opacity = (100.0 * colour.opacity).round() as u32;
+/// Draws a shape; `opacities` are the degrees in use, in percent.
+fn paint(content: &mut Content, opacities: &mut BTreeSet<u32>, shape: &Shape) {
+    let (colour, width) = shape.paint();
+    let opacity = (100.0 * colour.alpha).round() as u32;
     let Some((path, transform)) = shape.path().filter(|_| opacity > 0) else {
         return;
     };
-    let [r, g, b] = colour.rgb.map(|c| f32::from(c) / 255.0);
+    let (r, g, b) = colour.rgb;
+    let [r, g, b] = [r, g, b].map(|c| f32::from(c) / 255.0);
     if opacity < 100 {
         opacities.insert(opacity);
         content.save_state();
@@ -108,10 +101,13 @@ fn coloured(content: &mut Content, opacities: &mut BTreeSet<u32>, colour: Colour
     }
     content.set_fill_rgb(r, g, b);
     content.set_stroke_rgb(r, g, b);
+    if let Some(width) = width {
+        content.set_line_width(width as f32);
+    }
     trace(content, &path, transform);
-    match shape {
-        Shape::Line(..) => content.stroke(),
-        _ => content.fill_nonzero(),
+    match width {
+        Some(_) => content.stroke(),
+        None => content.fill_nonzero(),
     };
     if opacity < 100 {
         content.restore_state();
@@ -121,7 +117,8 @@ fn coloured(content: &mut Content, opacities: &mut BTreeSet<u32>, colour: Colour
 fn trace(content: &mut Content, path: &Path, transform: Transform) {
     let at = |mut point: Point| {
         transform.map_point(&mut point);
-        [point.x, point.y].map(|c| (100.0 * c).round() / 100.0)
+        // Tenths of a unit are a hundredth of a pixel.
+        [point.x, point.y].map(|c| (10.0 * c).round() / 10.0)
     };
     let mut last = [0.0; 2];
     for segment in path.segments() {

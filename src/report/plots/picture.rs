@@ -4,16 +4,17 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use plotters::prelude::SVGBackend;
 use tiny_skia::{
     Color, FillRule, FilterQuality, LineJoin, Paint, Pixmap, PixmapPaint, PremultipliedColorU8,
     Stroke, Transform,
 };
 
-use super::canvas::{Bitmap, Box4, Canvas, Pixel, Shape, Spot, Words};
+use super::canvas::{Bitmap, Canvas, Spot};
 use super::font::FAMILY;
 use super::pdf;
 use super::sheet::Sheet;
-use super::style::Colour;
+use super::style::UNITS;
 
 /// A drawing as SVG and, if wanted, as PNG and PDF.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,164 +31,112 @@ pub struct Picture {
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The drawing failed.
-    #[error("could not lay out a picture: no {} x {} pixels", .0[0], .0[1])]
-    Layout([u32; 2]),
+    #[error("could not lay out a picture: {0}")]
+    Layout(String),
     /// The bitmap could not be encoded.
     #[error("could not write a picture as PNG: {0}")]
     Png(#[from] png::EncodingError),
 }
 
 impl Picture {
-    /// A canvas of so many whole pixels, on white.
+    /// A canvas on white.
     ///
     /// # Errors
-    /// Where there is no such bitmap or it cannot be encoded.
-    pub(super) fn new(
-        sheet: &Sheet,
-        title: &str,
-        size: [f64; 2],
-        canvas: &Canvas,
-    ) -> Result<Self, PictureError> {
-        let bitmap = || png(size, canvas, sheet.dots());
+    /// Where something could not be drawn, there is no such bitmap or it cannot be encoded.
+    pub(super) fn new(sheet: &Sheet, title: &str, canvas: &Canvas) -> Result<Self, PictureError> {
+        let bitmap = || png(canvas, sheet.dots() / UNITS);
+        let print = |pixel| pdf::page(title, canvas, pixel / UNITS);
         Ok(Self {
-            svg: svg(size, canvas, sheet.millimetres())?,
+            svg: svg(canvas, sheet.millimetres())?,
             png: (!sheet.vectors_only).then(bitmap).transpose()?,
-            pdf: sheet
-                .millimetres()
-                .map(|pixel| pdf::page(title, size, canvas, pixel)),
+            pdf: sheet.millimetres().map(print).transpose()?,
         })
     }
 }
 
-/// Writing to a string cannot fail.
-fn svg(size: [f64; 2], canvas: &Canvas, millimetres: Option<f64>) -> Result<String, PictureError> {
-    let [across, down] = size.map(|side| match millimetres {
-        Some(pixel) => format!("{:.3}mm", side * pixel),
-        None => side.to_string(),
+/// What plotters writes, with a head of our own (size in pixels or mm, coordinates in units, round
+/// joins), images beneath and spots above. Writing to a string cannot fail.
+fn svg(canvas: &Canvas, millimetres: Option<f64>) -> Result<String, PictureError> {
+    let size = canvas.root.dim_in_pixel();
+    let mut elements = String::new();
+    let mut backend = SVGBackend::with_string(&mut elements, size);
+    for shape in canvas.shapes()?.iter() {
+        let drawn = shape.draw(&mut backend);
+        drawn.map_err(|why| PictureError::Layout(why.to_string()))?;
+    }
+    drop(backend);
+    let body = elements.split_once('>').map_or("", |(_, body)| body);
+    // What all elements share is said once.
+    let body = body
+        .trim_start()
+        .trim_end_matches("</svg>\n")
+        .replace(" opacity=\"1\"", "")
+        .replace(&format!(" font-family=\"{FAMILY}\""), "");
+    let [across, down] = [size.0, size.1].map(|side| match millimetres {
+        Some(pixel) => format!("{:.3}mm", f64::from(side) / UNITS * pixel),
+        None => (f64::from(side) / UNITS).to_string(),
     });
     let mut document = format!(
         "<svg width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {} {}\" \
          stroke-linejoin=\"round\" font-family=\"{FAMILY}\" xmlns=\"http://www.w3.org/2000/svg\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n",
-        size[0], size[1],
+        size.0, size.1,
     );
-    for shape in &canvas.shapes {
-        let _ = match shape {
-            Shape::Line(points, colour, width) => writeln!(
-                document,
-                "<polyline fill=\"none\" {} stroke-width=\"{width}\" points=\"{}\"/>",
-                painted("stroke", *colour),
-                listed(points),
-            ),
-            Shape::Area(corners, fill) => writeln!(
-                document,
-                "<polygon {} points=\"{}\"/>",
-                painted("fill", *fill),
-                listed(corners)
-            ),
-            Shape::Words(words) => writeln!(document, "{}", written(words)),
-            Shape::Spot(corners, Spot { title, kind, value }) => writeln!(
-                document,
-                "<polygon data-{kind}=\"{value}\" opacity=\"0\" points=\"{}\"><title>{}</title>\
-                 </polygon>",
-                listed(corners),
-                escaped(title),
-            ),
-            Shape::Image(bitmap, [left, top, right, bottom]) => writeln!(
-                document,
-                "<image x=\"{left}\" y=\"{top}\" width=\"{:.1}\" height=\"{:.1}\" \
-                 preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
-                right - left,
-                bottom - top,
-                STANDARD.encode(indexed_png(bitmap)?)
-            ),
-        };
+    for (bitmap, [left, top, right, bottom]) in &canvas.images {
+        let _ = writeln!(
+            document,
+            "<image x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" \
+             preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
+            right - left,
+            bottom - top,
+            STANDARD.encode(indexed_png(bitmap)?)
+        );
+    }
+    document.push_str(&body);
+    for (corners, Spot { title, kind, value }) in &canvas.spots {
+        let corners = corners.iter().map(|(x, y)| format!("{x},{y}"));
+        let _ = writeln!(
+            document,
+            "<polygon data-{kind}=\"{value}\" opacity=\"0\" points=\"{}\"><title>{}</title>\
+             </polygon>",
+            corners.collect::<Vec<_>>().join(" "),
+            title.replace('&', "&amp;").replace('<', "&lt;"),
+        );
     }
     document.push_str("</svg>\n");
     Ok(document)
 }
 
-/// The attributes of a colour.
-fn painted(name: &str, Colour { rgb, opacity }: Colour) -> String {
-    let [r, g, b] = rgb;
-    let opacity = match opacity {
-        1.0 => String::new(),
-        opacity => format!(" opacity=\"{opacity}\""),
-    };
-    format!("{name}=\"#{r:02X}{g:02X}{b:02X}\"{opacity}")
-}
-
-fn listed(points: &[Pixel]) -> String {
-    let points = points.iter().map(|(x, y)| format!("{x},{y}"));
-    points.collect::<Vec<_>>().join(" ")
-}
-
-fn written(words: &Words) -> String {
-    let ((x, y), font) = (words.at, words.font);
-    let (across, down) = words.anchor.place();
-    format!(
-        "<text x=\"{x}\" y=\"{y}\" dy=\"{}\" text-anchor=\"{}\" font-size=\"{:.4}\" {}{}{}>{}</text>",
-        ["0.76em", "0.5ex", "-0.5ex"][down],
-        ["start", "middle", "end"][across],
-        font.size,
-        painted("fill", font.colour),
-        if font.bold {
-            " font-weight=\"bold\""
-        } else {
-            ""
-        },
-        match words.upwards {
-            true => format!(" transform=\"rotate(270, {x}, {y})\""),
-            false => String::new(),
-        },
-        escaped(&words.text),
-    )
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
-}
-
-/// So many dots a pixel, with smooth edges.
-fn png(size: [f64; 2], canvas: &Canvas, dots: f64) -> Result<Vec<u8>, PictureError> {
-    let [width, height] = size.map(|side| (side * dots).round() as u32);
-    let mut page = Pixmap::new(width, height).ok_or(PictureError::Layout([width, height]))?;
+/// So many dots a unit, with smooth edges.
+fn png(canvas: &Canvas, dots: f64) -> Result<Vec<u8>, PictureError> {
+    let size = canvas.root.dim_in_pixel();
+    let [width, height] = [size.0, size.1].map(|side| (f64::from(side) * dots).round() as u32);
+    let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
+    let mut page = Pixmap::new(width, height).ok_or_else(none)?;
     page.fill(Color::WHITE);
     let scaled = Transform::from_scale(dots as f32, dots as f32);
-    for shape in &canvas.shapes {
-        let paint = |Colour {
-                         rgb: [r, g, b],
-                         opacity,
-                     }| {
-            let mut paint = Paint::default();
-            let mut colour = Color::from_rgba8(r, g, b, 255);
-            colour.set_alpha(opacity as f32);
-            paint.set_color(colour);
-            paint
+    for (bitmap, place) in &canvas.images {
+        stretched(&mut page, bitmap, *place, scaled);
+    }
+    for shape in canvas.shapes()?.iter() {
+        let Some((path, transform)) = shape.path() else {
+            continue;
         };
-        let fill = match shape {
-            Shape::Spot(..) => continue,
-            Shape::Image(bitmap, place) => {
-                stretched(&mut page, bitmap, *place, scaled);
-                continue;
-            }
-            Shape::Line(_, colour, width) => {
+        let (colour, width) = shape.paint();
+        let (r, g, b) = colour.rgb;
+        let mut paint = Paint::default();
+        paint.set_color_rgba8(r, g, b, (255.0 * colour.alpha).round() as u8);
+        let transform = scaled.pre_concat(transform);
+        match width {
+            Some(width) => {
                 let stroke = Stroke {
-                    width: *width as f32,
+                    width: width as f32,
                     line_join: LineJoin::Round,
                     ..Stroke::default()
                 };
-                if let Some((path, _)) = shape.path() {
-                    page.stroke_path(&path, &paint(*colour), &stroke, scaled, None);
-                }
-                continue;
+                page.stroke_path(&path, &paint, &stroke, transform, None);
             }
-            Shape::Area(_, fill) => *fill,
-            Shape::Words(words) => words.font.colour,
-        };
-        if let Some((path, transform)) = shape.path() {
-            let transform = scaled.pre_concat(transform);
-            page.fill_path(&path, &paint(fill), FillRule::Winding, transform, None);
+            None => page.fill_path(&path, &paint, FillRule::Winding, transform, None),
         }
     }
     let rgb: Vec<u8> = page
@@ -206,7 +155,7 @@ fn png(size: [f64; 2], canvas: &Canvas, dots: f64) -> Result<Vec<u8>, PictureErr
 }
 
 /// Draws an image stretched over a rectangle.
-fn stretched(page: &mut Pixmap, bitmap: &Bitmap, place: Box4, scaled: Transform) {
+fn stretched(page: &mut Pixmap, bitmap: &Bitmap, place: [i32; 4], scaled: Transform) {
     let size = [bitmap.width, bitmap.pixels.len() / bitmap.width];
     let Some(mut image) = Pixmap::new(size[0] as u32, size[1] as u32) else {
         return;

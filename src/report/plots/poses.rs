@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
-use super::canvas::{Anchor, Box4, Canvas};
+use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
 use super::marks::{View, extent};
-use super::style::LABEL;
+use super::style::{Anchor, LABEL};
 use super::{Figure, PictureError, Sheet};
 use physics::configuration::Configuration;
 use physics::tile::Pair;

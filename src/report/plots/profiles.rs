@@ -3,14 +3,16 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
+use plotters::style::Color;
+
 use super::axes::{Axis, Plot};
-use super::canvas::{Anchor, Box4, Canvas, Pixel};
+use super::canvas::{Box4, Canvas, Pixel};
 use super::composition::{Composition, Panel};
 use super::labels::Labels;
 use super::marks::{Mark, above, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{BLUE, GREEN, INK, LABEL, SMALL, SOFT, VERMILLION};
+use super::style::{Anchor, BLUE, GREEN, INK, LABEL, SMALL, SOFT, VERMILLION};
 use super::{energy, length};
 use crate::csv::{SEEN, table, thinned};
 use crate::names::place_name;
@@ -163,7 +165,7 @@ impl<'a> Profile<'a> {
         };
         let [(left, top), (right, _)] = self.plot.level(upper);
         let bottom = self.plot.level(lower)[0].1.max(top + 2.0);
-        canvas.block([left, top, right, bottom], GREEN.faint(0.35));
+        canvas.block([left, top, right, bottom], GREEN.mix(0.35));
         let [lower, upper] = [lower, upper].map(|u| self.scale.label(u, 4));
         let text = format!("certified {lower} to {upper}");
         let at = (left, self.plot.frame[1] - 7.0);

@@ -1,11 +1,13 @@
 //! Designs side by side at a glance: depths, barriers between their bounds, and captures, the best
 //! design on top.
 
+use plotters::style::{Color, RGBColor};
+
 use super::axes::{Axis, Plot};
-use super::canvas::{Anchor, Box4, Canvas, Pixel};
+use super::canvas::{Box4, Canvas, Pixel};
 use super::composition::{Composition, Panel};
 use super::picture::PictureError;
-use super::style::{BLUE, Colour, GREEN, GRID, LABEL, SMALL, SOFT, VERMILLION};
+use super::style::{Anchor, BLUE, GREEN, GRID, LABEL, SMALL, SOFT, VERMILLION};
 use super::{Figure, Sheet};
 use crate::figures::Shown;
 use jobs::comparison::quantity::{Measure, Place, placed};
@@ -30,7 +32,7 @@ const PLOTS: [(&str, f64, &str, f64); 3] = [
     ("barrier", 320.0, "barrier, certified bounds", 1.06),
     ("captured", 250.0, "captured, 95 % interval", 1.0),
 ];
-const COLOURS: [Colour; 3] = [BLUE, GREEN, VERMILLION];
+const COLOURS: [RGBColor; 3] = [BLUE, GREEN, VERMILLION];
 
 /// What a panel shows of each design.
 struct RankingPanel {
@@ -91,7 +93,7 @@ pub fn draw(
     Figure::new(&composition, sheet, numbers)
 }
 
-fn colour(place: &Place) -> Colour {
+fn colour(place: &Place) -> RGBColor {
     COLOURS[usize::from(place.column) % COLOURS.len()]
 }
 
@@ -204,10 +206,7 @@ impl RankingPanel {
             }
             if let (Some(low), Some(high)) = (estimate.low, estimate.high) {
                 let [low, high] = [low, high].map(|end| self.at(plot, end));
-                canvas.block(
-                    [low - 1.0, y - 5.5, high + 1.0, y + 5.5],
-                    colour.faint(0.45),
-                );
+                canvas.block([low - 1.0, y - 5.5, high + 1.0, y + 5.5], colour.mix(0.45));
             }
             canvas.disc((self.at(plot, estimate.value), y), colour);
         }

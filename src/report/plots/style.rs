@@ -1,49 +1,67 @@
 //! What all pictures have in common: colours and sizes of text.
 
-use super::font::width;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
+use plotters_backend::BackendCoord;
 
-/// A colour, which may let through what lies beneath.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour {
-    pub rgb: [u8; 3],
-    pub opacity: f64,
-}
+use super::font::{FAMILY, width};
 
-impl Colour {
-    pub const fn new(red: u8, green: u8, blue: u8) -> Self {
-        Self {
-            rgb: [red, green, blue],
-            opacity: 1.0,
-        }
-    }
+/// Drawing units in a pixel. plotters places everything on whole units; tenths of a pixel keep gentle
+/// slopes smooth.
+pub const UNITS: f64 = 10.0;
+/// Text of this size in plotters is set with a font of the size divided by this.
+pub const FONT_SCALE: f64 = 1.24;
 
-    pub const fn faint(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-}
-
-pub const INK: Colour = Colour::new(34, 34, 34);
-pub const SOFT: Colour = Colour::new(105, 105, 105);
-pub const GRID: Colour = Colour::new(228, 228, 228);
-pub const WHITE: Colour = Colour::new(255, 255, 255);
-pub const FIXED_FILL: Colour = Colour::new(205, 208, 212);
-pub const MOVING_FILL: Colour = Colour::new(247, 233, 200);
+pub const INK: RGBColor = RGBColor(34, 34, 34);
+pub const SOFT: RGBColor = RGBColor(105, 105, 105);
+pub const GRID: RGBColor = RGBColor(228, 228, 228);
+pub const FIXED_FILL: RGBColor = RGBColor(205, 208, 212);
+pub const MOVING_FILL: RGBColor = RGBColor(247, 233, 200);
 /// Okabe and Ito's colours, told apart by colour-blind readers.
-pub const VERMILLION: Colour = Colour::new(213, 94, 0);
-pub const BLUE: Colour = Colour::new(0, 114, 178);
-pub const YELLOW: Colour = Colour::new(240, 228, 66);
-pub const GREEN: Colour = Colour::new(0, 158, 115);
+pub const VERMILLION: RGBColor = RGBColor(213, 94, 0);
+pub const BLUE: RGBColor = RGBColor(0, 114, 178);
+pub const YELLOW: RGBColor = RGBColor(240, 228, 66);
+pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 
 /// The colours of series.
-pub const COLOURS: [Colour; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     BLUE,
     VERMILLION,
     GREEN,
-    Colour::new(204, 121, 167),
-    Colour::new(230, 159, 0),
-    Colour::new(86, 180, 233),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
     INK,
 ];
+
+/// Pixels as drawing units.
+pub fn unit(pixels: f64) -> i32 {
+    (pixels * UNITS).round() as i32
+}
+
+/// Points in pixels as drawing units.
+pub fn units(points: &[(f64, f64)]) -> Vec<BackendCoord> {
+    points.iter().map(|(x, y)| (unit(*x), unit(*y))).collect()
+}
+
+/// A line of this width (pixels).
+pub fn stroke(colour: impl Color, width: f64) -> ShapeStyle {
+    colour.stroke_width(unit(width).max(1) as u32)
+}
+
+/// Which point of a text is named by its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    TopLeft,
+    Top,
+    TopRight,
+    Left,
+    Middle,
+    Right,
+    BottomLeft,
+    Bottom,
+    BottomRight,
+}
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +69,7 @@ pub struct Text {
     /// Pixels.
     pub size: f64,
     pub bold: bool,
-    pub colour: Colour,
+    pub colour: RGBColor,
 }
 
 pub const TITLE: Text = Text::of(20.0);
@@ -71,8 +89,25 @@ impl Text {
         Self { bold: true, ..self }
     }
 
-    pub const fn colour(self, colour: Colour) -> Self {
+    pub const fn colour(self, colour: RGBColor) -> Self {
         Self { colour, ..self }
+    }
+
+    /// For plotters.
+    pub fn style(self, anchor: Anchor) -> TextStyle<'static> {
+        let weight = match self.bold {
+            true => FontStyle::Bold,
+            false => FontStyle::Normal,
+        };
+        let across = [HPos::Left, HPos::Center, HPos::Right][anchor as usize % 3];
+        let down = [VPos::Top, VPos::Center, VPos::Bottom][anchor as usize / 3];
+        FontDesc::new(
+            FontFamily::Name(FAMILY),
+            self.size * UNITS * FONT_SCALE,
+            weight,
+        )
+        .color(&self.colour)
+        .pos(Pos::new(across, down))
     }
 
     /// Width of a text (pixels).

@@ -4,13 +4,13 @@ use super::points::{Common, Sweep, Variable};
 use crate::csv::{number, table};
 use crate::figures::{Shown, cell};
 use crate::plots::axes::{Axis, Plot};
-use crate::plots::canvas::{Anchor, Box4, Canvas, Spot, around, corners, middle};
+use crate::plots::canvas::{Box4, Canvas, Spot, around, corners, middle};
 use crate::plots::chart::{Dimension, Look, Point as ChartPoint, Series, meanings, plotted};
 use crate::plots::composition::{Composition, Panel, remark};
 use crate::plots::heat;
 use crate::plots::key::key;
 use crate::plots::scale::colour;
-use crate::plots::style::{COLOURS, GRID, INK, SMALL, SOFT, minus};
+use crate::plots::style::{Anchor, COLOURS, GRID, INK, SMALL, SOFT, minus};
 use crate::plots::{Drawing, Figure, PictureError, Sheet};
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
@@ -369,7 +369,7 @@ impl Content<'_> {
                     } else {
                         "\u{2013}"
                     };
-                    heat::cell(canvas, place, GRID.rgb, sign);
+                    heat::cell(canvas, place, [GRID.0; 3], sign);
                 }
                 (_, Some(value)) if value.is_infinite() => {
                     heat::cell(canvas, place, [90; 3], "\u{221e}");
