@@ -40,9 +40,9 @@ STRUCK = """(() => {
   const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
   const labels = [...document.querySelectorAll('#tree text[fill="#696969"]')].filter((e) => /J$/.test(e.textContent));
   const lines = [...document.querySelectorAll('#tree polyline')]
-    .filter((e) => [1.6, 1.8, 3].includes(Number(e.getAttribute('stroke-width')))).map(box);
+    .filter((e) => [16, 18, 30].includes(Number(e.getAttribute('stroke-width')))).map(box);
   // Halos and ascents make boxes a little higher than what is seen.
-  const inner = (e) => { const [l, t, r, b] = box(e); return [l + 1, t + 4, r - 1, b - 4]; };
+  const inner = (e) => { const [l, t, r, b] = box(e); return [l + 10, t + 40, r - 10, b - 40]; };
   return labels.filter((label, k) => lines.some((line) => meet(inner(label), line))
     || labels.some((other, j) => j < k && meet(inner(label), inner(other)))).map((label) => label.textContent);
 })()"""

@@ -12,7 +12,6 @@ use plotters::prelude::{
 use plotters::style::{Color, WHITE};
 use plotters_backend::BackendCoord;
 
-use super::picture::PictureError;
 use super::recorder::{Recorder, Shape};
 use super::style::{Anchor, INK, SMALL, Text, stroke, unit, units};
 
@@ -93,14 +92,12 @@ impl Canvas {
         }
     }
 
-    /// What was drawn.
-    ///
-    /// # Errors
-    /// Why it could not be.
-    pub fn shapes(&self) -> Result<Ref<'_, Vec<Shape>>, PictureError> {
-        let shapes = || Ref::map(self.recorder.borrow(), |recorder| &recorder.shapes);
-        let failure = self.failure.clone().map(PictureError::Layout);
-        failure.map_or_else(|| Ok(shapes()), Err)
+    /// What was drawn, or why it could not be.
+    pub fn shapes(&self) -> Result<Ref<'_, [Shape]>, String> {
+        match &self.failure {
+            Some(why) => Err(why.clone()),
+            None => Ok(Ref::map(self.recorder.borrow(), |it| &it.shapes[..])),
+        }
     }
 
     /// Draws an element of plotters, in units.

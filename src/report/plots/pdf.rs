@@ -10,7 +10,6 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use tiny_skia::{Path, PathSegment, Point, Transform};
 
 use super::canvas::{Bitmap, Canvas};
-use super::picture::PictureError;
 use super::recorder::Shape;
 use crate::packing::deflated;
 
@@ -25,7 +24,7 @@ const INFO: i32 = 5;
 const FIRST: i32 = 6;
 
 /// The file: a canvas, a unit being so many mm.
-pub fn page(title: &str, canvas: &Canvas, millimetres: f64) -> Result<Vec<u8>, PictureError> {
+pub fn page(title: &str, canvas: &Canvas, shapes: &[Shape], millimetres: f64) -> Vec<u8> {
     let scale = (millimetres * POINTS_A_MILLIMETRE) as f32;
     let size = canvas.root.dim_in_pixel();
     let [width, height] = [size.0, size.1].map(|side| side as f32 * scale);
@@ -41,7 +40,7 @@ pub fn page(title: &str, canvas: &Canvas, millimetres: f64) -> Result<Vec<u8>, P
         content.x_object(Name(image_name(k).as_bytes()));
         content.restore_state();
     }
-    for shape in canvas.shapes()?.iter() {
+    for shape in shapes {
         paint(&mut content, &mut opacities, shape);
     }
 
@@ -82,7 +81,7 @@ pub fn page(title: &str, canvas: &Canvas, millimetres: f64) -> Result<Vec<u8>, P
     }
     pdf.stream(reference(CONTENT), &deflated(&content.finish()))
         .filter(Filter::FlateDecode);
-    Ok(pdf.finish())
+    pdf.finish()
 }
 
 /// Draws a shape; `opacities` are the degrees in use, in percent.

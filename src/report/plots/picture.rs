@@ -13,6 +13,7 @@ use tiny_skia::{
 use super::canvas::{Bitmap, Canvas, Spot};
 use super::font::FAMILY;
 use super::pdf;
+use super::recorder::Shape;
 use super::sheet::Sheet;
 use super::style::UNITS;
 
@@ -44,23 +45,28 @@ impl Picture {
     /// # Errors
     /// Where something could not be drawn, there is no such bitmap or it cannot be encoded.
     pub(super) fn new(sheet: &Sheet, title: &str, canvas: &Canvas) -> Result<Self, PictureError> {
-        let bitmap = || png(canvas, sheet.dots() / UNITS);
-        let print = |pixel| pdf::page(title, canvas, pixel / UNITS);
+        let shapes = &canvas.shapes().map_err(PictureError::Layout)?[..];
+        let bitmap = || png(canvas, shapes, sheet.dots() / UNITS);
+        let print = |pixel| pdf::page(title, canvas, shapes, pixel / UNITS);
         Ok(Self {
-            svg: svg(canvas, sheet.millimetres())?,
+            svg: svg(canvas, shapes, sheet.millimetres())?,
             png: (!sheet.vectors_only).then(bitmap).transpose()?,
-            pdf: sheet.millimetres().map(print).transpose()?,
+            pdf: sheet.millimetres().map(print),
         })
     }
 }
 
 /// What plotters writes, with a head of our own (size in pixels or mm, coordinates in units, round
 /// joins), images beneath and spots above. Writing to a string cannot fail.
-fn svg(canvas: &Canvas, millimetres: Option<f64>) -> Result<String, PictureError> {
+fn svg(
+    canvas: &Canvas,
+    shapes: &[Shape],
+    millimetres: Option<f64>,
+) -> Result<String, PictureError> {
     let size = canvas.root.dim_in_pixel();
     let mut elements = String::new();
     let mut backend = SVGBackend::with_string(&mut elements, size);
-    for shape in canvas.shapes()?.iter() {
+    for shape in shapes {
         let drawn = shape.draw(&mut backend);
         drawn.map_err(|why| PictureError::Layout(why.to_string()))?;
     }
@@ -108,7 +114,7 @@ fn svg(canvas: &Canvas, millimetres: Option<f64>) -> Result<String, PictureError
 }
 
 /// So many dots a unit, with smooth edges.
-fn png(canvas: &Canvas, dots: f64) -> Result<Vec<u8>, PictureError> {
+fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureError> {
     let size = canvas.root.dim_in_pixel();
     let [width, height] = [size.0, size.1].map(|side| (f64::from(side) * dots).round() as u32);
     let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
@@ -118,7 +124,7 @@ fn png(canvas: &Canvas, dots: f64) -> Result<Vec<u8>, PictureError> {
     for (bitmap, place) in &canvas.images {
         stretched(&mut page, bitmap, *place, scaled);
     }
-    for shape in canvas.shapes()?.iter() {
+    for shape in shapes {
         let Some((path, transform)) = shape.path() else {
             continue;
         };

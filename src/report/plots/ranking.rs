@@ -25,6 +25,8 @@ const NAMES: f64 = 230.0;
 const GAP: f64 = 40.0;
 /// Space right of a plot (pixels).
 const RIGHT: f64 = 20.0;
+/// Room (pixels) for the line at zero.
+const AXIS: f64 = 20.0;
 /// Names of the panels' files, their shares of the width, their headings, and how far beyond the
 /// greatest value their axes go.
 const PLOTS: [(&str, f64, &str, f64); 3] = [
@@ -71,7 +73,7 @@ pub fn draw(
             let names = if narrow { 0.6 * NAMES } else { NAMES };
             // The names stand left of the first panel of each row.
             let gap = if left > 0.0 { GAP } else { names };
-            panel.draw(canvas, designs, [left + gap, top, right, bottom]);
+            panel.draw(canvas, designs, [left + gap - AXIS, top, right, bottom]);
             if left == 0.0 {
                 for (row, design) in designs.iter().enumerate() {
                     let mut font = LABEL;
@@ -126,12 +128,16 @@ impl RankingPanel {
     }
 
     fn draw(&self, canvas: &mut Canvas, designs: &[Assessment], place: Box4) {
-        let count = if place[2] - place[0] < 260.0 { 4 } else { 5 };
+        let count = if place[2] - place[0] < 260.0 + AXIS {
+            4
+        } else {
+            5
+        };
         let axes = [
             Axis::even([0.0, self.end], self.shown.unit, count, self.shown.axis()),
             Axis::places(designs.len()),
         ];
-        let plot = Plot::new(canvas, place, [HEAD, RIGHT, FOOT, 0.0], axes, true);
+        let plot = Plot::new(canvas, place, [HEAD, RIGHT, FOOT, AXIS], axes, true);
         let [left, top, right, _] = plot.frame;
         self.heading(canvas, (left, top));
         for (row, design) in designs.iter().enumerate() {
