@@ -118,8 +118,9 @@
 //! dependencies state; a compiler that old has not been tried.
 
 pub use jobs::{
-    Analysis, Design, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, output, pipeline, query, rates, request, sweep, word_sets, workshop, yields,
+    Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
+    inspection, matching, output, pipeline, query, rates, request, sweep, word_sets, workshop,
+    yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -8,7 +8,7 @@ use tilebind::calibration::bonds::PairTimes;
 use tilebind::calibration::distances::PairDistances;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::MagnetModel;
-use tilebind::kinetics::Bond;
+use tilebind::kinetics::Hold;
 use tilebind::observer::Silent;
 use tilebind::pipeline;
 use tilebind::report::calibration as report;
@@ -106,7 +106,7 @@ impl Calibrate {
                 let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
                 let settings = Settings::without_proofs(Settings::default().seed);
                 let analysis = pipeline::analyse(&design, &settings, &Silent);
-                let bond = Bond::new(&analysis.problem, &analysis.catalogue)
+                let bond = Hold::bond(&analysis.problem, &analysis.catalogue)
                     .map_err(|error| Failure::Run(error.to_string()))?;
                 let area = self.area.unwrap_or(design.table[0] * design.table[1]);
                 report::intervals(&design, &times, &bond, area)

@@ -3,6 +3,7 @@
 use std::io;
 use std::process::ExitCode;
 
+use tilebind::Refused;
 use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
 use tilebind::kinetics::exit::ExitError;
@@ -72,6 +73,12 @@ pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Res
 impl From<DesignError> for Failure {
     fn from(error: DesignError) -> Self {
         Self::Usage(error.to_string())
+    }
+}
+
+impl From<Refused> for Failure {
+    fn from(why: Refused) -> Self {
+        Self::Usage(why.to_string())
     }
 }
 

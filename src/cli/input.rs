@@ -8,7 +8,7 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::{Failure, tell};
-use tilebind::request::Word;
+pub use tilebind::request::model;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
@@ -26,17 +26,18 @@ pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failur
     Ok(design)
 }
 
+/// A design that may be given, with the files that it is read from.
+pub fn if_given(path: Option<&Path>) -> Result<Option<(Design, Vec<PathBuf>)>, Failure> {
+    let read = |path| load(path).map(|design| (files_of(path, &design), design));
+    let read = path.map(read).transpose()?;
+    Ok(read.map(|(files, design)| (design, files)))
+}
+
 /// The files that a design is read from: its own, and its drawings beside it.
 pub fn files_of(path: &Path, design: &Design) -> Vec<PathBuf> {
     let drawings = design.drawings.iter();
     let drawings = drawings.map(|drawing| path.with_file_name(&drawing.file));
     [path.to_owned()].into_iter().chain(drawings).collect()
-}
-
-/// A magnet model by the name that design files use.
-pub fn model() -> Word<MagnetModel> {
-    let wrong = "a model is dipole or cuboid".to_owned();
-    Word::new(&MagnetModel::NAMES, wrong)
 }
 
 /// Warns of a pose far off the table, in millimetres to all appearances.

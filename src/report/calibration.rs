@@ -8,7 +8,7 @@ use jobs::calibration::distances::DistanceFit;
 use jobs::calibration::{Calibration, QUANTITIES, Residuals};
 use jobs::design::Design;
 use physics::dynamics::docking::OnRate;
-use physics::kinetics::Bond;
+use physics::kinetics::Hold;
 use physics::units::si;
 
 /// The constants of a shield: key in reports, name in a design file, unit.
@@ -149,7 +149,7 @@ fn energy(kt: Option<f64>) -> String {
 }
 
 /// What is known of kT from intervals of pairs that have an area (m^2) for themselves.
-pub fn intervals(design: &Design, times: &PairTimes, bond: &Bond, area: f64) -> Document<'static> {
+pub fn intervals(design: &Design, times: &PairTimes, bond: &Hold, area: f64) -> Document<'static> {
     let (odds, [low, high]) = times.log_odds();
     // The longer tiles are bound, the colder they are.
     let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));

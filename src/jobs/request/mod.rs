@@ -13,4 +13,4 @@ pub use values::{
     count, count_or_none, fraction, length, length_or_none, negative, not_negative, numbers, pose,
     positive, runs, runs_of_a_mean, runs_or_none, seed, shaking, share, whole,
 };
-pub use word::Word;
+pub use word::{Word, model};

@@ -18,11 +18,11 @@ use attachment::Effort;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
 use physics::dynamics::docking::DockingError;
-use physics::kinetics::bond::{Bond, BondError, Hold, LEAST_DEPTH, Shaking, traps};
+use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
 use physics::kinetics::mixture::{self, Mixture};
 use physics::kinetics::population::Crowd;
 use physics::kinetics::rates::RatesError;
-use physics::kinetics::well::NO_PLAY;
+use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::si;
 
@@ -185,19 +185,18 @@ pub fn yields(
     }
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
-    let bond = Bond::new(problem, catalogue)?;
-    let hold = bond.hold();
+    let bond = Hold::bond(problem, catalogue)?;
     let refused = |kt: f64| match () {
         // Tiles that fast meet things a million times in a run, and nothing comes of it.
-        () if !hold.holds_at(kt) => Some(YieldError::Hot(kt, hold.energy)),
-        () if hold.is_too_cold(kt) => Some(YieldError::Cold(kt)),
+        () if !bond.holds_at(kt) => Some(YieldError::Hot(kt, bond.energy)),
+        () if bond.is_too_cold(kt) => Some(YieldError::Cold(kt)),
         () => None,
     };
     let usable = question.kts.iter().copied();
     let usable = usable.filter(|kt| refused(*kt).is_none());
     let coldest = usable.fold(f64::INFINITY, f64::min);
     let traps = traps(problem, catalogue, coldest);
-    let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
+    let holds: Vec<&Hold> = std::iter::once(&bond).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
     let at = |kt: f64| {
@@ -214,10 +213,7 @@ pub fn yields(
             .enumerate()
             .filter_map(|(kind, hold)| state(hold, kind, &attached, &shaking))
             .collect();
-        if states
-            .first()
-            .is_none_or(|first| first.name != bond.hold().name)
-        {
+        if states.first().is_none_or(|first| first.name != bond.name) {
             return Err(YieldError::NoPlay);
         }
         Ok(outcome(kt, states, attached, &crowd, tile_area, question))

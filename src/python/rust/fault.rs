@@ -5,7 +5,7 @@ use std::fmt::Display;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use tilebind::design;
+use tilebind::{Refused, design};
 
 /// The exception `tilebind.DesignError` of a fault, with its place and its mend.
 pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
@@ -14,14 +14,15 @@ pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
 
 /// A fault that has no place in a file.
 pub fn of_design(py: Python<'_>, file: &str, message: String, help: &str) -> PyErr {
-    let fault = design::DesignError {
-        file: file.to_owned(),
-        place: None,
-        message,
-        help: help.to_owned(),
-        also: Vec::new(),
-    };
-    design(py, &fault)
+    design(py, &design::DesignError::new(file, None, message, help))
+}
+
+/// Why a job is not done: a `ValueError`, of a file `tilebind.DesignError`.
+pub fn refused(py: Python<'_>, why: &Refused) -> PyErr {
+    match why {
+        Refused::File(fault) => design(py, fault),
+        Refused::Asked(message) => value(message),
+    }
 }
 
 fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Bound<'py, PyAny>> {

@@ -6,7 +6,7 @@ use tilebind::calibration::bonds::PairTimes;
 use tilebind::calibration::distances::PairDistances;
 use tilebind::calibration::{self, Specimen};
 use tilebind::design::Design;
-use tilebind::kinetics::Bond;
+use tilebind::kinetics::Hold;
 use tilebind::observer::Silent;
 use tilebind::workshop::Making;
 use tilebind::{Settings, pipeline, report};
@@ -77,7 +77,7 @@ pub fn kt_of_bonds<'py>(
     let found = job::quietly(py, || {
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, &Silent);
-        let bond = Bond::new(&analysis.problem, &analysis.catalogue);
+        let bond = Hold::bond(&analysis.problem, &analysis.catalogue);
         bond.map(|bond| report::calibration::intervals(design, &times, &bond, area).report())
     })?;
     convert::json(py, &found.map_err(fault::run)?)

@@ -6,7 +6,7 @@ use super::composition::Panel;
 use super::scale::{EnergyScale, colour};
 use super::style::{Anchor, INK, SMALL};
 use ordered_float::OrderedFloat;
-use physics::landscape::map::{Grid, Sample};
+use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
 use plotters::style::{RGBColor, WHITE};
 

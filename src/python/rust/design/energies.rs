@@ -3,12 +3,14 @@
 use std::borrow::Cow;
 
 use pyo3::prelude::*;
-use tilebind::contact::matching::{Match, matches};
+use pyo3::types::PyDict;
+use tilebind::contact::matching::Match;
 use tilebind::report::json;
 
 use super::Design;
 use crate::job;
 use crate::poses::{self, Poses};
+use crate::request::request;
 use crate::table::{self, Named, Values};
 
 #[pymethods]
@@ -133,14 +135,11 @@ impl Design {
     ///     Structured, longest contact first: `x_m`, `y_m`, `theta_rad`, `contact_m`, `gap_m2`.
     #[pyo3(signature = (most = 100))]
     fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
-        let problem = self.content.problem(None).clone();
-        let found = job::quietly(py, move || {
-            problem
-                .contact
-                .as_ref()
-                .map(|contact| matches(contact, most))
-        })?;
-        let found = found.unwrap_or_default();
+        let asked = PyDict::new(py);
+        asked.set_item("most", most)?;
+        let asked: tilebind::matching::Request = request(Some(&asked))?;
+        let content = self.content.clone();
+        let found = job::quietly(py, move || asked.matches(&content.design))?;
         let real = |name: &str, of: fn(&Match) -> f64| -> Named {
             (
                 name.to_owned(),
