@@ -119,7 +119,8 @@
 
 pub use jobs::{
     Analysis, Design, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, output, pipeline, query, rates, request, sweep, word_sets, workshop, yields,
+    inspection, memory, output, pipeline, query, rates, request, start, sweep, word_sets, workshop,
+    yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -1,5 +1,6 @@
 //! What users type: designs, poses, numbers with limits.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -8,15 +9,20 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::{Failure, tell};
-use tilebind::request::Word;
+use tilebind::request::{Refusal, Word};
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
     let design = Design::load(path)?;
+    tell_doubts(&design);
+    Ok(design)
+}
+
+/// Tells the warnings of a design on standard error.
+pub fn tell_doubts(design: &Design) {
     for warning in &design.warnings {
         tell(format!("warning: {warning}"));
     }
-    Ok(design)
 }
 
 /// A design with its magnets modelled as `model` says, if it says so.
@@ -68,4 +74,17 @@ pub fn text(path: &Path) -> io::Result<String> {
         return Err(io::Error::other(message));
     }
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
+}
+
+/// What is read from a table named on the command line; what is wrong with it is told with its name.
+pub fn table<T, E: Refusal>(
+    file: &Path,
+    read: impl FnOnce(&str) -> Result<T, E>,
+) -> Result<T, Failure> {
+    let wrong = |error: &dyn Display| Failure::usage(format!("{}: {error}", file.display()));
+    let text = text(file).map_err(|error| wrong(&error))?;
+    read(&text).map_err(|error| match error.is_of_the_question() {
+        true => wrong(&error),
+        false => Failure::run(error),
+    })
 }

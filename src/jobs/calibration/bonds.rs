@@ -65,6 +65,19 @@ pub struct PairTimes {
     pub apart: Times,
 }
 
+/// kT as intervals tell it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimesFit {
+    /// What was measured.
+    pub times: PairTimes,
+    /// Area (m^2) that the pair had for itself.
+    pub area: f64,
+    /// kT (J) at which pairs bind and part so; `None` where there is none.
+    pub kt: Option<f64>,
+    /// Its 95 % interval (J).
+    pub interval: [Option<f64>; 2],
+}
+
 /// What is wrong with a file of intervals, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TimesError {

@@ -17,14 +17,117 @@ pub mod distances;
 mod fit;
 mod rows;
 
+use clap::Args;
+
 use crate::design::Design;
+use crate::pipeline::{self, Settings};
+use crate::request::{self, Refusal};
+use bonds::{PairTimes, TimesError, TimesFit};
+use distances::{DistanceFit, DistancesError, PairDistances};
 use fit::{Fit, least_squares};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
+use physics::kinetics::Bond;
+use physics::kinetics::bond::BondError;
+use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::tile::Tile;
 pub use rows::{COLUMNS, CsvError, read_rows};
+
+/// What is asked of measurements.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Area that a pair had for itself (m^2) [default: the design's table]
+    #[arg(long, value_name = "M2", value_parser = request::positive)]
+    pub area: Option<f64>,
+
+    /// Distances (m) up to which those of pairs count, for the rim of the table is felt beyond
+    /// [default: where tiles are free]
+    #[arg(long, value_name = "R", value_parser = request::length)]
+    pub within: Option<f64>,
+
+    /// Of so many rows one is held out of the fit
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
+    pub hold_out: u16,
+}
+
+/// What measurements tell.
+pub enum Fitted {
+    /// The constants of shields.
+    Shields(Calibration),
+    /// kT of pairs' distances.
+    Distances(DistanceFit),
+    /// kT of intervals for which pairs were bound and apart.
+    Times(TimesFit),
+}
+
+/// Why measurements tell nothing.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(transparent)]
+pub enum FitError {
+    /// The file is wrong.
+    Rows(#[from] CsvError),
+    /// Its rows do not do.
+    Calibration(#[from] CalibrationError),
+    /// Distances are wrong or do not do.
+    Distances(#[from] DistancesError),
+    /// Intervals are wrong or do not do.
+    Times(#[from] TimesError),
+    /// There is no bond.
+    Bond(#[from] BondError),
+}
+
+impl Refusal for FitError {
+    fn is_of_the_question(&self) -> bool {
+        !matches!(self, Self::Bond(_))
+    }
+}
+
+impl Request {
+    /// The constants of shields, of a table of forces and energies.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn of_forces(&self, design: &Design, table: &str) -> Result<Fitted, FitError> {
+        let rows = read_rows(table)?;
+        let (specimen, settings) = Specimen::of(design, self.hold_out.into());
+        let found = calibrate(&specimen, &rows, &settings)?;
+        Ok(Fitted::Shields(found))
+    }
+
+    /// kT, of a table of pairs: their distances, or how long they were bound and apart.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn of_pairs(
+        &self,
+        design: &Design,
+        table: &str,
+        observer: &dyn Observer,
+    ) -> Result<Fitted, FitError> {
+        if PairDistances::is_named_in(table) {
+            let within = self.within.unwrap_or(design.space().free_distance);
+            let read = PairDistances::read(table)?;
+            let found = read.fit(&design.problem(), &design.pair.bound, within)?;
+            return Ok(Fitted::Distances(found));
+        }
+        let times = PairTimes::read(table)?;
+        let settings = Settings::without_proofs(Settings::default().seed);
+        let analysis = pipeline::analyse(design, &settings, observer);
+        let bond = Bond::new(&analysis.problem, &analysis.catalogue)?;
+        let area = self.area.unwrap_or(design.table[0] * design.table[1]);
+        let (odds, [low, high]) = times.log_odds();
+        // The longer tiles are bound, the colder they are.
+        let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));
+        Ok(Fitted::Times(TimesFit {
+            times,
+            area,
+            kt,
+            interval: [least, most],
+        }))
+    }
+}
 
 /// What can be measured at a pose, and its unit.
 pub const QUANTITIES: [(&str, &str); 4] = [

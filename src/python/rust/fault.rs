@@ -6,6 +6,7 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tilebind::design;
+use tilebind::request::Refusal;
 
 /// The exception `tilebind.DesignError` of a fault, with its place and its mend.
 pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
@@ -37,6 +38,14 @@ fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Boun
     more.set_item("also", also)?;
     let class = py.import("tilebind._errors")?.getattr("DesignError")?;
     class.call((fault.to_string(),), Some(&more))
+}
+
+/// Why there is no answer: a `ValueError` where what was asked for has none.
+pub fn of(error: impl Refusal) -> PyErr {
+    match error.is_of_the_question() {
+        true => value(error.to_string().replace("--", "")),
+        false => run(error),
+    }
 }
 
 /// A `ValueError`.

@@ -3,21 +3,18 @@
 use nalgebra::Vector2;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{View, tile};
+use super::marks::{Box4, View, tile};
 use super::picture::{Area, Picture, PictureError};
 use super::scale::minus;
-use super::sheet::Sheet;
 use super::style::{
     BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION,
 };
-use crate::inspection::{force, pole, wrong};
+use super::{Figure, Sheet};
+use crate::tiles::{force, letter, magnets, model, models, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
-use physics::order::Order;
-use physics::potential::MagnetModel;
-use physics::tile::barcode::Pole;
-use physics::tile::{Face, Magnet, Tile};
+use physics::tile::{Magnet, Tile};
 use physics::units::si;
 
 const SIZE: (u32, u32) = (1000, 640);
@@ -32,7 +29,7 @@ const KEY: &str = "letters: the pole that each magnet turns outwards";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
-/// Draws a design.
+/// Draws a design; for print the tiles alone.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -40,7 +37,30 @@ pub fn draw(
     design: &Design,
     inspection: &Inspection,
     sheet: &Sheet,
-) -> Result<Picture, PictureError> {
+) -> Result<Figure, PictureError> {
+    let picture = match sheet.is_titled() {
+        true => whole(design, inspection, sheet)?,
+        false => {
+            let (width, room) = (
+                sheet.width(f64::from(SIZE.0)),
+                f64::from(SIZE.1) - HEAD - FOOT,
+            );
+            let size = [width, room * width / f64::from(SIZE.0)];
+            let pixels = size.map(|side| side.ceil() as u32);
+            Picture::draw(sheet, &design.name, pixels.into(), |root, _| {
+                tiles(root, design, [0.0, 0.0, size[0], size[1]])
+            })?
+        }
+    };
+    Ok(Figure {
+        name: "tiles".to_owned(),
+        pictures: vec![("tiles".to_owned(), picture)],
+        data: models(&inspection.models).csv(),
+    })
+}
+
+/// The tiles with the figures below them.
+fn whole(design: &Design, inspection: &Inspection, sheet: &Sheet) -> Result<Picture, PictureError> {
     Picture::draw(sheet, &design.name, SIZE, |root, _| {
         let middle = (HPos::Center, VPos::Center);
         let place = (f64::from(SIZE.0) / 2.0, HEAD / 2.0);
@@ -51,28 +71,35 @@ pub fn draw(
         Text::new(SMALL)
             .colour(SOFT)
             .write(root, KEY, place, middle)?;
-        let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
-        let tiles = [&design.pair.fixed, &design.pair.moving];
-        let view = view(tiles, poses);
-        for ((one, q), fill) in tiles.into_iter().zip(poses).zip([FIXED_FILL, MOVING_FILL]) {
-            tile(root, &view, one, &q, fill)?;
-        }
-        for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
-            let centre = view.pixel(q.transform(one.outline.centroid()));
-            let middle = (HPos::Center, VPos::Center);
-            Text::new(LABEL)
-                .bold()
-                .colour(SOFT)
-                .write(root, name, centre, middle)?;
-            faces(root, &view, one, &q)?;
-        }
+        let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
+        tiles(root, design, [0.0, HEAD, width, height - FOOT])?;
         figures(root, inspection)?;
         faults(root, design, inspection)
     })
 }
 
-/// How the two tiles fill the space between title and figures.
-fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
+/// Both tiles where they bind, in a rectangle.
+fn tiles(root: &Area, design: &Design, place: Box4) -> Result<(), PictureError> {
+    let middle = (HPos::Center, VPos::Center);
+    let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
+    let tiles = [&design.pair.fixed, &design.pair.moving];
+    let view = view(tiles, poses, place);
+    for ((one, q), fill) in tiles.into_iter().zip(poses).zip([FIXED_FILL, MOVING_FILL]) {
+        tile(root, &view, one, &q, fill)?;
+    }
+    for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
+        let centre = view.pixel(q.transform(one.outline.centroid()));
+        Text::new(LABEL)
+            .bold()
+            .colour(SOFT)
+            .write(root, name, centre, middle)?;
+        faces(root, &view, one, &q)?;
+    }
+    Ok(())
+}
+
+/// How the two tiles fill a rectangle.
+fn view(tiles: [&Tile; 2], poses: [Configuration; 2], [left, top, right, bottom]: Box4) -> View {
     let corners = tiles
         .into_iter()
         .zip(poses)
@@ -82,11 +109,10 @@ fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
         (low.inf(&p), high.sup(&p))
     });
     let size = high - low;
-    let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
-    let room = [width - 2.0 * MARGIN, height - HEAD - FOOT - 2.0 * MARGIN];
+    let room = [right - left - 2.0 * MARGIN, bottom - top - 2.0 * MARGIN];
     View {
         centre: (low + high) / 2.0,
-        origin: (width / 2.0, (HEAD + height - FOOT) / 2.0),
+        origin: ((left + right) / 2.0, (top + bottom) / 2.0),
         turn: 0.0,
         scale: (room[0] / size.x).min(room[1] / size.y),
     }
@@ -96,16 +122,13 @@ fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
 fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(), PictureError> {
     let middle = (HPos::Center, VPos::Center);
     for (number, face) in tile.faces.iter().enumerate() {
-        let magnets: Vec<&Magnet> = tile.magnets.iter().filter(|m| m.face == number).collect();
-        let letters: Vec<(f64, &Magnet, &str)> = sorted(face, &magnets)
-            .map(|(s, magnet)| match pole(tile, magnet) {
-                Pole::North => (s, magnet, "N"),
-                Pole::South => (s, magnet, "S"),
-            })
+        let letters: Vec<(f64, &Magnet, char)> = magnets(tile, number)
+            .into_iter()
+            .map(|(s, magnet)| (s, magnet, letter(tile, magnet)))
             .collect();
-        let depths = magnets
+        let depths = letters
             .iter()
-            .map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
+            .map(|(_, m, _)| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
         let depth = depths.fold(0.0, f64::max) * view.scale;
         let apart = letters
             .windows(2)
@@ -123,25 +146,17 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
             view.pixel(q.transform(p - face.normal() * (pixels / view.scale)))
         };
         for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
-            let colour = if *letter == "N" { VERMILLION } else { BLUE };
+            let colour = if *letter == 'N' { VERMILLION } else { BLUE };
             let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
             Text::new(SMALL)
                 .bold()
                 .colour(colour)
-                .write(root, letter, at, middle)?;
+                .write(root, &letter.to_string(), at, middle)?;
         }
         let text = Text::new(SMALL).colour(INK);
         text.write(root, &name, inwards(face.middle(), depth), middle)?;
     }
     Ok(())
-}
-
-/// Magnets of a face with their places along it (m), counter-clockwise.
-fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64, &'a Magnet)> {
-    let place = |m: &&'a Magnet| ((m.position - face.middle()).dot(&face.tangent()), *m);
-    let mut placed: Vec<_> = magnets.iter().map(place).collect();
-    placed.order_by(|a, b| a.0.total_cmp(&b.0));
-    placed.into_iter()
 }
 
 /// What holds the tiles, a line for each model.
@@ -156,12 +171,8 @@ fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
     ];
     let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
     for hold in &inspection.models {
-        let name = match hold.model {
-            MagnetModel::Dipole => "dipoles",
-            MagnetModel::Cuboid => "blocks",
-        };
         let row = [
-            name.to_owned(),
+            model(hold.model).to_owned(),
             minus(&si(hold.energy, "J", 4)),
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),
