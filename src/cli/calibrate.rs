@@ -15,7 +15,6 @@ use super::{Failure, input};
 /// Fit the constants of soft-iron shields to measured forces, or kT to pairs that bind and part
 #[derive(Args)]
 #[command(
-    mut_arg("design", |design| design.help("The design file of the tiles that were measured")),
     mut_arg("area", |area| area.requires("bonds")),
     mut_arg("within", |within| within.requires("bonds")),
     after_help = "\

@@ -15,6 +15,7 @@
 pub mod bonds;
 pub mod distances;
 mod fit;
+mod lines;
 mod rows;
 
 use clap::Args;
@@ -22,8 +23,8 @@ use clap::Args;
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
 use crate::request::{self, Refusal};
-use bonds::{PairTimes, TimesError, TimesFit};
-use distances::{DistanceFit, DistancesError, PairDistances};
+use bonds::{PairTimes, TimesFit};
+use distances::{DistanceFit, PairDistances};
 use fit::{Fit, least_squares};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
@@ -33,7 +34,7 @@ use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::tile::Tile;
-pub use rows::{COLUMNS, CsvError, read_rows};
+pub use rows::{COLUMNS, read_rows};
 
 /// What is asked of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
@@ -64,18 +65,19 @@ pub enum Fitted {
 
 /// Why measurements tell nothing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(transparent)]
 pub enum FitError {
-    /// The file is wrong.
-    Rows(#[from] CsvError),
-    /// Its rows do not do.
-    Calibration(#[from] CalibrationError),
-    /// Distances are wrong or do not do.
-    Distances(#[from] DistancesError),
-    /// Intervals are wrong or do not do.
-    Times(#[from] TimesError),
+    /// They are wrong or too few: what is wrong, and where.
+    #[error("{0}")]
+    Table(String),
     /// There is no bond.
+    #[error(transparent)]
     Bond(#[from] BondError),
+}
+
+impl From<String> for FitError {
+    fn from(wrong: String) -> Self {
+        Self::Table(wrong)
+    }
 }
 
 impl Refusal for FitError {
@@ -261,28 +263,6 @@ pub struct Calibration {
     pub settled: bool,
 }
 
-/// Why there is no calibration.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CalibrationError {
-    /// So many measured values with iron determine no fit.
-    #[error(
-        "{0} measured values with iron are too few to fit four constants; give at least five rows \
-         that are not held out"
-    )]
-    TooFew(usize),
-    /// At a pose the tiles would lie in each other.
-    #[error(
-        "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in rad, \
-         in the fixed tile's frame", 1e3 * .depth
-    )]
-    Overlap {
-        /// Of the row, in the file.
-        line: usize,
-        /// How deep they overlap (m).
-        depth: f64,
-    },
-}
-
 /// By how much (m) the tiles may overlap at a pose that was measured, with its error.
 const MEASURED_OVERLAP: f64 = 1e-3;
 
@@ -294,7 +274,7 @@ pub fn calibrate(
     specimen: &Specimen,
     rows: &[Row],
     settings: &CalibrationSettings,
-) -> Result<Calibration, CalibrationError> {
+) -> Result<Calibration, String> {
     let (fixed, moving) = (specimen.fixed, specimen.moving);
     let contact = Contact::new(&fixed.outline, &moving.outline);
     for Row {
@@ -305,7 +285,11 @@ pub fn calibrate(
     {
         let depth = -contact.clearance(configuration);
         if depth > MEASURED_OVERLAP {
-            return Err(CalibrationError::Overlap { line: *line, depth });
+            return Err(format!(
+                "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in \
+                 rad, in the fixed tile's frame",
+                1e3 * depth
+            ));
         }
     }
     let bare = ShieldedPotential::new(specimen.model, fixed, moving, &Shields::default());
@@ -330,7 +314,10 @@ pub fn calibrate(
     let start = constants_of(&settings.start);
     let values = residuals(&start).len();
     if values <= start.len() {
-        return Err(CalibrationError::TooFew(values));
+        return Err(format!(
+            "{values} measured values with iron are too few to fit four constants; give at least five \
+             rows that are not held out"
+        ));
     }
     let fits = STARTING_LENGTHS.map(|factor| {
         let mut start = start;
